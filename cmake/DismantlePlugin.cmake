@@ -1,0 +1,18 @@
+# dismantle_add_plugin(NAME SOURCES ... [LIBRARIES ...])
+# A shared library in the plugin folder that exports nothing but its header. Installed with the package,
+# so that plugins out of tree are built the same way.
+function(dismantle_add_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE dismantle::plugin_api ${ARG_LIBRARIES})
+  set_target_properties(${name} PROPERTIES
+    CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    PREFIX "lib")
+  if(DEFINED DISMANTLE_PLUGIN_OUTPUT_DIRECTORY)  # in tree
+    target_link_libraries(${name} PRIVATE dismantle_settings)
+    set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")
+    dismantle_precompile(${name})
+    install(TARGETS ${name} LIBRARY DESTINATION "${DISMANTLE_PLUGIN_INSTALL_DIR}")
+  endif()
+endfunction()

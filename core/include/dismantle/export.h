@@ -1,0 +1,3 @@
+/// Visibility of symbols that cross the boundary between the core and a plugin.
+#pragma once
+#define DISMANTLE_API __attribute__((visibility("default")))

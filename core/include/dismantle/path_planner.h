@@ -1,0 +1,69 @@
+/// Path planners: how does this part (or group) leave?
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/plan/outcome.h"
+#include "dismantle/run_context.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle {
+
+/// Poses of the moving parts, instant by instant: path[k][i] is the pose of Cast::moving[i]. The first
+/// entry is where they start. Between two instants each part moves by the joining screw motion.
+using Path = Trace;
+
+/// How hard to try. Counts come first: only they make results independent of the machine.
+struct Effort {
+  unsigned max_depth = 0;         ///< depth of the search tree, 0 = no limit (Algorithm 1: d_max)
+  std::uint64_t max_steps = 0;    ///< simulated time steps or, without dynamics, state checks; 0 = no limit
+  double timeout = 0;             ///< seconds, 0 = no limit beyond the context's deadline (t_max)
+};
+
+/// What the judge says of a path. A planner must not report `solved` with a path that was refused.
+struct Verdict {
+  bool accepted = false;
+  // Filled when refused and the place is known:
+  bool has_witness = false;
+  PartId part = 0, other = 0;       ///< `point` of `part` lies inside `other`
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled frame of `part`
+  std::size_t instant = 0;          ///< path index at (or just after) which it happened
+  std::string reason;
+};
+
+struct PathQuery {
+  const Assembly& assembly;
+  const Simulator& simulator;
+  const Prepared& prepared;
+  Cast cast;
+  Effort effort;
+  /// Judges a finished path. Never empty. Planners call it with every path that they would return.
+  std::function<Verdict(const Path&)> judge;
+};
+
+struct PathResult {
+  Outcome outcome = Outcome::crashed;
+  Path path;                             ///< the accepted path iff is_success(outcome); front() = start
+  unsigned depth = 0;                    ///< actions in the path
+  std::map<std::string, double> counts;  ///< documented names, e.g. nodes, steps, refused
+  std::vector<PartId> blocked_by;        ///< still parts that were touched, most often touched first
+  std::vector<Pose> best_pose;           ///< failed: the state that came furthest, one pose per moving part
+  std::string message;
+};
+
+/// Finds a removal motion. Stateless between calls: same parameters, query and seed give the same result.
+/// Never prints; polls context.should_stop() at least every hundred simulated steps.
+class DISMANTLE_API PathPlanner {
+ public:
+  virtual ~PathPlanner();
+  /// Capabilities without which plan() returns `unsupported`.
+  virtual Capabilities needs() const noexcept = 0;
+  virtual PathResult plan(const PathQuery& query, RunContext& context) = 0;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,84 @@
+/// The plan: what is written, read, verified and shown. Field by field the JSON of DESIGN section 7.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/geometry/pose.h"
+#include "dismantle/plan/outcome.h"
+
+namespace dismantle {
+
+/// Poses in a plan act on input coordinates, in input units.
+struct PlanMove {
+  std::string part;
+  std::vector<Pose> poses;  ///< >= 2; all moves of a step have the same number
+};
+
+struct PlanStep {
+  unsigned step = 0;  ///< from 1
+  std::vector<PlanMove> moves;
+  std::vector<std::vector<std::string>> separates;
+  double max_penetration = 0;  ///< assembly units, certified bound above the initial overlap
+  double seconds = 0;
+  std::string planner;
+  unsigned depth = 0;
+  std::vector<std::string> contacts;  ///< parts touched on the way
+};
+
+struct PlanUnsolved {
+  std::string part;
+  Outcome outcome = Outcome::exhausted;
+  std::vector<std::string> blocked_by;
+  Pose best_pose;
+  std::string message;
+};
+
+struct PlanPart {
+  unsigned id = 0;
+  std::string name;
+  std::string file;
+};
+
+struct PlanOverlap {
+  std::string a, b;
+  double depth = 0;  ///< assembly units
+};
+
+struct PlanAssembly {
+  std::string source, sha256;
+  double scale = 1;  ///< assembly units per input unit
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
+  Aabb box;          ///< input units
+  std::vector<PlanPart> parts;
+  std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
+  std::vector<PlanOverlap> overlaps;
+};
+
+enum class PlanStatus { complete, partial };
+
+struct Plan {
+  std::string generator_name = "dismantle";
+  std::string generator_version;
+  PlanAssembly assembly;
+  PlanStatus status = PlanStatus::partial;
+  std::uint64_t seed = 0;
+  double verified_max_penetration = 0.01;  ///< the tolerance that every step was judged by
+  std::vector<PlanStep> disassembly;
+  std::vector<PlanStep> assembly_steps;
+  std::vector<std::string> remaining;
+  std::vector<PlanUnsolved> unsolved;
+};
+
+/// Same plan, same bytes. Times are the only fields that vary between runs.
+DISMANTLE_API std::string to_json(const Plan& plan);
+/// @throws InputError naming `source` and the place of what is wrong.
+DISMANTLE_API Plan plan_from_json(const std::string& text, const std::string& source);
+/// Writes to a temporary file beside it and renames: a reader never sees half a plan.
+DISMANTLE_API void write_file(const std::filesystem::path& file, const std::string& content);
+
+}  // namespace dismantle

@@ -1,0 +1,138 @@
+/// Physics or geometry backends.
+///
+/// Frames and units: assembly units, seconds, radians; world frame = assembled frame of the assembly.
+/// A part's pose takes its assembled points to where they are (geometry/pose.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/geometry/pose.h"
+#include "dismantle/model/assembly.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+
+enum class MotionSpace {
+  translation,  ///< R3: orientation is locked
+  rigid,        ///< SE(3)
+};
+
+/// Facts about a simulator that can be asked before anything is prepared.
+struct Capabilities {
+  bool dynamics = false;     ///< World::advance works
+  bool contacts = false;     ///< World::contacts works
+  bool distance = false;     ///< World::penetration tells free states from colliding ones without dynamics
+  unsigned max_moving = 1;   ///< largest number of parts that may move at once
+};
+
+struct PlacedPart {
+  PartId part = 0;
+  Pose pose;
+};
+
+/// Who takes part: `moving` are free, `still` are fixed where they are, all other parts are absent.
+/// Moving parts start at the poses given here.
+struct Cast {
+  std::vector<PlacedPart> moving;
+  std::vector<PlacedPart> still;
+};
+
+/// Velocity is that of the body's centre (see World::center), world axes.
+struct BodyState {
+  Pose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< units / s
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad / s
+};
+
+/// One entry per moving part, in the order of Cast::moving.
+struct State {
+  std::vector<BodyState> bodies;
+};
+
+/// Force and torque about the body's centre, world axes.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();
+};
+
+/// One wrench per moving part.
+struct Action {
+  std::vector<Wrench> wrenches;
+};
+
+struct Contact {
+  PartId moving = 0;
+  PartId other = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< world
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, pushes `moving` away from `other`
+  double depth = 0;                                  ///< > 0 = penetrating beyond what was there when assembled
+};
+
+/// Poses along an advance, dense enough that the motion between two of them is a screw motion to
+/// within the simulator's accuracy. One vector<Pose> per recorded instant, entries as Cast::moving.
+using Trace = std::vector<std::vector<Pose>>;
+
+struct StepReport {
+  std::uint64_t steps = 0;       ///< time steps simulated
+  double travel = 0;             ///< largest way of any point of a moving part, from begin to end pose
+  bool stalled = false;          ///< stopped early: nothing moves any more under this action
+  bool finite = true;            ///< false: the state blew up and was put back to where it began
+};
+
+/// One scene: some parts move, others stand still. One world per thread; may be reused for many states.
+class DISMANTLE_API World {
+ public:
+  virtual ~World();
+  World() = default;
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  virtual const Cast& cast() const = 0;
+  virtual MotionSpace space() const = 0;
+  /// State with every moving part where the cast put it, at rest.
+  virtual State initial_state() const = 0;
+  /// Centre of moving part `body` in its assembled frame, and the largest distance of its points from it.
+  virtual Eigen::Vector3d center(std::size_t body) const = 0;
+  virtual double radius(std::size_t body) const = 0;
+  /// Factor that makes a wrench of unit force and of unit torque comparable for `body` (length, > 0).
+  virtual double torque_arm(std::size_t body) const = 0;
+
+  /// Simulate(s, a, dt) of Algorithm 1: applies the action for `duration` seconds. Appends poses to
+  /// `trace` if given (begin excluded, end included). Stops early when stalled.
+  /// Needs Capabilities::dynamics, else throws std::logic_error.
+  virtual StepReport advance(State& state, const Action& action, double duration, Trace* trace = nullptr) = 0;
+  /// Deepest penetration >= 0 of any pair above what was there when assembled.
+  virtual double penetration(const State& state) = 0;
+  /// Replaces the content of `out`.
+  virtual void contacts(const State& state, std::vector<Contact>& out) = 0;
+  /// True when the hulls of all moving parts together are apart from the hull of all still parts
+  /// (section 3). True when nothing stands still.
+  virtual bool separated(const State& state) = 0;
+  /// Tells the world of a place where the judge found it too permissive: `point` (assembled frame of
+  /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
+  virtual void learn(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
+};
+
+/// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.
+class DISMANTLE_API Prepared {
+ public:
+  virtual ~Prepared();
+};
+
+/// Stateless factory; parameters are fixed at construction. Safe to call from several threads.
+class DISMANTLE_API Simulator {
+ public:
+  virtual ~Simulator();
+  virtual Capabilities capabilities() const noexcept = 0;
+  /// @throws InputError naming the part that cannot be used.
+  virtual std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) = 0;
+  /// The assembly given to prepare() and `prepared` must outlive the world.
+  virtual std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+                                       MotionSpace space) const = 0;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,85 @@
+/// What a plugin includes: registration macro and registrar. See docs/write-a-planner.md.
+///
+///   DISMANTLE_PLUGIN("acme.planners", "1.2.0", "BSD-3-Clause", "https://example.org") {
+///     r.add<dismantle::PathPlanner, AcmeRrt, AcmeRrtParams>("acme.rrt", "Single-tree RRT in SE(3).", {.source = "LaValle 1998"});
+///   }
+///
+/// Impl is constructible from `const Params&`. Params declares itself (dismantle/parameters.h).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/importer.h"
+#include "dismantle/parameters.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/plugin/abi.h"
+#include "dismantle/sequence_planner.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle {
+
+enum class PluginKind { simulator, path_planner, sequence_planner, importer };
+
+template <class Interface>
+struct PluginKindOf;
+template <> struct PluginKindOf<Simulator> { static constexpr PluginKind value = PluginKind::simulator; };
+template <> struct PluginKindOf<PathPlanner> { static constexpr PluginKind value = PluginKind::path_planner; };
+template <> struct PluginKindOf<SequencePlanner> { static constexpr PluginKind value = PluginKind::sequence_planner; };
+template <> struct PluginKindOf<Importer> { static constexpr PluginKind value = PluginKind::importer; };
+
+/// For plugin types without parameters.
+struct NoParams {
+  static void describe(Schema<NoParams>&) {}
+};
+
+/// Facts about a type that can be read without making one.
+struct TypeTraits {
+  std::string source;          ///< paper section or reference
+  Capabilities needs = {};     ///< path planners: what the simulator must have
+  Capabilities provides = {};  ///< simulators
+};
+
+/// One registered type. `create` returns a pointer to the interface of `kind`, from a complete ParamSet.
+struct PluginType {
+  PluginKind kind = PluginKind::simulator;
+  std::string id;
+  std::string summary;
+  TypeTraits traits;
+  std::vector<ParamSpec> params;
+  std::function<std::shared_ptr<void>(const ParamSet&)> create;
+};
+
+/// Collects what a plugin offers. The host makes it; the plugin only fills it.
+class Registrar {
+ public:
+  template <class Interface, class Impl, class Params = NoParams>
+  void add(std::string id, std::string summary, TypeTraits traits = {}) {
+    auto schema = std::make_shared<Schema<Params>>();
+    PluginType type;
+    type.kind = PluginKindOf<Interface>::value;
+    type.id = std::move(id);
+    type.summary = std::move(summary);
+    type.traits = std::move(traits);
+    type.params = schema->specs();
+    type.create = [schema](const ParamSet& values) -> std::shared_ptr<void> {
+      const Params params = schema->bind(values);
+      std::shared_ptr<Interface> object;
+      if constexpr (std::is_constructible_v<Impl, const Params&>)
+        object = std::make_shared<Impl>(params);
+      else
+        object = std::make_shared<Impl>();
+      return object;
+    };
+    types_.push_back(std::move(type));
+  }
+  const std::vector<PluginType>& types() const { return types_; }
+
+ private:
+  std::vector<PluginType> types_;
+};
+
+}  // namespace dismantle
