@@ -14,7 +14,7 @@
 namespace dismantle {
 
 /// Point in time after which work should stop; default: never.
-class Deadline {
+class DISMANTLE_API Deadline {
  public:
   using Clock = std::chrono::steady_clock;
   Deadline() = default;

@@ -1,0 +1,20 @@
+// Key functions of the interfaces: their type information lives here once, so that a plugin's object is
+// recognised across shared libraries.
+#include "dismantle/importer.h"
+#include "dismantle/path_oracle.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/sequence_planner.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle {
+
+World::~World() = default;
+Prepared::~Prepared() = default;
+Simulator::~Simulator() = default;
+PathPlanner::~PathPlanner() = default;
+PathOracle::~PathOracle() = default;
+SequenceObserver::~SequenceObserver() = default;
+SequencePlanner::~SequencePlanner() = default;
+Importer::~Importer() = default;
+
+}  // namespace dismantle
