@@ -1,7 +1,9 @@
 /// Importers: files to raw parts.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,9 @@ class DISMANTLE_API Importer {
   virtual ~Importer();
   /// Lower-case file endings without dot that this importer reads.
   virtual std::vector<std::string> extensions() const = 0;
+  /// Number of triangles in the file as far as it can be told without building it in memory, else nothing: lets the
+  /// caller refuse a file that is too large. Never throws for broken files; `read` says what is wrong with them.
+  virtual std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const;
   /// All parts of one file, in file order. @throws InputError naming the file and what is wrong with it.
   virtual std::vector<RawPart> read(const std::filesystem::path& file) = 0;
 };

@@ -15,7 +15,8 @@ namespace dismantle {
 /// The `assembly:` section of a configuration. Each step of appendix B.1 is a parameter.
 struct PrepareOptions {
   double weld = 1e-6;             ///< relative to the part's box diagonal
-  bool repair = true;             ///< orient, close small holes, split touching shells
+  bool repair = true;             ///< orient, close T-junctions and small holes, drop inner walls
+  double max_hole = 0.1;          ///< largest hole that is closed, share of the part's surface area
   bool drop_duplicates = true;    ///< step 3
   double max_overlap = 1.0;       ///< step 4: drop a part that overlaps others by more than this share of its volume; 1 = never
   double min_thickness = 0.0;     ///< step 5: drop parts thinner than this share of the assembly; 0 = never
@@ -44,7 +45,9 @@ struct PrepareReport {
   std::vector<std::string> warnings;       ///< about the assembly as a whole
 };
 
+/// Deterministic on any number of threads. `source` and `sha256` are copied into the assembly (see read_input.h).
 /// @throws InputError when fewer than two usable parts are left, naming what was wrong with each.
+/// @throws Error when `context` wants to stop; then see context.cancel and context.deadline.
 DISMANTLE_API Assembly prepare_assembly(std::vector<RawPart> raw, const std::string& source, const std::string& sha256,
                                         const PrepareOptions& options, RunContext& context, PrepareReport& report);
 

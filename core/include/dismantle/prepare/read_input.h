@@ -1,0 +1,47 @@
+/// From a path that the user named to raw parts, through the importers that are there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/importer.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+
+struct ReadOptions {
+  std::int64_t max_triangles = 5'000'000;  ///< all files together; give it PrepareOptions::max_triangles
+};
+
+/// What was read. `parts` are in natural order of file names ("2" before "10"), then file order, with unique names.
+struct InputParts {
+  std::vector<RawPart> parts;
+  std::string sha256;                 ///< of the bytes of all files read, in the order of `parts`; lower-case hex
+  std::vector<std::string> warnings;  ///< what was left aside or renamed, and why
+};
+
+/// A folder: each mesh file in it is one part, whatever it is made of, named as the file without its ending;
+/// sub-folders and files that are no meshes are left aside. A file: its parts, named as in the file.
+/// Names are made valid UTF-8 and unique ("a.obj" and "a.stl" for two files of one stem, "nut#2" for a second node).
+/// @throws InputError naming the file: missing, not readable, no importer for its ending, broken, no parts, too large.
+/// @throws Error when `context` wants to stop.
+DISMANTLE_API InputParts read_input(const std::filesystem::path& input,
+                                    const std::vector<std::shared_ptr<Importer>>& importers,
+                                    const ReadOptions& options = {}, const RunContext& context = {});
+
+/// Order for names: runs of digits compare as numbers, all else bytewise; a strict total order.
+DISMANTLE_API bool natural_less(std::string_view a, std::string_view b);
+
+/// `bytes` with every byte sequence that is not UTF-8 replaced by U+FFFD and control characters by '_'.
+DISMANTLE_API std::string valid_utf8(std::string_view bytes);
+
+/// Makes the names of `parts` non-empty and unique: a repeated name gets "#2", "#3"...
+/// What was changed is appended to `warnings`.
+DISMANTLE_API void make_names_unique(std::vector<RawPart>& parts, std::vector<std::string>& warnings);
+
+}  // namespace dismantle

@@ -1,0 +1,7 @@
+#include "dismantle/importer.h"
+
+namespace dismantle {
+
+std::optional<std::uint64_t> Importer::count_triangles(const std::filesystem::path&) const { return std::nullopt; }
+
+}  // namespace dismantle
