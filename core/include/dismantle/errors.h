@@ -34,7 +34,7 @@ struct Diagnostic {
   int line = 0;
   int column = 0;
   std::string message;
-  std::string text() const;  ///< `file:line:column: error: message`
+  DISMANTLE_API std::string text() const;  ///< `file:line:column: error: message`
 };
 
 /// All that is wrong with a configuration, at once. Exit status 2.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -89,6 +90,10 @@ class Schema {
     } else if constexpr (std::is_integral_v<M>) {
       spec.type = ParamType::integer;
       spec.fallback = static_cast<std::int64_t>(defaults.*member);
+      // What the member cannot hold is out of range, declared or not.
+      if (std::is_unsigned_v<M> && !spec.min) spec.min = 0;
+      if (sizeof(M) < sizeof(std::int64_t) && !spec.max) spec.max = static_cast<double>(std::numeric_limits<M>::max());
+      if (sizeof(M) < sizeof(std::int64_t) && !spec.min) spec.min = static_cast<double>(std::numeric_limits<M>::min());
       setters_.emplace_back([name, member](T& t, const ParamSet& p) { t.*member = static_cast<M>(std::get<std::int64_t>(p.at(name))); });
     } else if constexpr (std::is_floating_point_v<M>) {
       spec.type = ParamType::number;

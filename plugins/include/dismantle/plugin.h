@@ -83,3 +83,5 @@ class Registrar {
 };
 
 }  // namespace dismantle
+
+#include "dismantle/plugin/register.h"  // needs everything above

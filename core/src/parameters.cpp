@@ -1,0 +1,176 @@
+#include "dismantle/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+namespace dismantle {
+namespace {
+
+const char* noun(ParamType type) {
+  switch (type) {
+    case ParamType::boolean:
+      return "true or false";
+    case ParamType::integer:
+      return "an integer";
+    case ParamType::number:
+      return "a number";
+    case ParamType::text:
+      return "text";
+    case ParamType::choice:
+      return "one of its choices";
+  }
+  return "a value";
+}
+
+/// What the user gave, for a message: text in quotes, numbers with their unit.
+std::string shown(const ParamValue& value, const std::string& unit) {
+  if (const auto* s = std::get_if<std::string>(&value)) return fmt::format("'{}'", *s);
+  std::string text = to_text(value);
+  if (!std::holds_alternative<bool>(value) && !unit.empty() && unit != "1") text += " " + unit;
+  return text;
+}
+
+std::string listed(const std::vector<ParamChoice>& choices) {
+  std::string text;
+  for (const auto& c : choices) text += (text.empty() ? "" : ", ") + c.name;
+  return text;
+}
+
+bool in_range(const ParamSpec& spec, double x) {
+  if (spec.min && (spec.min_open ? !(x > *spec.min) : !(x >= *spec.min))) return false;
+  if (spec.max && (spec.max_open ? !(x < *spec.max) : !(x <= *spec.max))) return false;
+  return true;
+}
+
+/// "must be in [0, 1)" or "must be >= 0".
+std::string demand(const ParamSpec& spec) {
+  return (spec.min && spec.max ? "must be in " : "must be ") + spec.range_text();
+}
+
+bool good_name(const std::string& name) {
+  if (name.empty() || name[0] < 'a' || name[0] > 'z') return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
+}
+
+void check_choices(const ParamSpec& spec, std::vector<std::string>& problems) {
+  if (spec.choices.empty()) problems.push_back(fmt::format("parameter '{}' has no choices", spec.name));
+  std::set<std::string> names;
+  for (const auto& c : spec.choices) {
+    if (c.name.empty()) problems.push_back(fmt::format("parameter '{}' has a choice without a name", spec.name));
+    if (!names.insert(c.name).second)
+      problems.push_back(fmt::format("parameter '{}' lists the choice '{}' twice", spec.name, c.name));
+    if (c.doc.empty()) problems.push_back(fmt::format("choice '{}' of parameter '{}' has no doc", c.name, spec.name));
+  }
+}
+
+void check_numeric(const ParamSpec& spec, std::vector<std::string>& problems) {
+  if (spec.unit.empty())
+    problems.push_back(fmt::format("parameter '{}' has no unit (\"1\" for a pure number)", spec.name));
+  const bool empty =
+      spec.min && spec.max && (*spec.min > *spec.max || (*spec.min == *spec.max && (spec.min_open || spec.max_open)));
+  if (empty) problems.push_back(fmt::format("parameter '{}' has an empty range {}", spec.name, spec.range_text()));
+}
+
+}  // namespace
+
+std::string to_text(const ParamValue& value) {
+  struct Visitor {
+    std::string operator()(bool b) const { return b ? "true" : "false"; }
+    std::string operator()(std::int64_t i) const { return fmt::format("{}", i); }
+    std::string operator()(double d) const { return fmt::format("{}", d); }
+    std::string operator()(const std::string& s) const { return s; }
+  };
+  return std::visit(Visitor{}, value);
+}
+
+std::string ParamSpec::range_text() const {
+  if (min && max) return fmt::format("{}{}, {}{}", min_open ? '(' : '[', *min, *max, max_open ? ')' : ']');
+  if (min) return fmt::format("{} {}", min_open ? ">" : ">=", *min);
+  if (max) return fmt::format("{} {}", max_open ? "<" : "<=", *max);
+  return "";
+}
+
+std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) const {
+  const auto mistyped = [&] { return fmt::format("must be {}, got {}", noun(type), shown(value, "")); };
+  switch (type) {
+    case ParamType::boolean:
+      if (!std::holds_alternative<bool>(value)) return mistyped();
+      return std::nullopt;
+    case ParamType::text:
+      if (!std::holds_alternative<std::string>(value)) return mistyped();
+      return std::nullopt;
+    case ParamType::choice: {
+      const auto* s = std::get_if<std::string>(&value);
+      const bool known =
+          s != nullptr && std::any_of(choices.begin(), choices.end(), [&](const auto& c) { return c.name == *s; });
+      if (known) return std::nullopt;
+      return fmt::format("must be one of {}; got {}", listed(choices), shown(value, ""));
+    }
+    case ParamType::integer: {
+      const auto* i = std::get_if<std::int64_t>(&value);
+      if (i == nullptr) return mistyped();
+      if (in_range(*this, static_cast<double>(*i))) return std::nullopt;
+      return fmt::format("{}, got {}", demand(*this), shown(value, unit));
+    }
+    case ParamType::number: {
+      double x = 0;
+      if (const auto* d = std::get_if<double>(&value)) {
+        x = *d;
+      } else if (const auto* i = std::get_if<std::int64_t>(&value)) {
+        x = static_cast<double>(*i);
+      } else {
+        return mistyped();
+      }
+      if (!std::isfinite(x)) return fmt::format("must be a finite number, got {}", shown(value, ""));
+      if (in_range(*this, x)) return std::nullopt;
+      return fmt::format("{}, got {}", demand(*this), shown(value, unit));
+    }
+  }
+  return "has an unknown type";
+}
+
+std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs) {
+  std::vector<std::string> problems;
+  std::set<std::string> names;
+  for (const auto& spec : specs) {
+    if (!good_name(spec.name))
+      problems.push_back(fmt::format("parameter name '{}' does not match [a-z][a-z0-9_]*", spec.name));
+    if (spec.name == "type")  // stands beside the parameters in a configuration
+      problems.push_back("parameter name 'type' is reserved for the id in a configuration");
+    if (!names.insert(spec.name).second) problems.push_back(fmt::format("parameter '{}' is declared twice", spec.name));
+    if (spec.doc.empty()) problems.push_back(fmt::format("parameter '{}' has no doc", spec.name));
+    if (spec.type == ParamType::integer || spec.type == ParamType::number) check_numeric(spec, problems);
+    if (spec.type == ParamType::choice) check_choices(spec, problems);
+    if (const auto problem = spec.problem_with(spec.fallback))
+      problems.push_back(fmt::format("default of parameter '{}' {}", spec.name, *problem));
+  }
+  return problems;
+}
+
+ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given) {
+  ParamSet values;
+  for (const auto& spec : specs) {
+    const auto it = given.find(spec.name);
+    if (it == given.end()) {
+      values.emplace(spec.name, spec.fallback);
+      continue;
+    }
+    if (const auto problem = spec.problem_with(it->second))
+      throw std::invalid_argument(fmt::format("parameter '{}' {}", spec.name, *problem));
+    const auto* integer = std::get_if<std::int64_t>(&it->second);
+    if (spec.type == ParamType::number && integer != nullptr)
+      values.emplace(spec.name, static_cast<double>(*integer));
+    else
+      values.emplace(spec.name, it->second);
+  }
+  for (const auto& [name, value] : given)
+    if (!values.contains(name)) throw std::invalid_argument(fmt::format("unknown parameter '{}'", name));
+  return values;
+}
+
+}  // namespace dismantle
