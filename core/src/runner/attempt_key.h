@@ -1,0 +1,36 @@
+/// Identity of a question to the oracle: the same parts at the same poses are the same question, in whatever
+/// order they are listed.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "dismantle/path_oracle.h"
+
+namespace dismantle {
+
+/// SHA-256 of who moves and who stands still, and where; without the depth.
+using CastDigest = std::array<unsigned char, 32>;
+
+struct AttemptKey {
+  CastDigest cast{};
+  unsigned max_depth = 0;
+  auto operator<=>(const AttemptKey&) const = default;
+};
+
+/// Moving and still parts by ascending id, quaternions with the sign that makes them unique, no negative zeros.
+/// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, or a pose is not finite.
+Attempt canonical(const Attempt& attempt, std::size_t part_count);
+
+/// Digest of a canonical cast.
+CastDigest digest_of(const Attempt& canonical_attempt);
+
+/// Number of the random stream that belongs to the question: the same on every machine and in any order of asking.
+std::uint64_t stream_of(const AttemptKey& key);
+
+/// Ids of `placed`, in order.
+std::vector<PartId> ids_of(const std::vector<PlacedPart>& placed);
+
+}  // namespace dismantle

@@ -1,0 +1,206 @@
+#include "runner/attempt_runner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+bool same_path(const Path& a, const Path& b) {
+  const auto same_pose = [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](const std::vector<Pose>& x, const std::vector<Pose>& y) {
+                      return std::equal(x.begin(), x.end(), y.begin(), y.end(), same_pose);
+                    });
+}
+
+/// What a plugin says about parts and poses is kept only as far as it makes sense.
+void drop_nonsense(PathResult& result, const Attempt& attempt) {
+  std::vector<PartId> blockers;
+  for (const PartId id : result.blocked_by) {
+    const bool stands =
+        std::any_of(attempt.still.begin(), attempt.still.end(), [id](const PlacedPart& p) { return p.part == id; });
+    if (stands && std::find(blockers.begin(), blockers.end(), id) == blockers.end()) blockers.push_back(id);
+  }
+  result.blocked_by = std::move(blockers);
+  const bool finite = std::all_of(result.best_pose.begin(), result.best_pose.end(), [](const Pose& p) {
+    return p.t.allFinite() && p.q.coeffs().allFinite() && std::abs(p.q.norm() - 1) < 1e-6;
+  });
+  if (!finite || result.best_pose.size() != attempt.moving.size()) result.best_pose.clear();
+}
+
+PathResult failure(Outcome outcome, std::string message) {
+  PathResult result;
+  result.outcome = outcome;
+  result.message = std::move(message);
+  return result;
+}
+
+}  // namespace
+
+/// A path that the planner showed, in the form that is written, and what the judge said of it.
+struct AttemptRunner::Judgement {
+  Path given;
+  NormalizedPath written;
+  MotionCheck check;
+  Verdict verdict;
+};
+
+AttemptRunner::AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+                             const RunOptions& options, const Verifier& verifier, const Rng& rng)
+    : assembly_(assembly),
+      prepared_(prepared),
+      simulator_(*ingredients.simulator),
+      verifier_(verifier),
+      planner_id_(ingredients.path_planner_id),
+      path_timeout_(options.path_timeout),
+      path_steps_(options.path_steps),
+      rng_(rng),
+      normalizer_(assembly) {}
+
+std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving) const {
+  const Capabilities has = simulator_.capabilities();
+  std::vector<std::string> missing;
+  if (needs.dynamics && !has.dynamics) missing.emplace_back("dynamics");
+  if (needs.contacts && !has.contacts) missing.emplace_back("contacts");
+  if (needs.distance && !has.distance) missing.emplace_back("distance");
+  if (moving > has.max_moving)
+    missing.push_back(fmt::format("{} parts moving at once (it allows {})", moving, has.max_moving));
+  if (missing.empty()) return {};
+  return fmt::format("the simulator does not offer what path planner '{}' needs: {}", planner_id_,
+                     fmt::join(missing, ", "));
+}
+
+AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
+  Judgement j;
+  j.given = path;
+  j.written = normalizer_.normalize(path, attempt.moving);
+  if (!j.written.problem.empty()) {
+    j.verdict.reason = j.written.problem;
+    return j;
+  }
+  j.check = verifier_.check_motion(ids_of(attempt.moving), attempt.still, j.written.path);
+  if (!j.check.valid) {
+    j.verdict.reason = "the path cuts into another part";
+    if (j.check.violation) {
+      const Violation& v = *j.check.violation;
+      const std::size_t from = std::min(v.segment, j.written.source.size() - 1);
+      const std::size_t to = std::min(v.segment + 1, j.written.source.size() - 1);
+      const double span = static_cast<double>(j.written.source[to] - j.written.source[from]);
+      j.verdict.has_witness = true;
+      j.verdict.part = v.part;
+      j.verdict.other = v.other;
+      j.verdict.point = v.point;
+      j.verdict.instant = j.written.source[from] + static_cast<std::size_t>(std::clamp(v.u, 0.0, 1.0) * span);
+      const auto name = [&](PartId id) {
+        return id < assembly_.parts.size() ? assembly_.parts[id].name : fmt::format("part {}", id);
+      };
+      j.verdict.reason =
+          v.uncertain
+              ? fmt::format("'{}' and '{}' could not be proved to stay out of each other", name(v.part), name(v.other))
+              : fmt::format("'{}' cuts {:.4g} deep into '{}' ({:.4g} when assembled, {:.4g} more allowed)",
+                            name(v.part), v.depth, name(v.other), v.allowed, verifier_.options().max_penetration);
+    }
+    return j;
+  }
+  std::vector<PlacedPart> group = attempt.moving;
+  for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = j.written.path.back()[i];
+  if (!verifier_.apart(group, attempt.still)) {
+    j.verdict.reason = "the path ends before the convex hulls are apart";
+    return j;
+  }
+  j.verdict.accepted = true;
+  return j;
+}
+
+PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context,
+                               Judgement& last) const {
+  const std::string missing = lacking(planner.needs(), attempt.moving.size());
+  if (!missing.empty()) return failure(Outcome::unsupported, missing);
+  RunContext own = context;
+  const Effort effort{attempt.max_depth, path_steps_, path_timeout_};
+  const PathQuery query{
+      assembly_, simulator_, prepared_, {attempt.moving, attempt.still}, effort, [&](const Path& path) {
+        last = judge(attempt, path);
+        return last.verdict;
+      }};
+  return planner.plan(query, own);
+}
+
+ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+                                   const RunContext& context) const {
+  const Clock::time_point begin = Clock::now();
+  ComputedAttempt computed;
+  AttemptResult& answer = computed.answer;
+  PathResult& result = answer.result;
+  RunContext own = context;
+  own.rng = rng_.fork(stream_of(key));
+  if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
+  Judgement last;
+  try {
+    if (attempt.still.empty()) {
+      result.outcome = Outcome::start_is_goal;  // nothing left to be apart from
+    } else {
+      result = plan(planner, attempt, own, last);
+    }
+    if (result.outcome == Outcome::solved) {
+      if (last.written.path.empty() || !same_path(last.given, result.path)) last = judge(attempt, result.path);
+      if (last.verdict.accepted) {
+        answer.max_penetration = last.check.max_penetration;
+        result.path = std::move(last.written.path);
+      } else {
+        result.outcome = Outcome::crashed;
+        result.message = fmt::format("path planner '{}' reports as solved a path that the judge refuses: {}",
+                                     planner_id_, last.verdict.reason);
+      }
+    } else if (result.outcome == Outcome::start_is_goal) {
+      std::vector<Pose> start;
+      for (const auto& p : attempt.moving) start.push_back(p.pose);
+      result.path = {start, start};
+      result.depth = 0;
+      if (!attempt.still.empty() && !verifier_.apart(attempt.moving, attempt.still)) {
+        result.outcome = Outcome::crashed;
+        result.message = fmt::format(
+            "path planner '{}' reports that there is nothing to do, but the convex hulls are not apart", planner_id_);
+      }
+    }
+  } catch (const std::exception& e) {
+    result = failure(Outcome::crashed, fmt::format("path planner '{}' threw: {}", planner_id_, e.what()));
+  } catch (...) {
+    result = failure(Outcome::crashed,
+                     fmt::format("path planner '{}' threw something that is not a std::exception", planner_id_));
+  }
+  if (result.outcome == Outcome::crashed) context.log(LogLevel::error, result.message);
+  if (!is_success(result.outcome)) {
+    result.path.clear();
+    const bool cancelled = context.cancel.cancelled();
+    const bool too_late = context.deadline.passed();
+    if (cancelled || too_late) {
+      computed.interrupted = true;
+      result.outcome = cancelled ? Outcome::cancelled : Outcome::timeout;
+      result.message = cancelled ? "cancelled" : "the time limit of the whole run passed during the attempt";
+    } else if (result.outcome == Outcome::cancelled) {
+      if (own.deadline.passed()) {  // planners stop for both reasons at the same place
+        result.outcome = Outcome::timeout;
+      } else {
+        result.outcome = Outcome::crashed;
+        result.message = fmt::format("path planner '{}' stopped although nobody asked it to", planner_id_);
+        context.log(LogLevel::error, result.message);
+      }
+    }
+  }
+  drop_nonsense(result, attempt);
+  answer.seconds = seconds_since(begin);
+  return computed;
+}
+
+}  // namespace dismantle

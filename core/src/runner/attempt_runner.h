@@ -1,0 +1,49 @@
+/// One attempt, from question to judged answer. The only place where a path planner is called.
+#pragma once
+
+#include <string>
+
+#include "dismantle/path_oracle.h"
+#include "dismantle/runner.h"
+#include "runner/attempt_key.h"
+#include "runner/path_normalizer.h"
+
+namespace dismantle {
+
+struct ComputedAttempt {
+  AttemptResult answer;
+  bool interrupted = false;  ///< ended by cancellation or the run's deadline: says nothing about the question
+};
+
+/// Immutable after construction; run() may be called from several threads, with one planner each.
+class AttemptRunner {
+ public:
+  /// All references must outlive the runner. `rng` is the run's generator.
+  AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+                const RunOptions& options, const Verifier& verifier, const Rng& rng);
+
+  /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
+  /// the attempt is added here. Throws nothing: what a plugin throws becomes Outcome::crashed.
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+                      const RunContext& context) const;
+
+  const std::string& planner_id() const { return planner_id_; }
+
+ private:
+  struct Judgement;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, Judgement& last) const;
+  Judgement judge(const Attempt& attempt, const Path& path) const;
+  std::string lacking(const Capabilities& needs, std::size_t moving) const;
+
+  const Assembly& assembly_;
+  const Prepared& prepared_;
+  const Simulator& simulator_;
+  const Verifier& verifier_;
+  std::string planner_id_;
+  double path_timeout_;
+  std::uint64_t path_steps_;
+  Rng rng_;
+  PathNormalizer normalizer_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,68 @@
+/// The oracle that `run` uses, with what the runner wants to know beyond the interface.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "runner/attempt_pool.h"
+
+namespace dismantle {
+
+/// What an answer was an answer to.
+struct AskedAbout {
+  CastDigest cast{};
+  std::vector<PartId> moving;  ///< columns of the path
+};
+
+/// A question that was answered with a failure by planning.
+struct FailedAttempt {
+  std::vector<PartId> moving;
+  std::vector<PartId> blocked_by;
+};
+
+class Oracle final : public PathOracle {
+ public:
+  Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients, const RunOptions& options,
+         const Verifier& verifier, const RunContext& context);
+
+  const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
+  void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
+  OracleCounts counts() const override;
+
+  /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
+  const AskedAbout* asked_about(const AttemptResult* result) const;
+  const std::vector<FailedAttempt>& failed() const { return failed_; }
+
+ private:
+  struct Final {
+    unsigned max_depth = 0;
+    const AttemptResult* answer = nullptr;
+  };
+  const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
+  const AttemptResult* remembered(const AttemptKey& key);
+  ComputedAttempt compute(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
+  const AttemptResult& keep(AttemptResult result);
+  const AttemptResult& reordered(const AttemptResult& result, const AttemptKey& key,
+                                 const std::vector<PartId>& canonical_order, const std::vector<PartId>& order);
+
+  std::size_t part_count_;
+  std::function<std::shared_ptr<PathPlanner>()> make_planner_;
+  AttemptRunner runner_;
+  std::mutex ask_mutex_;  ///< one question at a time; threads work behind it
+  std::deque<AttemptResult> results_;
+  std::map<AttemptKey, const AttemptResult*> answers_;
+  std::map<CastDigest, Final> finals_;
+  std::map<const AttemptResult*, AskedAbout> asked_about_;
+  std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
+  std::vector<FailedAttempt> failed_;
+  std::atomic<std::uint64_t> planned_{0}, memoised_{0};
+  std::mutex planner_mutex_;                            ///< the factory need not be safe to call from several threads
+  std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone
+  std::unique_ptr<AttemptPool> pool_;                   ///< last: its threads use all of the above
+};
+
+}  // namespace dismantle

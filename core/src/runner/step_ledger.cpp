@@ -1,0 +1,176 @@
+#include "runner/step_ledger.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
+  Plan plan;
+  plan.generator_version = DISMANTLE_VERSION;
+  plan.seed = options.seed;
+  plan.verified_max_penetration = options.verify.max_penetration;
+  PlanAssembly& a = plan.assembly;
+  a.source = assembly.source;
+  a.sha256 = assembly.sha256;
+  a.scale = assembly.normalization.scale;
+  a.center = assembly.normalization.center;
+  a.box = assembly.input_box;
+  for (const auto& part : assembly.parts) a.parts.push_back({part.id, part.name, part.file});
+  for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
+  for (const auto& o : assembly.overlaps)
+    a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth});
+  return plan;
+}
+
+}  // namespace
+
+StepLedger::StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options,
+                       std::string planner_id)
+    : assembly_(assembly),
+      oracle_(oracle),
+      planner_id_(std::move(planner_id)),
+      plan_(empty_plan(assembly, options)),
+      poses_(assembly.parts.size()),
+      groups_(1) {
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) groups_[0].push_back(static_cast<PartId>(i));
+  refresh_status();
+}
+
+std::vector<PartId>& StepLedger::group_of(const std::vector<PartId>& parts) {
+  if (parts.empty()) throw std::logic_error("a removal of no part");
+  for (auto& group : groups_) {
+    const auto in_group = [&](PartId id) { return std::find(group.begin(), group.end(), id) != group.end(); };
+    if (std::all_of(parts.begin(), parts.end(), in_group)) return group;
+  }
+  throw std::logic_error("the parts of a removal are unknown or not together any more");
+}
+
+PlanStep StepLedger::to_step(const Removal& removal) const {
+  const PathResult& result = removal.attempt->result;
+  PlanStep step;
+  step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
+  step.separates.emplace_back();
+  for (std::size_t i = 0; i < removal.parts.size(); ++i) {
+    const std::string& name = assembly_.parts[removal.parts[i]].name;
+    PlanMove move{name, {}};
+    move.poses.reserve(result.path.size());
+    for (const auto& instant : result.path) move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
+    step.moves.push_back(std::move(move));
+    step.separates.back().push_back(name);
+  }
+  step.max_penetration = removal.attempt->max_penetration;
+  step.seconds = removal.attempt->seconds;
+  step.planner = planner_id_;
+  step.depth = result.depth;
+  for (const PartId id : result.blocked_by) step.contacts.push_back(assembly_.parts[id].name);
+  return step;
+}
+
+void StepLedger::book(const Removal& removal) {
+  std::vector<PartId>& group = group_of(removal.parts);
+  const AskedAbout* asked = oracle_.asked_about(removal.attempt);
+  if (asked == nullptr || !is_success(removal.attempt->result.outcome))
+    throw std::logic_error("a removal that is not a successful answer of the oracle");
+  Attempt question;
+  for (const PartId id : removal.parts) question.moving.push_back({id, poses_[id]});
+  std::vector<PartId> rest;
+  for (const PartId id : group)
+    if (std::find(removal.parts.begin(), removal.parts.end(), id) == removal.parts.end()) rest.push_back(id);
+  if (rest.empty()) throw std::logic_error("a removal that leaves nothing behind");
+  for (const PartId id : rest) question.still.push_back({id, poses_[id]});
+  if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->cast)
+    throw std::logic_error("a removal whose path was found for other parts or other places");
+
+  PlanStep step = to_step(removal);
+  plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));
+  plan_.disassembly.push_back(std::move(step));
+  for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i)
+    plan_.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
+  for (std::size_t i = 0; i < removal.parts.size(); ++i) {
+    const PartId id = removal.parts[i];
+    poses_[id] = removal.attempt->result.path.back()[i];
+    if (std::find(order_.begin(), order_.end(), id) == order_.end()) order_.push_back(id);
+  }
+  group = std::move(rest);
+  groups_.push_back(removal.parts);
+  refresh_status();
+}
+
+bool StepLedger::complete() const {
+  return std::all_of(groups_.begin(), groups_.end(), [](const auto& group) { return group.size() <= 1; });
+}
+
+std::vector<PartId> StepLedger::left() const {
+  std::vector<PartId> ids;
+  for (const auto& group : groups_)
+    if (group.size() > 1) ids.insert(ids.end(), group.begin(), group.end());
+  return ids;
+}
+
+void StepLedger::refresh_status() {
+  plan_.status = complete() ? PlanStatus::complete : PlanStatus::partial;
+  plan_.remaining.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (g == 0 || groups_[g].size() > 1)
+      for (const PartId id : groups_[g]) plan_.remaining.push_back(assembly_.parts[id].name);
+}
+
+void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved) {
+  plan_.unsolved.clear();
+  for (const auto& u : unsolved) {
+    PlanUnsolved entry;
+    entry.part = assembly_.parts.at(u.part).name;
+    entry.outcome = u.outcome;
+    for (const PartId id : u.blocked_by) entry.blocked_by.push_back(assembly_.parts.at(id).name);
+    const Pose reached = u.best_pose.empty() ? poses_[u.part] : u.best_pose.front();
+    entry.best_pose = assembly_.normalization.pose_to_input(reached);
+    entry.message = u.message;
+    plan_.unsolved.push_back(std::move(entry));
+  }
+}
+
+PlanStep reversed(const PlanStep& step) {
+  PlanStep back;
+  back.step = step.step;
+  back.moves = step.moves;
+  for (auto& move : back.moves) std::reverse(move.poses.begin(), move.poses.end());
+  return back;
+}
+
+std::vector<std::pair<PartId, PartId>> precedence_of(const std::vector<FailedAttempt>& failed,
+                                                     const std::vector<PartId>& left_in_order, std::size_t part_count) {
+  const std::size_t never = left_in_order.size();
+  std::vector<std::size_t> rank(part_count, never);
+  for (std::size_t i = 0; i < never; ++i) rank[left_in_order[i]] = i;
+  // before[b]: parts that had to go before b. Every pair goes up in rank, so there is no cycle.
+  std::vector<std::vector<bool>> before(part_count, std::vector<bool>(part_count, false));
+  for (const auto& attempt : failed)
+    for (const PartId b : attempt.moving)
+      for (const PartId a : attempt.blocked_by)
+        if (rank[a] < rank[b]) before[b][a] = true;
+
+  std::vector<PartId> by_rank(part_count);
+  for (std::size_t i = 0; i < part_count; ++i) by_rank[i] = static_cast<PartId>(i);
+  std::stable_sort(by_rank.begin(), by_rank.end(), [&](PartId a, PartId b) { return rank[a] < rank[b]; });
+  std::vector<std::vector<bool>> closure(part_count, std::vector<bool>(part_count, false));
+  std::vector<std::pair<PartId, PartId>> pairs;
+  for (const PartId b : by_rank) {
+    std::vector<bool> indirect(part_count, false);
+    for (std::size_t a = 0; a < part_count; ++a)
+      if (before[b][a])
+        for (std::size_t c = 0; c < part_count; ++c) indirect[c] = indirect[c] || closure[a][c];
+    for (const PartId a : by_rank)
+      if (before[b][a] && !indirect[a]) pairs.emplace_back(a, b);
+    for (std::size_t a = 0; a < part_count; ++a) closure[b][a] = before[b][a] || indirect[a];
+  }
+  return pairs;
+}
+
+}  // namespace dismantle

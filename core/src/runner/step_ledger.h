@@ -1,0 +1,56 @@
+/// Books the removals of a run: who stands where, in which group, and the plan that comes of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dismantle/model/assembly.h"
+#include "dismantle/plan/plan.h"
+#include "dismantle/runner.h"
+#include "runner/oracle.h"
+
+namespace dismantle {
+
+/// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
+/// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
+/// sequence planner does.
+class StepLedger {
+ public:
+  StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
+
+  /// Appends one step to the plan. @throws std::logic_error saying what is wrong with the removal; nothing has
+  /// changed then.
+  void book(const Removal& removal);
+
+  const Plan& plan() const { return plan_; }
+  /// Parts whose group still has others: the group that was never left, then groups that came out whole.
+  std::vector<PartId> left() const;
+  bool complete() const;
+  /// Parts in the order in which they left, each at the first step that moved it.
+  const std::vector<PartId>& left_in_order() const { return order_; }
+  /// Sets plan().unsolved.
+  void set_unsolved(const std::vector<Unsolved>& unsolved);
+
+ private:
+  std::vector<PartId>& group_of(const std::vector<PartId>& parts);
+  PlanStep to_step(const Removal& removal) const;
+  void refresh_status();
+
+  const Assembly& assembly_;
+  const Oracle& oracle_;
+  std::string planner_id_;
+  Plan plan_;
+  std::vector<Pose> poses_;                  // by part id
+  std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left
+  std::vector<PartId> order_;
+};
+
+/// The disassembly step run backwards (Algorithm 3 from the disassembled poses).
+PlanStep reversed(const PlanStep& step);
+
+/// (a, b): a left before b, and a failed attempt to remove b, made while a was there, had touched a. Pairs that
+/// follow from others are left out. Ascending by the order of leaving of b, then of a.
+std::vector<std::pair<PartId, PartId>> precedence_of(const std::vector<FailedAttempt>& failed,
+                                                     const std::vector<PartId>& left_in_order, std::size_t part_count);
+
+}  // namespace dismantle
