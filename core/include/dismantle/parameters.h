@@ -51,7 +51,7 @@ DISMANTLE_API ParamSet complete(const std::vector<ParamSpec>& specs, const Param
 
 /// How a number is declared: {.unit = "s", .min = 0, .doc = "..."}.
 struct ParamTraits {
-  std::string unit;
+  std::string unit{};
   std::optional<double> min{}, max{};
   bool min_open = false, max_open = false;
   std::string doc;

@@ -1,0 +1,53 @@
+/// Parameters of the bfs path planner.
+#pragma once
+
+#include "dismantle/parameters.h"
+
+namespace dismantle::bfs {
+
+enum class Motion { translation, rotation, automatic };
+
+struct Parameters {
+  Motion motion = Motion::automatic;
+  // Table 6.
+  double time_step = 0.1;
+  double force = 100;
+  double similarity_translation = 0.05;
+  double similarity_rotation = 0.5;
+  // Where we go beyond Algorithm 1; see README.md.
+  bool diagonals = true;
+  bool intermediate = true;
+  double thinning = 1e-4;
+  std::int64_t max_refusals = 20;
+  std::int64_t rotation_nodes = 60;
+
+  static void describe(Schema<Parameters>& s) {
+    s.add_choice<Motion>("motion", &Parameters::motion,
+                         {{"translation", Motion::translation, "6 actions, orientation locked"},
+                          {"rotation", Motion::rotation, "12 actions in SE(3)"},
+                          {"auto", Motion::automatic, "translation first; rotation once that is exhausted"}},
+                         "State space of the search (section 4.2).");
+    s.add("time_step", &Parameters::time_step,
+          {.unit = "s", .min = 1e-3, .max = 10, .doc = "Planning time step: an action runs so long between two looks (table 6)."});
+    s.add("force", &Parameters::force,
+          {.unit = "N", .min = 0, .min_open = true,
+           .doc = "Force of each action; torques are this times the part's radius (table 6)."});
+    s.add("similarity_translation", &Parameters::similarity_translation,
+          {.unit = "unit", .min = 0, .min_open = true, .doc = "States nearer than this are similar (table 6)."});
+    s.add("similarity_rotation", &Parameters::similarity_rotation,
+          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "... if turned by less than this, too (table 6)."});
+    s.add("diagonals", &Parameters::diagonals,
+          {.doc = "When the six directions are exhausted, also push along the 20 diagonals."});
+    s.add("intermediate", &Parameters::intermediate,
+          {.doc = "Search from states in the middle of a run, too, after those at its end."});
+    s.add("thinning", &Parameters::thinning,
+          {.unit = "unit", .min = 0, .max = 0.01, .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+    s.add("max_refusals", &Parameters::max_refusals,
+          {.unit = "1", .min = 0, .doc = "Paths that the verifier may refuse before the search gives up."});
+    s.add("rotation_nodes", &Parameters::rotation_nodes,
+          {.unit = "1", .min = 1,
+           .doc = "Under `motion: auto` and a depth limit: states searched with rotation per level of depth."});
+  }
+};
+
+}  // namespace dismantle::bfs

@@ -1,0 +1,42 @@
+/// States seen so far, and whether a new one is similar to any of them (section 4.2).
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "dismantle/path/path_thinning.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle::path {
+
+/// Two states are similar if every body's centre is nearer than `translation` (assembly units) and every
+/// body's orientation closer than `rotation` (rad, geodesic). Hashed by the first body's cell.
+class StateSet {
+ public:
+  StateSet(std::vector<Ball> bodies, double translation, double rotation);
+
+  void add(const State& state, std::uint32_t label);
+  /// True when a state is similar whose label lies outside [first, last) (own run: labels are given in order).
+  bool has_similar(const State& state, std::uint32_t ignore_first = 0, std::uint32_t ignore_last = 0) const;
+  bool similar(const State& a, const State& b) const;
+  std::size_t size() const { return entries_.size(); }
+
+ private:
+  struct Entry {
+    std::vector<Eigen::Vector3d> centers;
+    std::vector<Eigen::Quaterniond> turns;
+    std::uint32_t label;
+  };
+  using Key = std::uint64_t;
+  Key key(const Eigen::Vector3d& center, int dx, int dy, int dz) const;
+  Entry entry(const State& state, std::uint32_t label) const;
+  bool close(const Entry& a, const Entry& b) const;
+
+  std::vector<Ball> bodies_;
+  double translation_, rotation_;
+  std::vector<Entry> entries_;
+  std::unordered_map<Key, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace dismantle::path

@@ -1,0 +1,62 @@
+#include "dismantle/path/path_thinning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle::path {
+namespace {
+
+/// Bound of the distance between where the two poses put any point of the ball.
+double apart(const Pose& a, const Pose& b, const Ball& ball) {
+  return (a * ball.center - b * ball.center).norm() + angle_between(a.q, b.q) * ball.radius;
+}
+
+}  // namespace
+
+Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
+  const std::size_t n = path.size();
+  if (n <= 2) return path;
+  // Parameter of each instant: way covered so far, by the body that moves most.
+  std::vector<double> way(n, 0.0);
+  for (std::size_t k = 1; k < n; ++k) {
+    double step = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) step = std::max(step, apart(path[k - 1][i], path[k][i], bodies[i]));
+    way[k] = way[k - 1] + step;
+  }
+  std::vector<bool> keep(n, false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> todo{{0, n - 1}};
+  while (!todo.empty()) {
+    const auto [a, b] = todo.back();
+    todo.pop_back();
+    if (b - a < 2) continue;
+    const double length = way[b] - way[a];
+    double worst = -1;
+    std::size_t at = a;
+    for (std::size_t k = a + 1; k < b; ++k) {
+      const double u = length > 0 ? (way[k] - way[a]) / length : 0;
+      double deviation = 0;
+      for (std::size_t i = 0; i < bodies.size(); ++i)
+        deviation = std::max(deviation, apart(screw_interpolate(path[a][i], path[b][i], u), path[k][i], bodies[i]));
+      if (deviation > worst) {
+        worst = deviation;
+        at = k;
+      }
+    }
+    // A screw takes the shorter turn: more than a third of a turn at once is not safe to join.
+    bool turns = false;
+    for (std::size_t i = 0; i < bodies.size(); ++i) turns |= angle_between(path[a][i].q, path[b][i].q) > 2.0;
+    if (worst <= tolerance && !turns) continue;
+    if (worst <= tolerance) at = a + (b - a) / 2;
+    keep[at] = true;
+    todo.emplace_back(a, at);
+    todo.emplace_back(at, b);
+  }
+  Path result;
+  for (std::size_t k = 0; k < n; ++k)
+    if (keep[k]) result.push_back(path[k]);
+  return result;
+}
+
+}  // namespace dismantle::path

@@ -1,0 +1,60 @@
+/// Signed distance field on a regular grid (appendix A).
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/sdf/surface_query.h"
+
+namespace dismantle::sdf {
+
+struct GridOptions {
+  double cell = 0.05;         ///< appendix A: largest cell edge, assembly units, > 0
+  int cells_per_edge = 20;    ///< appendix A: cell <= L_i / cells_per_edge along each axis, >= 1
+  std::int64_t max_nodes = 30'000'000;  ///< cells grow evenly on all axes where the grid would exceed this
+};
+
+/// Distance at grid nodes: exact to float precision in a band around the surface, then eight fast
+/// sweeps of the Eikonal equation (Zhao 2005). Between nodes trilinear.
+///
+/// Error: at nodes of the band none; between nodes at most 0.87 of the cell diagonal's half anywhere and
+/// about curvature * cell^2 / 8 where the surface is smooth; far nodes err by the first-order scheme
+/// (a few per cent, never below the true distance by more than lower_bound() allows for).
+/// Outside the grid the value is extended by the distance to the grid.
+class DistanceGrid {
+ public:
+  DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options);
+
+  double value(const Eigen::Vector3d& p) const;
+  /// Value and its gradient (of the trilinear interpolant, normalised; zero gradient only where degenerate).
+  double value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const;
+  /// A distance that the true one is not below, for |p| anywhere: how far a sphere around p is surely
+  /// free of surface. 0 near the surface or inside.
+  double lower_bound(const Eigen::Vector3d& p) const;
+
+  const Eigen::Vector3d& cell() const { return cell_; }
+  const Eigen::Vector3d& origin() const { return origin_; }
+  const Eigen::Array3i& nodes() const { return nodes_; }
+  double band() const { return band_; }  ///< nodes nearer than this hold exact distances
+  std::size_t bytes() const { return values_.size() * sizeof(float); }
+  float node(int i, int j, int k) const { return values_[index(i, j, k)]; }
+
+ private:
+  std::size_t index(int i, int j, int k) const {
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(nodes_.y()) + static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(nodes_.x()) + static_cast<std::size_t>(i);
+  }
+  void fill_band(const Solid& solid, const SurfaceQuery& surface);
+  void propagate_signs();
+  void sweep();
+
+  Eigen::Vector3d origin_, cell_, inverse_cell_;
+  Eigen::Array3i nodes_;
+  double band_ = 0;
+  std::vector<float> values_;
+  std::vector<std::uint8_t> exact_;  // only while building
+};
+
+}  // namespace dismantle::sdf

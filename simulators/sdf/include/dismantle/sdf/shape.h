@@ -1,0 +1,52 @@
+/// All that contact needs of a part, computed once per distinct shape.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dismantle/model/assembly.h"
+#include "dismantle/run_context.h"
+#include "dismantle/sdf/contact_points.h"
+#include "dismantle/sdf/distance_grid.h"
+#include "dismantle/sdf/solid.h"
+#include "dismantle/sdf/surface_query.h"
+
+namespace dismantle::sdf {
+
+struct SolidField {
+  Aabb box;
+  std::unique_ptr<const SurfaceQuery> surface;
+  std::unique_ptr<const DistanceGrid> grid;
+};
+
+/// In its own frame: the box along the directions of its largest faces, where fields are smallest and
+/// results do not depend on how the assembly was turned.
+struct Shape {
+  Aabb box;
+  std::vector<SolidField> solids;
+  ContactPoints points;
+  std::vector<Eigen::Vector3d> hull;  ///< corners of the convex hull
+  MassProperties mass;
+  double radius = 0;  ///< largest distance of a vertex from mass.center
+};
+
+/// Where a shape stands when assembled.
+struct Placed {
+  std::shared_ptr<const Shape> shape;
+  Pose rest;  ///< shape frame -> assembled frame
+};
+
+struct ShapeOptions {
+  GridOptions grid;
+  ContactPointOptions points;
+};
+
+/// One entry per part, in part order. Parts with the same triangles up to a rigid motion share one Shape.
+/// Shapes are built on context.threads threads; the result does not depend on their number.
+std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& options, RunContext& context);
+
+/// Rigid motion that takes mesh a onto mesh b (same indices, residual below `tolerance`), if there is one.
+std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance);
+
+}  // namespace dismantle::sdf

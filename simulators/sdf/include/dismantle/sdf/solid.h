@@ -1,0 +1,34 @@
+/// A part split into solids: closed surfaces whose nearest feature alone tells inside from outside.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dismantle/geometry/mesh.h"
+
+namespace dismantle::sdf {
+
+/// One outer shell together with the voids inside it. Parts that consist of several, possibly
+/// overlapping shells (inserts, unions that CAD never merged) become several solids; the part is their
+/// union and its distance is the smallest of theirs.
+struct Solid {
+  Mesh mesh;
+  // Angle-weighted pseudo-normals (Baerentzen & Aanaes 2005), not normalised for vertices and edges:
+  std::vector<Eigen::Vector3d> face_normal;                   ///< unit, per triangle
+  std::vector<std::array<Eigen::Vector3d, 3>> edge_normal;    ///< per triangle, edge k joins corners k and k+1
+  std::vector<Eigen::Vector3d> vertex_normal;                 ///< per vertex
+};
+
+/// Splits by connected shells; a shell of negative volume is a void and goes to the smallest outer
+/// shell around it. `mesh` must be closed and oriented.
+std::vector<Solid> split_solids(const Mesh& mesh);
+
+/// Volume, centre of mass and inertia of a closed mesh of density 1 (divergence theorem; exact).
+struct MassProperties {
+  double volume = 0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about `center`, mesh axes
+};
+MassProperties mass_properties(const Mesh& mesh);
+
+}  // namespace dismantle::sdf

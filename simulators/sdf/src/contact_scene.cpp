@@ -1,0 +1,188 @@
+#include "dismantle/sdf/contact_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::sdf {
+namespace {
+
+/// Beyond this distance a query gives up and the block sleeps for that long.
+constexpr double kReach = 0.5;
+
+Aabb world_box(const Aabb& local, const Pose& pose) {
+  const Eigen::Vector3d center = pose * local.center();
+  const Eigen::Vector3d half = pose.q.toRotationMatrix().cwiseAbs() * (0.5 * local.size());
+  return {center - half, center + half};
+}
+
+double box_gap(const Aabb& a, const Aabb& b) { return (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0).norm(); }
+
+}  // namespace
+
+void ContactScene::set_members(std::vector<Member> moving, std::vector<Member> still) {
+  moving_ = moving.size();
+  members_ = std::move(moving);
+  members_.insert(members_.end(), still.begin(), still.end());
+  odometer_.assign(moving_, 0.0);
+  world_.resize(members_.size());
+  boxes_.resize(members_.size());
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    world_[i] = members_[i].pose * members_[i].placed->rest;
+    boxes_[i] = world_box(members_[i].placed->shape->box, world_[i]);
+  }
+  for (std::uint32_t a = 0; a < moving_; ++a)
+    for (std::uint32_t b = a + 1; b < members_.size(); ++b) {
+      pairs_.emplace_back();
+      pairs_.back().a = a;
+      pairs_.back().b = b;
+    }
+}
+
+void ContactScene::add_point(PartId part, PartId other, const Eigen::Vector3d& point) {
+  for (auto& pair : pairs_) {
+    const PartId pa = members_[pair.a].part, pb = members_[pair.b].part;
+    if (pa == part && pb == other) pair.ab.extra.push_back(members_[pair.a].placed->rest.inverse() * point);
+    if (pb == part && pa == other) pair.ba.extra.push_back(members_[pair.b].placed->rest.inverse() * point);
+  }
+}
+
+double ContactScene::signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
+                                     std::uint32_t& hint, Eigen::Vector3d& normal) {
+  ++queries_;
+  if (model_ == DistanceModel::grid) return field.grid->value(p, normal);
+  const Sample s = field.surface->sample(p, limit, hint);
+  if (s.triangle != kNoTriangle) {
+    hint = s.triangle;
+    normal = s.normal;
+    return s.value;
+  }
+  // Nothing within the limit: far outside, or deep inside, which only the grid can tell.
+  if (field.box.contains(p)) {
+    const double rough = field.grid->value(p, normal);
+    if (rough < 0) return std::min(rough, -limit);
+  }
+  return limit;
+}
+
+void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uint32_t surface, double margin,
+                        double odometer, std::vector<ContactPoint>& out) {
+  const Shape& points = *members_[owner].placed->shape;
+  const Shape& target = *members_[surface].placed->shape;
+  const std::size_t solids = target.solids.size();
+  if (!set.ready) {
+    set.wake.assign(points.points.blocks.size(), -1.0);
+    set.hint.assign(points.points.points.size() * solids, kNoTriangle);
+    set.ready = true;
+  }
+  const Pose to_target = world_[surface].inverse() * world_[owner];
+  const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
+  const Eigen::Vector3d shift = to_target.t;
+  const Eigen::Matrix3d to_world = world_[surface].q.toRotationMatrix();
+  const double limit = kReach;  // on the signed distance itself
+
+  const auto emit = [&](const Eigen::Vector3d& p, double gap, const Eigen::Vector3d& normal) {
+    ContactPoint c;
+    c.gap = gap;
+    c.normal = to_world * normal;
+    c.point = to_world * p + world_[surface].t;
+    c.owner = owner < moving_ ? static_cast<int>(owner) : -1;
+    c.surface = surface < moving_ ? static_cast<int>(surface) : -1;
+    c.owner_part = members_[owner].part;
+    c.surface_part = members_[surface].part;
+    out.push_back(c);
+  };
+  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, Eigen::Vector3d& normal) {
+    double best = limit;
+    for (std::size_t s = 0; s < solids; ++s) {
+      // Box distance bounds the signed distance from below outside: most solids drop out here.
+      if (best <= 0 ? !target.solids[s].box.contains(p) : target.solids[s].box.squared_distance(p) >= best * best) continue;
+      Eigen::Vector3d n;
+      const double d = signed_distance(target.solids[s], p, limit, hint[s], n);
+      if (d < best) {
+        best = d;
+        normal = n;
+      }
+    }
+    return best;
+  };
+
+  for (std::size_t k = 0; k < points.points.blocks.size(); ++k) {
+    if (set.wake[k] > odometer) continue;
+    const PointBlock& block = points.points.blocks[k];
+    const Eigen::Vector3d center = rotation * block.center + shift;
+    double lower = std::sqrt(target.box.squared_distance(center)) - block.radius;
+    if (lower + pair.allowed < margin) {
+      double free = kReach * 4;
+      for (const SolidField& s : target.solids) {
+        const double outside = std::sqrt(s.box.squared_distance(center));
+        free = std::min(free, std::max(outside, s.grid->lower_bound(center)));
+      }
+      lower = std::max(lower, free - block.radius);
+    }
+    double slack = lower + pair.allowed - margin;
+    if (slack <= 0) {
+      double closest = limit;
+      for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+        const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
+        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+        const double d = nearest(p, &set.hint[i * solids], normal);
+        closest = std::min(closest, d);
+        if (d + pair.allowed < margin) emit(p, d + pair.allowed, normal);
+      }
+      slack = closest + pair.allowed - margin;
+    }
+    set.wake[k] = slack > 0 ? odometer + slack : -1.0;
+  }
+  set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
+  for (std::size_t i = 0; i < set.extra.size(); ++i) {
+    const Eigen::Vector3d p = rotation * set.extra[i] + shift;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    const double d = nearest(p, &set.extra_hint[i * solids], normal);
+    if (d + pair.allowed < margin) emit(p, d + pair.allowed, normal);
+  }
+}
+
+void ContactScene::update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out) {
+  out.clear();
+  const double margin = margin_;
+  for (std::size_t i = 0; i < moving_; ++i) {
+    const Pose next = poses[i] * members_[i].placed->rest;
+    const Eigen::Vector3d c = members_[i].placed->shape->mass.center;
+    const double turn = angle_between(world_[i].q, next.q);
+    odometer_[i] += (next * c - world_[i] * c).norm() + turn * radius(i);
+    world_[i] = next;
+    boxes_[i] = world_box(members_[i].placed->shape->box, next);
+  }
+  for (auto& pair : pairs_) {
+    const double odometer = odometer_[pair.a] + (pair.b < moving_ ? odometer_[pair.b] : 0.0);
+    if (pair.wake > odometer) continue;
+    const double slack = box_gap(boxes_[pair.a], boxes_[pair.b]) + pair.allowed - margin;
+    if (slack > 0) {
+      pair.wake = odometer + slack;
+      continue;
+    }
+    pair.wake = 0;
+    scan(pair, pair.ab, pair.a, pair.b, margin, odometer, out);
+    scan(pair, pair.ba, pair.b, pair.a, margin, odometer, out);
+  }
+}
+
+double assembled_overlap(const Placed& a, const Placed& b) {
+  const auto deepest = [](const Placed& owner, const Placed& target) {
+    double depth = 0;
+    const Pose to_target = target.rest.inverse() * owner.rest;
+    for (const auto& block : owner.shape->points.blocks) {
+      const Eigen::Vector3d c = to_target * block.center;
+      if (target.shape->box.squared_distance(c) > block.radius * block.radius) continue;
+      for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+        const Eigen::Vector3d p = to_target * owner.shape->points.points[i];
+        for (const auto& s : target.shape->solids)
+          if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
+      }
+    }
+    return depth;
+  };
+  return std::max(deepest(a, b), deepest(b, a));
+}
+
+}  // namespace dismantle::sdf

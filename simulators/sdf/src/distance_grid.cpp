@@ -1,0 +1,206 @@
+#include "dismantle/sdf/distance_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::sdf {
+namespace {
+constexpr float kFar = 1e30f;
+constexpr int kPadding = 3;  // cells around the box: the band fits, and a ray from outside starts outside
+}  // namespace
+
+DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options) {
+  const Aabb box = solid.mesh.box();
+  const Eigen::Vector3d size = box.size();
+  for (int a = 0; a < 3; ++a) {
+    cell_[a] = std::min(options.cell, size[a] / options.cells_per_edge);
+    if (!(cell_[a] > 0)) cell_[a] = options.cell;
+  }
+  const auto count = [&](const Eigen::Vector3d& cell) {
+    Eigen::Array3i n;
+    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(size[a] / cell[a] - 1e-9)) + 1 + 2 * kPadding;
+    return n;
+  };
+  nodes_ = count(cell_);
+  while (nodes_.cast<double>().prod() > static_cast<double>(options.max_nodes)) {
+    cell_ *= 1.25;
+    nodes_ = count(cell_);
+  }
+  inverse_cell_ = cell_.cwiseInverse();
+  origin_ = box.lo - kPadding * cell_;
+  band_ = 1.5 * cell_.maxCoeff();
+  const auto total = static_cast<std::size_t>(nodes_.cast<std::int64_t>().prod());
+  values_.assign(total, kFar);
+  exact_.assign(total, 0);
+  fill_band(solid, surface);
+  propagate_signs();
+  sweep();
+  exact_ = {};
+}
+
+/// Every node within one cell of a triangle's plane region gets its exact signed distance. Candidates are
+/// found by walking the box of each triangle, plane distance first; one exact query each.
+void DistanceGrid::fill_band(const Solid& solid, const SurfaceQuery& surface) {
+  const double reach = 1.01 * cell_.maxCoeff();
+  for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
+    Aabb box;
+    for (int k = 0; k < 3; ++k) box.extend(solid.mesh.vertex(t, k));
+    box.inflate(reach);
+    Eigen::Array3i lo, hi;
+    for (int a = 0; a < 3; ++a) {
+      lo[a] = std::max(0, static_cast<int>(std::ceil((box.lo[a] - origin_[a]) * inverse_cell_[a])));
+      hi[a] = std::min(nodes_[a] - 1, static_cast<int>(std::floor((box.hi[a] - origin_[a]) * inverse_cell_[a])));
+    }
+    const Eigen::Vector3d n = solid.face_normal[t];
+    const double offset = n.dot(solid.mesh.vertex(t, 0));
+    for (int k = lo[2]; k <= hi[2]; ++k)
+      for (int j = lo[1]; j <= hi[1]; ++j) {
+        // On this row of nodes the plane distance is linear in i: only a run of it is near the plane.
+        const double y = origin_[1] + j * cell_[1], z = origin_[2] + k * cell_[2];
+        const double base = n.x() * origin_[0] + n.y() * y + n.z() * z - offset, slope = n.x() * cell_[0];
+        int from = lo[0], to = hi[0];
+        if (std::abs(slope) > 1e-12) {
+          const double u = (-reach - base) / slope, v = (reach - base) / slope;
+          from = std::max(from, static_cast<int>(std::ceil(std::max(std::min(u, v), -1.0))));
+          to = std::min(to, static_cast<int>(std::floor(std::min(std::max(u, v), 1e9))));
+        } else if (std::abs(base) > reach) {
+          continue;
+        }
+        for (int i = from; i <= to; ++i) {
+          const std::size_t at = index(i, j, k);
+          if (exact_[at] != 0) continue;
+          const Eigen::Vector3d p(origin_[0] + i * cell_[0], y, z);
+          const Sample s = surface.sample(p, band_, t);
+          if (s.triangle == kNoTriangle) continue;
+          values_[at] = static_cast<float>(s.value);
+          exact_[at] = 1;
+        }
+      }
+  }
+}
+
+/// Along each row the sign can only change where exact nodes lie: the band is wider than a cell.
+void DistanceGrid::propagate_signs() {
+  for (int k = 0; k < nodes_[2]; ++k)
+    for (int j = 0; j < nodes_[1]; ++j) {
+      bool inside = false;
+      for (int i = 0; i < nodes_[0]; ++i) {
+        const std::size_t at = index(i, j, k);
+        if (exact_[at] != 0)
+          inside = values_[at] < 0;
+        else
+          values_[at] = inside ? -kFar : kFar;
+      }
+    }
+}
+
+void DistanceGrid::sweep() {
+  const double hx = cell_[0], hy = cell_[1], hz = cell_[2];
+  const double wx = 1 / (hx * hx), wy = 1 / (hy * hy), wz = 1 / (hz * hz);
+  const int nx = nodes_[0], ny = nodes_[1], nz = nodes_[2];
+  const auto magnitude = [&](std::size_t at) { return std::abs(static_cast<double>(values_[at])); };
+  const std::size_t sy = static_cast<std::size_t>(nx), sz = sy * static_cast<std::size_t>(ny);
+  // Smallest solution u of the upwind Eikonal equation sum_i max(u - a_i, 0)^2 w_i = 1.
+  const auto solve = [&](double a, double b, double c) {
+    double va[3] = {a, b, c}, w[3] = {wx, wy, wz};
+    if (va[0] > va[1]) std::swap(va[0], va[1]), std::swap(w[0], w[1]);
+    if (va[1] > va[2]) std::swap(va[1], va[2]), std::swap(w[1], w[2]);
+    if (va[0] > va[1]) std::swap(va[0], va[1]), std::swap(w[0], w[1]);
+    double u = va[0] + 1 / std::sqrt(w[0]);
+    if (u <= va[1]) return u;
+    double sw = w[0] + w[1], sa = w[0] * va[0] + w[1] * va[1];
+    double q = w[0] * va[0] * va[0] + w[1] * va[1] * va[1] - 1;
+    u = (sa + std::sqrt(std::max(0.0, sa * sa - sw * q))) / sw;
+    if (u <= va[2]) return u;
+    sw += w[2];
+    sa += w[2] * va[2];
+    q += w[2] * va[2] * va[2];
+    return (sa + std::sqrt(std::max(0.0, sa * sa - sw * q))) / sw;
+  };
+  for (int pass = 0; pass < 8; ++pass) {
+    const bool fx = (pass & 1) == 0, fy = (pass & 2) == 0, fz = (pass & 4) == 0;
+    for (int kk = 0; kk < nz; ++kk) {
+      const int k = fz ? kk : nz - 1 - kk;
+      for (int jj = 0; jj < ny; ++jj) {
+        const int j = fy ? jj : ny - 1 - jj;
+        std::size_t at = index(fx ? 0 : nx - 1, j, k);
+        for (int ii = 0; ii < nx; ++ii, at += fx ? std::size_t{1} : ~std::size_t{0}) {
+          if (exact_[at] != 0) continue;
+          const int i = fx ? ii : nx - 1 - ii;
+          const double a = std::min(i > 0 ? magnitude(at - 1) : kFar, i + 1 < nx ? magnitude(at + 1) : kFar);
+          const double b = std::min(j > 0 ? magnitude(at - sy) : kFar, j + 1 < ny ? magnitude(at + sy) : kFar);
+          const double c = std::min(k > 0 ? magnitude(at - sz) : kFar, k + 1 < nz ? magnitude(at + sz) : kFar);
+          const double old = magnitude(at);
+          if (std::min({a, b, c}) >= old) continue;
+          const double u = solve(a, b, c);
+          if (u < old) values_[at] = static_cast<float>(std::copysign(u, static_cast<double>(values_[at])));
+        }
+      }
+    }
+  }
+}
+
+double DistanceGrid::value(const Eigen::Vector3d& p) const {
+  Eigen::Vector3d ignored;
+  return value(p, ignored);
+}
+
+double DistanceGrid::value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const {
+  Eigen::Vector3d g = (p - origin_).cwiseProduct(inverse_cell_), outside = Eigen::Vector3d::Zero();
+  int base[3];
+  double f[3];
+  bool out = false;
+  for (int a = 0; a < 3; ++a) {
+    const double top = nodes_[a] - 1;
+    double x = g[a];
+    if (x < 0 || x > top) {
+      const double inner = x < 0 ? 0 : top;
+      outside[a] = (x - inner) * cell_[a];
+      x = inner;
+      out = true;
+    }
+    base[a] = std::min(static_cast<int>(x), nodes_[a] - 2);
+    f[a] = x - base[a];
+  }
+  const float* v = values_.data() + index(base[0], base[1], base[2]);
+  const std::size_t sy = static_cast<std::size_t>(nodes_[0]), sz = sy * static_cast<std::size_t>(nodes_[1]);
+  const double v000 = v[0], v100 = v[1], v010 = v[sy], v110 = v[sy + 1];
+  const double v001 = v[sz], v101 = v[sz + 1], v011 = v[sz + sy], v111 = v[sz + sy + 1];
+  const double x = f[0], y = f[1], z = f[2];
+  const double x00 = v000 + x * (v100 - v000), x10 = v010 + x * (v110 - v010);
+  const double x01 = v001 + x * (v101 - v001), x11 = v011 + x * (v111 - v011);
+  const double y0 = x00 + y * (x10 - x00), y1 = x01 + y * (x11 - x01);
+  const double value = y0 + z * (y1 - y0);
+  const double dx0 = (v100 - v000) + y * ((v110 - v010) - (v100 - v000));
+  const double dx1 = (v101 - v001) + y * ((v111 - v011) - (v101 - v001));
+  gradient = Eigen::Vector3d((dx0 + z * (dx1 - dx0)) * inverse_cell_[0],
+                             ((x10 - x00) + z * ((x11 - x01) - (x10 - x00))) * inverse_cell_[1],
+                             (y1 - y0) * inverse_cell_[2]);
+  if (out) {
+    // Beyond the grid: straight on from where the grid ends.
+    gradient = gradient * std::max(value, 0.0) + outside;
+    const double total = value + outside.norm();
+    gradient.stableNormalize();
+    return total;
+  }
+  gradient.stableNormalize();
+  return value;
+}
+
+double DistanceGrid::lower_bound(const Eigen::Vector3d& p) const {
+  Eigen::Vector3d inside = p;
+  double beyond = 0;
+  for (int a = 0; a < 3; ++a) {
+    const double hi = origin_[a] + (nodes_[a] - 1) * cell_[a];
+    inside[a] = std::clamp(p[a], origin_[a], hi);
+  }
+  beyond = (p - inside).norm();
+  if (beyond > 0) {
+    // The grid's rim is kPadding cells from the solid's box: the box distance is a true bound.
+    return std::max(beyond, 0.0);
+  }
+  // First-order sweeping overestimates; what it adds stays below a tenth of the way plus a cell's diagonal.
+  return std::max(0.0, 0.9 * value(p) - 1.5 * cell_.norm());
+}
+
+}  // namespace dismantle::sdf

@@ -1,0 +1,172 @@
+#include "dismantle/sdf/shape.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "dismantle/errors.h"
+#include "dismantle/geometry/hull.h"
+
+namespace dismantle::sdf {
+namespace {
+
+/// Axes of the smallest box among those along pairs of the largest face directions, and the mesh's own axes.
+Eigen::Quaterniond box_frame(const Mesh& mesh) {
+  struct Direction {
+    Eigen::Vector3d n;
+    double area;
+  };
+  std::vector<Direction> directions;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Eigen::Vector3d c = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+    const double area = c.norm();
+    if (!(area > 0)) continue;
+    const Eigen::Vector3d n = c / area;
+    const auto known = std::find_if(directions.begin(), directions.end(),
+                                    [&](const Direction& d) { return std::abs(d.n.dot(n)) > 0.99999; });
+    if (known != directions.end())
+      known->area += area;
+    else if (directions.size() < 64)
+      directions.push_back({n, area});
+  }
+  std::stable_sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+  if (directions.size() > 8) directions.resize(8);
+  const auto volume = [&](const Eigen::Matrix3d& r) {  // of the box in the frame whose axes are r's rows
+    Eigen::Vector3d lo = r * mesh.vertices.front(), hi = lo;
+    for (const auto& v : mesh.vertices) {
+      const Eigen::Vector3d p = r * v;
+      lo = lo.cwiseMin(p);
+      hi = hi.cwiseMax(p);
+    }
+    return (hi - lo).cwiseMax(1e-9).prod();
+  };
+  Eigen::Matrix3d best = Eigen::Matrix3d::Identity();
+  double best_volume = 0.98 * volume(best);
+  for (const auto& first : directions)
+    for (const auto& second : directions) {
+      Eigen::Vector3d y = second.n - second.n.dot(first.n) * first.n;
+      if (y.norm() < 0.1) continue;
+      y.normalize();
+      Eigen::Matrix3d r;
+      r.row(0) = first.n;
+      r.row(1) = y;
+      r.row(2) = first.n.cross(y);
+      const double v = volume(r);
+      if (v < 0.999 * best_volume) {
+        best_volume = v;
+        best = r;
+      }
+    }
+  return Eigen::Quaterniond(best).normalized();
+}
+
+Mesh moved(const Mesh& mesh, const Pose& pose) {
+  Mesh out = mesh;
+  for (auto& v : out.vertices) v = pose * v;
+  return out;
+}
+
+std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, const ShapeOptions& options) {
+  auto shape = std::make_shared<Shape>();
+  const Mesh mesh = moved(*part.mesh, to_shape);
+  const Mesh surface = moved(*part.surface, to_shape);
+  shape->box = mesh.box();
+  for (const Solid& solid : split_solids(mesh)) {
+    SolidField field;
+    field.box = solid.mesh.box();
+    field.surface = std::make_unique<SurfaceQuery>(solid);
+    field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, options.grid);
+    shape->solids.push_back(std::move(field));
+  }
+  if (shape->solids.empty()) throw InputError(part.name, "encloses no volume");
+  shape->points = sample_contact_points(mesh, surface, options.points);
+  shape->hull = hull_corners(mesh.vertices);
+  shape->mass = mass_properties(mesh);
+  for (const auto& v : mesh.vertices) shape->radius = std::max(shape->radius, (v - shape->mass.center).norm());
+  return shape;
+}
+
+}  // namespace
+
+std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance) {
+  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.vertices.size() < 3) return std::nullopt;
+  // Three vertices that span a large triangle fix the motion; all others must follow it.
+  const auto farthest = [&](const auto& measure) {
+    std::size_t best = 0;
+    double value = -1;
+    for (std::size_t i = 0; i < a.vertices.size(); ++i)
+      if (const double m = measure(a.vertices[i]); m > value) value = m, best = i;
+    return best;
+  };
+  const std::size_t i0 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[0]).squaredNorm(); });
+  const std::size_t i1 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[i0]).squaredNorm(); });
+  const Eigen::Vector3d line = (a.vertices[i1] - a.vertices[i0]).stableNormalized();
+  const std::size_t i2 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[i0]).cross(line).squaredNorm(); });
+  const auto frame = [&](const Mesh& m) {
+    Eigen::Matrix3d f;
+    f.col(0) = (m.vertices[i1] - m.vertices[i0]).stableNormalized();
+    const Eigen::Vector3d u = m.vertices[i2] - m.vertices[i0];
+    f.col(1) = (u - u.dot(f.col(0)) * f.col(0)).stableNormalized();
+    f.col(2) = f.col(0).cross(f.col(1));
+    return f;
+  };
+  Pose pose;
+  pose.q = Eigen::Quaterniond(frame(b) * frame(a).transpose()).normalized();
+  pose.t = b.vertices[i0] - pose.q * a.vertices[i0];
+  for (std::size_t i = 0; i < a.vertices.size(); ++i)
+    if (!((pose * a.vertices[i] - b.vertices[i]).cwiseAbs().maxCoeff() <= tolerance)) return std::nullopt;
+  return pose;
+}
+
+std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& options, RunContext& context) {
+  constexpr double kSame = 1e-7;  // assembly units: far below any clearance, above the noise of printed coordinates
+  const std::size_t n = assembly.parts.size();
+  std::vector<std::size_t> model(n);  // part whose shape is used
+  std::vector<Pose> from_model(n);
+  std::vector<std::size_t> distinct;
+  for (std::size_t i = 0; i < n; ++i) {
+    model[i] = i;
+    for (std::size_t d : distinct)
+      if (const auto pose = congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSame)) {
+        model[i] = d;
+        from_model[i] = *pose;
+        break;
+      }
+    if (model[i] == i) distinct.push_back(i);
+  }
+
+  std::vector<Placed> placed(n);
+  std::vector<std::exception_ptr> failure(distinct.size());
+  std::atomic<std::size_t> next{0}, done{0};
+  std::mutex progress;
+  const auto work = [&] {
+    for (std::size_t k; (k = next.fetch_add(1)) < distinct.size();) {
+      const Part& part = assembly.parts[distinct[k]];
+      try {
+        if (!context.should_stop()) {
+          const Eigen::Quaterniond to_box = box_frame(*part.mesh);
+          const Pose to_shape{-(to_box * part.mesh->box().center()), to_box};
+          placed[distinct[k]] = {make_shape(part, to_shape, options), to_shape.inverse()};
+        }
+      } catch (const std::exception&) {
+        failure[k] = std::current_exception();
+      }
+      const std::lock_guard lock(progress);
+      context.progress("fields", ++done, distinct.size(), part.name);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned t = 1; t < std::min<std::size_t>(context.threads, distinct.size()); ++t) threads.emplace_back(work);
+  work();
+  for (auto& t : threads) t.join();
+  for (const auto& f : failure)
+    if (f) std::rethrow_exception(f);
+  for (std::size_t i = 0; i < n; ++i)
+    if (model[i] != i) placed[i] = {placed[model[i]].shape, from_model[i] * placed[model[i]].rest};
+  return placed;
+}
+
+}  // namespace dismantle::sdf

@@ -1,0 +1,149 @@
+#include "dismantle/sdf/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include <Eigen/Geometry>
+
+#include "dismantle/geometry/triangle_bvh.h"
+
+namespace dismantle::sdf {
+namespace {
+
+double corner_angle(const Eigen::Vector3d& at, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  const Eigen::Vector3d u = b - at, v = c - at;
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+Solid with_normals(Mesh mesh) {
+  Solid solid;
+  const std::size_t n = mesh.triangles.size();
+  solid.face_normal.resize(n);
+  solid.edge_normal.resize(n);
+  solid.vertex_normal.assign(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3d> edges;
+  for (std::size_t t = 0; t < n; ++t) {
+    const auto& tri = mesh.triangles[t];
+    const auto &a = mesh.vertex(t, 0), &b = mesh.vertex(t, 1), &c = mesh.vertex(t, 2);
+    const Eigen::Vector3d cross = (b - a).cross(c - a);
+    const double length = cross.norm();
+    solid.face_normal[t] = length > 0 ? Eigen::Vector3d(cross / length) : Eigen::Vector3d::Zero();
+    solid.vertex_normal[tri[0]] += corner_angle(a, b, c) * solid.face_normal[t];
+    solid.vertex_normal[tri[1]] += corner_angle(b, c, a) * solid.face_normal[t];
+    solid.vertex_normal[tri[2]] += corner_angle(c, a, b) * solid.face_normal[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto [slot, fresh] = edges.try_emplace(std::minmax(tri[k], tri[(k + 1) % 3]), solid.face_normal[t]);
+      if (!fresh) slot->second += solid.face_normal[t];
+    }
+  }
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      solid.edge_normal[t][k] = edges.at(std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]));
+  solid.mesh = std::move(mesh);
+  return solid;
+}
+
+/// Connected components over shared vertices, in order of their first triangle.
+std::vector<Mesh> shells_of(const Mesh& mesh) {
+  std::vector<std::uint32_t> root(mesh.vertices.size());
+  std::iota(root.begin(), root.end(), 0u);
+  const auto find = [&root](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& t : mesh.triangles)
+    for (int k = 1; k < 3; ++k) root[find(t[static_cast<std::size_t>(k)])] = find(t[0]);
+  std::vector<int> shell_of_root(mesh.vertices.size(), -1);
+  std::vector<std::uint32_t> local(mesh.vertices.size(), 0xffffffffu);
+  std::vector<Mesh> shells;
+  for (const auto& t : mesh.triangles) {
+    int& shell = shell_of_root[find(t[0])];
+    if (shell < 0) {
+      shell = static_cast<int>(shells.size());
+      shells.emplace_back();
+    }
+    Mesh& out = shells[static_cast<std::size_t>(shell)];
+    Triangle mapped{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (local[t[k]] == 0xffffffffu) {
+        local[t[k]] = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(mesh.vertices[t[k]]);
+      }
+      mapped[k] = local[t[k]];
+    }
+    out.triangles.push_back(mapped);
+  }
+  return shells;
+}
+
+void append(Mesh& to, const Mesh& from) {
+  const auto offset = static_cast<std::uint32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const auto& t : from.triangles) to.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+}
+
+}  // namespace
+
+MassProperties mass_properties(const Mesh& mesh) {
+  MassProperties m;
+  const Eigen::Vector3d origin = mesh.box().center();  // near the surface, for accuracy far from the world's origin
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();    // integral of x x^T
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d canonical = Eigen::Matrix3d::Constant(1.0 / 120.0);
+  canonical.diagonal().setConstant(1.0 / 60.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Eigen::Matrix3d edges;
+    edges << mesh.vertex(t, 0) - origin, mesh.vertex(t, 1) - origin, mesh.vertex(t, 2) - origin;
+    const double det = edges.determinant();
+    m.volume += det / 6.0;
+    first += det / 24.0 * (edges.col(0) + edges.col(1) + edges.col(2));
+    second += det * edges * canonical * edges.transpose();
+  }
+  if (m.volume > 0) {
+    const Eigen::Vector3d c = first / m.volume;
+    m.center = origin + c;
+    second -= m.volume * c * c.transpose();
+    m.inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
+  } else {
+    m.center = origin;
+  }
+  return m;
+}
+
+std::vector<Solid> split_solids(const Mesh& mesh) {
+  std::vector<Mesh> shells = shells_of(mesh);
+  if (shells.size() == 1) {
+    std::vector<Solid> one;
+    one.push_back(with_normals(mesh));
+    return one;
+  }
+  std::vector<double> volume;
+  for (const auto& s : shells) volume.push_back(mass_properties(s).volume);
+  std::vector<Mesh> solids;
+  std::vector<int> solid_of(shells.size(), -1);
+  for (std::size_t i = 0; i < shells.size(); ++i)
+    if (volume[i] > 0) {
+      solid_of[i] = static_cast<int>(solids.size());
+      solids.push_back(shells[i]);
+    }
+  std::vector<std::unique_ptr<TriangleBvh>> bvh(shells.size());
+  for (std::size_t v = 0; v < shells.size(); ++v) {
+    if (volume[v] > 0) continue;
+    int best = -1;
+    for (std::size_t i = 0; i < shells.size(); ++i) {
+      if (solid_of[i] < 0 || !shells[i].box().contains(shells[v].vertices.front())) continue;
+      if (!bvh[i]) bvh[i] = std::make_unique<TriangleBvh>(shells[i]);
+      if (!bvh[i]->inside(shells[v].vertices.front())) continue;
+      if (best < 0 || volume[i] < volume[static_cast<std::size_t>(best)]) best = static_cast<int>(i);
+    }
+    if (best >= 0) append(solids[static_cast<std::size_t>(solid_of[static_cast<std::size_t>(best)])], shells[v]);
+  }
+  std::vector<Solid> result;
+  for (auto& s : solids) result.push_back(with_normals(std::move(s)));
+  return result;
+}
+
+}  // namespace dismantle::sdf

@@ -1,0 +1,182 @@
+#include "dismantle/sdf/surface_query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace dismantle::sdf {
+namespace {
+
+enum class Feature : std::uint8_t { face, edge0, edge1, edge2, corner0, corner1, corner2 };
+
+struct Closest {
+  Eigen::Vector3d offset;  ///< p minus the closest point
+  double squared;
+  Feature feature;
+};
+
+/// Closest point of triangle a, a + ab, a + ac to p (Ericson, Real-Time Collision Detection, 5.1.5).
+inline Closest closest(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& ab,
+                       const Eigen::Vector3d& ac) {
+  const Eigen::Vector3d ap = p - a;
+  const auto done = [](const Eigen::Vector3d& offset, Feature f) { return Closest{offset, offset.squaredNorm(), f}; };
+  const double d1 = ab.dot(ap), d2 = ac.dot(ap);
+  if (d1 <= 0 && d2 <= 0) return done(ap, Feature::corner0);
+  const Eigen::Vector3d bp = ap - ab;
+  const double d3 = ab.dot(bp), d4 = ac.dot(bp);
+  if (d3 >= 0 && d4 <= d3) return done(bp, Feature::corner1);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return done(ap - d1 / (d1 - d3) * ab, Feature::edge0);
+  const Eigen::Vector3d cp = ap - ac;
+  const double d5 = ab.dot(cp), d6 = ac.dot(cp);
+  if (d6 >= 0 && d5 <= d6) return done(cp, Feature::corner2);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return done(ap - d2 / (d2 - d6) * ac, Feature::edge2);
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
+    return done(bp - (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (ac - ab), Feature::edge1);
+  const double inv = 1.0 / (va + vb + vc);
+  return done(ap - (vb * inv) * ab - (vc * inv) * ac, Feature::face);
+}
+
+float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+
+constexpr std::uint32_t kLeafSize = 4;
+
+}  // namespace
+
+SurfaceQuery::SurfaceQuery(const Solid& solid)
+    : indices_(solid.mesh.triangles), face_(solid.face_normal), vertex_(solid.vertex_normal), edge_(solid.edge_normal) {
+  const auto n = static_cast<std::uint32_t>(solid.mesh.triangles.size());
+  std::vector<Aabb> boxes(n);
+  for (std::uint32_t t = 0; t < n; ++t)
+    for (int k = 0; k < 3; ++k) boxes[t].extend(solid.mesh.vertex(t, k));
+  std::vector<std::uint32_t> ids(n);
+  std::iota(ids.begin(), ids.end(), 0u);
+  nodes_.reserve(n);
+  if (n > 0) build(0, n, ids, boxes);
+  triangle_ = ids;
+  slot_.resize(n);
+  corners_.resize(n);
+  for (std::uint32_t s = 0; s < n; ++s) {
+    slot_[ids[s]] = s;
+    const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
+    corners_[s] = {a, b - a, c - a};
+  }
+}
+
+void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids,
+                         const std::vector<Aabb>& boxes) {
+  const std::size_t self = nodes_.size();
+  nodes_.emplace_back();
+  Aabb box, centers;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    box.extend(boxes[ids[i]]);
+    centers.extend(boxes[ids[i]].center());
+  }
+  for (int k = 0; k < 3; ++k) {
+    nodes_[self].lo[k] = below(box.lo[k]);
+    nodes_[self].hi[k] = above(box.hi[k]);
+  }
+  if (count <= kLeafSize) {
+    nodes_[self].first = first;
+    nodes_[self].count = count;
+    return;
+  }
+  Eigen::Index axis = 0;
+  centers.size().maxCoeff(&axis);
+  const std::uint32_t half = count / 2;
+  const auto begin = ids.begin() + first;
+  std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t x, std::uint32_t y) {
+    const double cx = boxes[x].lo[axis] + boxes[x].hi[axis], cy = boxes[y].lo[axis] + boxes[y].hi[axis];
+    return cx != cy ? cx < cy : x < y;
+  });
+  nodes_[self].count = 0;
+  build(first, half, ids, boxes);
+  nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
+  build(first + half, count - half, ids, boxes);
+}
+
+Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const {
+  const Closest c = closest(p, corners_[slot].a, corners_[slot].ab, corners_[slot].ac);
+  const std::uint32_t t = triangle_[slot];
+  const auto f = static_cast<std::size_t>(c.feature);
+  const Eigen::Vector3d& pseudo = f == 0 ? face_[t] : f <= 3 ? edge_[t][f - 1] : vertex_[indices_[t][f - 4]];
+  Sample s;
+  s.triangle = t;
+  const double distance = std::sqrt(c.squared);
+  const bool inside = c.offset.dot(pseudo) < 0;
+  s.value = inside ? -distance : distance;
+  // On a face the normal is known better than p - q tells; on the surface itself p - q says nothing.
+  if (f == 0)
+    s.normal = face_[t];
+  else if (distance > 1e-9)
+    s.normal = (inside ? -1.0 : 1.0) / distance * c.offset;
+  else
+    s.normal = pseudo.stableNormalized();
+  return s;
+}
+
+Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint) const {
+  if (nodes_.empty()) return {};
+  double best = limit * limit;
+  std::uint32_t best_slot = kNoTriangle;
+  if (hint < slot_.size()) {
+    const std::uint32_t s = slot_[hint];
+    const Closest c = closest(p, corners_[s].a, corners_[s].ab, corners_[s].ac);
+    if (c.squared < best) {
+      best = c.squared;
+      best_slot = s;
+    }
+  }
+  // The hint may tie with another triangle: keep a strict order so that the answer does not depend on it.
+  const double px = p.x(), py = p.y(), pz = p.z();
+  const auto box_distance = [&](const Node& n) {
+    const double dx = std::max({n.lo[0] - px, px - n.hi[0], 0.0});
+    const double dy = std::max({n.lo[1] - py, py - n.hi[1], 0.0});
+    const double dz = std::max({n.lo[2] - pz, pz - n.hi[2], 0.0});
+    return dx * dx + dy * dy + dz * dz;
+  };
+  struct Entry {
+    std::uint32_t node;
+    double squared;
+  };
+  Entry stack[64];
+  int top = 0;
+  std::uint32_t node = 0;
+  double here = box_distance(nodes_[0]);
+  while (true) {
+    if (here <= best) {
+      const Node& n = nodes_[node];
+      if (n.count > 0) {
+        for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
+          const Closest c = closest(p, corners_[s].a, corners_[s].ab, corners_[s].ac);
+          if (c.squared < best || (c.squared == best && s < best_slot && best_slot != kNoTriangle)) {
+            best = c.squared;
+            best_slot = s;
+          }
+        }
+      } else {
+        std::uint32_t near = node + 1, far = n.first;
+        double dn = box_distance(nodes_[near]), df = box_distance(nodes_[far]);
+        if (df < dn) {
+          std::swap(near, far);
+          std::swap(dn, df);
+        }
+        if (df <= best) stack[top++] = {far, df};
+        node = near;
+        here = dn;
+        continue;
+      }
+    }
+    if (top == 0) break;
+    --top;
+    node = stack[top].node;
+    here = stack[top].squared;
+  }
+  if (best_slot == kNoTriangle) return {};
+  return signed_sample(p, best_slot);
+}
+
+}  // namespace dismantle::sdf

@@ -1,0 +1,72 @@
+/// Parameters of the sdf_penalty simulator.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/parameters.h"
+#include "dismantle/sdf/contact_scene.h"
+
+namespace dismantle::sdf_penalty {
+
+enum class Dynamics {
+  quasi_static,  ///< no inertia, viscous drag: a part goes where it is pushed and stops when the push stops
+  unit_mass,     ///< second order, every part has mass 1
+  density,       ///< second order, mass = density * volume: the paper's
+};
+
+struct Parameters {
+  // Table 5.
+  double contact_stiffness = 1e6;
+  double contact_damping = 0;
+  double time_step = 1e-3;
+  // Table 6; the paper lets every contact give way by 0.01 before it resists.
+  double contact_threshold = 0;
+  Dynamics dynamics = Dynamics::quasi_static;
+  double density = 1;
+  double drag = 40;
+  double max_travel = 0.02;
+  sdf::DistanceModel distance = sdf::DistanceModel::exact;
+  double cell = 0.05;
+  std::int64_t cells_per_edge = 20;
+  double edge_spacing = 0.1;
+
+  static void describe(Schema<Parameters>& s) {
+    s.add("contact_stiffness", &Parameters::contact_stiffness,
+          {.unit = "N/unit", .min = 0, .min_open = true, .doc = "Penalty stiffness k_n of each contact point (table 5)."});
+    s.add("contact_damping", &Parameters::contact_damping,
+          {.unit = "N s/unit^2", .min = 0, .doc = "Contact damping k_d of equation (1) (table 5)."});
+    s.add("time_step", &Parameters::time_step,
+          {.unit = "s", .min = 1e-6, .max = 0.1, .doc = "Simulation time step (table 5) of the second-order dynamics."});
+    s.add("contact_threshold", &Parameters::contact_threshold,
+          {.unit = "unit", .min = 0, .max = 0.1,
+           .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap (table 6 has 0.01; what "
+                  "it allows, the verifier has to allow too)."});
+    s.add_choice<Dynamics>("dynamics", &Parameters::dynamics,
+                           {{"quasi_static", Dynamics::quasi_static,
+                             "no inertia, viscous drag: speed does not depend on the part's mass or history"},
+                            {"unit_mass", Dynamics::unit_mass, "second order, every part has mass 1"},
+                            {"density", Dynamics::density, "second order, mass from volume: the paper's"}},
+                           "How forces become motion.");
+    s.add("density", &Parameters::density,
+          {.unit = "kg/unit^3", .min = 0, .min_open = true, .doc = "Density of all parts under `dynamics: density`."});
+    s.add("drag", &Parameters::drag,
+          {.unit = "N s/unit", .min = 0, .min_open = true,
+           .doc = "Drag under `dynamics: quasi_static`: a free part moves at force / drag."});
+    s.add("max_travel", &Parameters::max_travel,
+          {.unit = "unit", .min = 1e-4, .max = 0.1,
+           .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
+    s.add_choice<sdf::DistanceModel>(
+        "distance", &Parameters::distance,
+        {{"exact", sdf::DistanceModel::exact, "grid far away, closest triangle near the surface"},
+         {"grid", sdf::DistanceModel::grid, "trilinear grid everywhere: the paper's, blind below a cell"}},
+        "Where contact takes its distances from.");
+    s.add("cell", &Parameters::cell,
+          {.unit = "unit", .min = 1e-3, .max = 1, .doc = "Largest cell of the distance field (appendix A)."});
+    s.add("cells_per_edge", &Parameters::cells_per_edge,
+          {.unit = "1", .min = 1, .max = 1000, .doc = "At least so many cells along each edge of the part's box (appendix A)."});
+    s.add("edge_spacing", &Parameters::edge_spacing,
+          {.unit = "unit", .min = 1e-3, .max = 10, .doc = "Distance of contact points along sharp convex edges."});
+  }
+};
+
+}  // namespace dismantle::sdf_penalty

@@ -1,0 +1,309 @@
+#include "world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "dismantle/geometry/hull.h"
+
+namespace dismantle::sdf_penalty {
+namespace {
+
+/// Contacts within this share of a step's travel beyond it are seen in advance, so that nothing is jumped.
+constexpr double kMarginFactor = 1.25;
+/// Deeper than this after a step means that the linearised contact was too far off: solve again in place.
+constexpr double kSettleDepth = 2e-4;
+constexpr int kSettleRounds = 3;
+/// A step that covers less than this share of a free one counts as standing still.
+constexpr double kStallShare = 0.02;
+constexpr int kStallSteps = 3;
+/// Hulls count as apart from this gap on: above rounding, below any path step.
+constexpr double kSeparationGap = 1e-4;
+
+sdf::ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, const Parameters& p) {
+  const auto member = [&](const PlacedPart& part) {
+    return sdf::ContactScene::Member{part.part, &prepared.placed[part.part], part.pose};
+  };
+  std::vector<sdf::ContactScene::Member> moving, still;
+  for (const auto& m : cast.moving) moving.push_back(member(m));
+  for (const auto& s : cast.still) still.push_back(member(s));
+  return {std::move(moving), std::move(still), p.distance, kMarginFactor * p.max_travel,
+          [&](PartId a, PartId b) { return prepared.allowed(a, b) + p.contact_threshold; }};
+}
+
+}  // namespace
+
+PenaltyWorld::PenaltyWorld(const PreparedShapes& prepared, const Cast& cast, MotionSpace space,
+                           const Parameters& parameters)
+    : cast_(cast), space_(space), parameters_(parameters), scene_(make_scene(prepared, cast, parameters)) {
+  if (cast.moving.empty() || cast.moving.size() > kMaxBodies)
+    throw std::invalid_argument("sdf_penalty moves 1 to " + std::to_string(kMaxBodies) + " parts at once");
+  per_body_ = space == MotionSpace::translation ? 3 : 6;
+  for (std::size_t i = 0; i < cast.moving.size(); ++i) {
+    const sdf::Placed& placed = prepared.placed[cast.moving[i].part];
+    const sdf::MassProperties& mass = placed.shape->mass;
+    Body body;
+    body.center = scene_.center(i);
+    body.radius = std::max(placed.shape->radius, 1e-9);
+    if (parameters.dynamics == Dynamics::density) {
+      const Eigen::Matrix3d r = placed.rest.q.toRotationMatrix();
+      body.mass = parameters.density * mass.volume;
+      body.inertia = parameters.density * (r * mass.inertia * r.transpose());
+    } else {
+      body.mass = 1;
+      body.inertia = body.radius * body.radius * Eigen::Matrix3d::Identity();
+    }
+    for (const auto& corner : placed.shape->hull) body.hull.push_back(placed.rest * corner);
+    bodies_.push_back(std::move(body));
+  }
+  for (const auto& s : cast.still) {
+    const sdf::Placed& placed = prepared.placed[s.part];
+    const Pose world = s.pose * placed.rest;
+    for (const auto& corner : placed.shape->hull) rest_hull_.push_back(world * corner);
+  }
+  for (const auto& p : rest_hull_) rest_box_.extend(p);
+  poses_.resize(bodies_.size());
+}
+
+State PenaltyWorld::initial_state() const {
+  State s;
+  for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  return s;
+}
+
+void PenaltyWorld::update_contacts(const State& state) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
+  scene_.update(poses_, touching_);
+}
+
+void PenaltyWorld::build_rows(const State& state, double dt) {
+  rows_.clear();
+  const bool damped = parameters_.contact_damping > 0 && dt > 0;
+  for (const auto& c : touching_) {
+    ContactRow row;
+    row.gap = c.gap;
+    row.stiffness = parameters_.contact_stiffness;
+    double approach = 0;
+    const auto side = [&](int body, double sign, int& first, Eigen::Matrix<double, 6, 1>& j) {
+      if (body < 0) return;
+      const BodyState& b = state.bodies[static_cast<std::size_t>(body)];
+      const Eigen::Vector3d arm = c.point - b.pose * bodies_[static_cast<std::size_t>(body)].center;
+      first = body * per_body_;
+      j.head<3>() = sign * c.normal;
+      j.tail<3>() = sign * arm.cross(c.normal);
+      approach += j.head<3>().dot(b.velocity) + j.tail<3>().dot(b.angular_velocity);
+    };
+    side(c.owner, 1.0, row.first, row.j_first);
+    side(c.surface, -1.0, row.second, row.j_second);
+    // Equation (1): f = (-k_n + k_d d') d n, with the rate of the last step.
+    if (damped) row.stiffness = std::max(0.0, row.stiffness - parameters_.contact_damping * approach);
+    rows_.push_back(row);
+  }
+}
+
+template <int Dof>
+double PenaltyWorld::displace(State& state, const typename StepSolver<Dof>::Vector& x) const {
+  double largest = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Pose& pose = state.bodies[i].pose;
+    const auto at = static_cast<Eigen::Index>(i) * per_body_;
+    const Eigen::Vector3d d = x.template segment<3>(at);
+    double travel = d.norm();
+    if (per_body_ == 3) {
+      pose.t += d;
+    } else {
+      const Eigen::Vector3d turn = x.template segment<3>(at + 3);
+      const Eigen::Vector3d center = pose * bodies_[i].center + d;
+      pose.q = (rotation_from_vector(turn) * pose.q).normalized();
+      pose.t = center - pose.q * bodies_[i].center;
+      travel += turn.norm() * bodies_[i].radius;
+    }
+    largest = std::max(largest, travel);
+  }
+  return largest;
+}
+
+/// Pushes the state out of surfaces that it sank into further than the action's force explains.
+template <int Dof>
+void PenaltyWorld::settle(State& state) {
+  using Solver = StepSolver<Dof>;
+  const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
+  for (int round = 0; round < kSettleRounds; ++round) {
+    double deepest = 0;
+    for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
+    if (deepest <= kSettleDepth) return;
+    build_rows(state, 0);
+    typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (int k = 0; k < per_body_; ++k) {
+        const auto at = static_cast<Eigen::Index>(i) * per_body_ + k;
+        weight(at, at) = 1e-3 * parameters_.contact_stiffness * (k < 3 ? 1.0 : bodies_[i].radius * bodies_[i].radius);
+      }
+    typename Solver::Vector x(n);
+    Solver().solve(weight, Solver::Vector::Zero(n), rows_, per_body_, x);
+    if (!x.allFinite()) return;
+    // A correction larger than a step would be a jump, not a correction.
+    double travel = 0;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i) * per_body_;
+      travel = std::max(travel, x.template segment<3>(at).norm() +
+                                    (per_body_ == 6 ? x.template segment<3>(at + 3).norm() * bodies_[i].radius : 0.0));
+    }
+    if (travel > parameters_.max_travel) x *= parameters_.max_travel / travel;
+    displace<Dof>(state, x);
+    update_contacts(state);
+  }
+}
+
+double PenaltyWorld::quasi_static_step(const Action& action) const {
+  double speed = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    double v = action.wrenches[i].force.norm();
+    if (per_body_ == 6) v += action.wrenches[i].torque.norm() / bodies_[i].radius;
+    speed = std::max(speed, v / parameters_.drag);
+  }
+  return speed > 0 ? parameters_.max_travel / speed : 0;
+}
+
+/// One implicit step from the contacts of the last update; leaves them updated.
+template <int Dof>
+PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, double* travel) {
+  using Solver = StepSolver<Dof>;
+  const bool still_water = parameters_.dynamics == Dynamics::quasi_static;
+  const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
+  typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
+  typename Solver::Vector target = Solver::Vector::Zero(n);
+  double free_travel = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i) * per_body_;
+    const Body& body = bodies_[i];
+    const BodyState& s = state.bodies[i];
+    const Wrench& wrench = action.wrenches[i];
+    const double r2 = body.radius * body.radius;
+    Eigen::Vector3d shift, turn = Eigen::Vector3d::Zero();
+    if (still_water) {
+      weight.template block<3, 3>(at, at).diagonal().setConstant(parameters_.drag / dt);
+      shift = dt / parameters_.drag * wrench.force;
+      if (per_body_ == 6) {
+        weight.template block<3, 3>(at + 3, at + 3).diagonal().setConstant(parameters_.drag * r2 / dt);
+        turn = dt / (parameters_.drag * r2) * wrench.torque;
+      }
+    } else {
+      weight.template block<3, 3>(at, at).diagonal().setConstant(body.mass / (dt * dt));
+      shift = dt * s.velocity + dt * dt / body.mass * wrench.force;
+      if (per_body_ == 6) {
+        const Eigen::Matrix3d r = s.pose.q.toRotationMatrix();
+        const Eigen::Matrix3d inertia = r * body.inertia * r.transpose();
+        weight.template block<3, 3>(at + 3, at + 3) = inertia / (dt * dt);
+        const Eigen::Vector3d torque = wrench.torque - s.angular_velocity.cross(inertia * s.angular_velocity);
+        turn = dt * s.angular_velocity + dt * dt * inertia.ldlt().solve(torque);
+      }
+    }
+    const double way = shift.norm() + turn.norm() * body.radius;
+    const double scale = way > parameters_.max_travel ? parameters_.max_travel / way : 1.0;
+    target.template segment<3>(at) = scale * shift;
+    if (per_body_ == 6) target.template segment<3>(at + 3) = scale * turn;
+    free_travel = std::max(free_travel, scale * way);
+  }
+  build_rows(state, dt);
+  typename Solver::Vector x(n);
+  Solver().solve(weight, target, rows_, per_body_, x);
+  if (!x.allFinite()) {
+    *travel = std::numeric_limits<double>::quiet_NaN();
+    return Moved::stalled;
+  }
+  *travel = displace<Dof>(state, x);
+  if (!still_water)
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i) * per_body_;
+      state.bodies[i].velocity = x.template segment<3>(at) / dt;
+      if (per_body_ == 6) state.bodies[i].angular_velocity = x.template segment<3>(at + 3) / dt;
+    }
+  update_contacts(state);
+  if (still_water) settle<Dof>(state);
+  return *travel < kStallShare * free_travel ? Moved::stalled : Moved::freely;
+}
+
+StepReport PenaltyWorld::advance(State& state, const Action& action, double duration, Trace* trace) {
+  if (action.wrenches.size() != bodies_.size() || state.bodies.size() != bodies_.size())
+    throw std::invalid_argument("state and action need one entry per moving part");
+  StepReport report;
+  const State begin = state;
+  update_contacts(state);
+  const bool quasi_static = parameters_.dynamics == Dynamics::quasi_static;
+  const double natural = quasi_static ? quasi_static_step(action) : parameters_.time_step;
+  if (!(natural > 0)) {  // no force, no inertia: nothing happens
+    report.stalled = true;
+    return report;
+  }
+  const int steps = std::max(1, static_cast<int>(std::ceil(duration / natural - 1e-9)));
+  const double dt = duration / steps;
+  int idle = 0;
+  for (int k = 0; k < steps; ++k) {
+    double travel = 0;
+    Moved moved;
+    if (bodies_.size() > 1)
+      moved = step<Eigen::Dynamic>(state, action, dt, &travel);
+    else if (per_body_ == 3)
+      moved = step<3>(state, action, dt, &travel);
+    else
+      moved = step<6>(state, action, dt, &travel);
+    ++report.steps;
+    if (!std::isfinite(travel)) {
+      state = begin;
+      report.finite = false;
+      report.stalled = true;
+      return report;
+    }
+    if (trace != nullptr) {
+      std::vector<Pose> instant;
+      for (const auto& b : state.bodies) instant.push_back(b.pose);
+      trace->push_back(std::move(instant));
+    }
+    idle = moved == Moved::stalled ? idle + 1 : 0;
+    if (quasi_static && idle >= kStallSteps) {
+      report.stalled = true;
+      break;
+    }
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    report.travel = std::max(report.travel, screw_travel(begin.bodies[i].pose, state.bodies[i].pose, bodies_[i].center,
+                                                         per_body_ == 3 ? 0.0 : bodies_[i].radius));
+  return report;
+}
+
+double PenaltyWorld::penetration(const State& state) {
+  update_contacts(state);
+  double deepest = 0;
+  for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
+  return deepest;
+}
+
+void PenaltyWorld::contacts(const State& state, std::vector<Contact>& out) {
+  update_contacts(state);
+  out.clear();
+  for (const auto& c : touching_) {
+    Contact contact;
+    contact.point = c.point;
+    contact.depth = -c.gap;
+    const bool owner_moves = c.owner >= 0;
+    contact.moving = owner_moves ? c.owner_part : c.surface_part;
+    contact.other = owner_moves ? c.surface_part : c.owner_part;
+    contact.normal = owner_moves ? c.normal : Eigen::Vector3d(-c.normal);
+    out.push_back(contact);
+  }
+}
+
+bool PenaltyWorld::separated(const State& state) {
+  if (rest_hull_.empty()) return true;
+  std::vector<Eigen::Vector3d> moving;
+  Aabb box;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    for (const auto& corner : bodies_[i].hull) {
+      moving.push_back(state.bodies[i].pose * corner);
+      box.extend(moving.back());
+    }
+  return separate(moving, rest_hull_, kSeparationGap).has_value();
+}
+
+}  // namespace dismantle::sdf_penalty
