@@ -70,6 +70,7 @@ class Booking final : public SequenceObserver {
 
   /// Throws std::logic_error at a removal that does not hold; the sequence planner is stopped by it.
   void removed(const Removal& removal, std::size_t /*parts_left*/) override {
+    if (!problem_.empty()) throw std::logic_error(problem_);  // after an error that was caught and ignored
     try {
       ledger_.book(removal);
     } catch (const std::logic_error& e) {
@@ -137,18 +138,22 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
 }
 
 /// What the sequence planner says of the parts that are left, completed and without what cannot be.
-std::vector<Unsolved> reasons(const std::vector<Unsolved>& said, const std::vector<PartId>& left, Outcome outcome) {
+std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
+  const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
   std::vector<Unsolved> result;
+  for (const auto& u : said.unsolved)
+    if (is_left(u.part)) result.push_back(u);
   for (const PartId id : left) {
-    const auto entry = std::find_if(said.begin(), said.end(), [id](const Unsolved& u) { return u.part == id; });
-    if (entry != said.end())
-      result.push_back(*entry);
-    else
-      result.push_back(
-          {id, is_success(outcome) ? Outcome::crashed : outcome, {}, {}, "the sequence planner gave no reason"});
+    const auto same = [id](const Unsolved& u) { return u.part == id; };
+    if (std::any_of(result.begin(), result.end(), same)) continue;
+    const bool planned = said.outcome != Outcome::cancelled && said.outcome != Outcome::timeout;
+    result.push_back({id,
+                      is_success(said.outcome) ? Outcome::crashed : said.outcome,
+                      {},
+                      {},
+                      planned ? "the sequence planner gave no reason" : "not tried: the run was stopped before"});
   }
-  for (auto& u : result)
-    std::erase_if(u.blocked_by, [&](PartId id) { return std::find(left.begin(), left.end(), id) == left.end(); });
+  for (auto& u : result) std::erase_if(u.blocked_by, [&](PartId id) { return !is_left(id); });
   return result;
 }
 
@@ -194,7 +199,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
       own.log(LogLevel::error,
               fmt::format("the sequence planner reports success with {} parts still together", ledger.left().size()));
     }
-    ledger.set_unsolved(reasons(sequence.unsolved, ledger.left(), result.outcome));
+    ledger.set_unsolved(reasons(sequence, ledger.left()));
   }
   for (const auto& [a, b] : precedence_of(oracle.failed(), ledger.left_in_order(), assembly.parts.size()))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);

@@ -1,0 +1,44 @@
+#include "progressive/progressive.h"
+
+#include <span>
+#include <vector>
+
+namespace dismantle {
+
+void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
+  schema.add_choice("order", &ProgressiveParams::order,
+                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+                     {"large_first", PartOrder::large_first, "descending volume"}},
+                    "Order in which the parts left are tried within a round.");
+  schema.add("max_depth", &ProgressiveParams::max_depth,
+             {.unit = "1",
+              .min = 0,
+              .max = 1e6,
+              .doc = "Largest depth of the path search; 0 = none, rounds go on until nothing is to be gained by more "
+                     "depth."});
+}
+
+SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                                 RunContext& context) {
+  OneByOne sequence(assembly, ordered_parts(assembly, params_.order), oracle, observer, context);
+  for (unsigned depth = 1; !sequence.done(); ++depth) {
+    bool removed_any = false;
+    bool deeper_may_help = false;
+    const std::vector<PartId> round = sequence.left();
+    for (std::size_t i = 0; i < round.size() && !sequence.done(); ++i) {
+      if (sequence.interrupted()) return sequence.finish();
+      const Outcome outcome = sequence.attempt(round[i], depth, std::span(round).subspan(i + 1));
+      removed_any = removed_any || is_success(outcome);
+      deeper_may_help = deeper_may_help || outcome == Outcome::depth_limit;
+    }
+    if (sequence.interrupted()) break;
+    const bool at_limit = params_.max_depth != 0 && depth >= params_.max_depth;
+    // At the limit a round is repeated at the same depth, as long as parts leave and make room for others.
+    if (at_limit && removed_any) --depth;
+    if (!removed_any && (at_limit || !deeper_may_help)) break;
+  }
+  return sequence.finish();
+}
+
+}  // namespace dismantle

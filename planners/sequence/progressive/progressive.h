@@ -1,0 +1,26 @@
+/// Algorithm 2 of the paper: search for a removal of each part, shallow first, deeper round by round.
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+struct ProgressiveParams {
+  PartOrder order = PartOrder::small_first;
+  unsigned max_depth = 0;
+  static void describe(Schema<ProgressiveParams>& schema);
+};
+
+class Progressive final : public SequencePlanner {
+ public:
+  explicit Progressive(const ProgressiveParams& params) : params_(params) {}
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  ProgressiveParams params_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,35 @@
+#include "queue/queue.h"
+
+#include <vector>
+
+namespace dismantle {
+
+void QueueParams::describe(Schema<QueueParams>& schema) {
+  schema.add_choice("order", &QueueParams::order,
+                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+                     {"large_first", PartOrder::large_first, "descending volume"}},
+                    "Order in which the parts stand in the queue at the beginning.");
+}
+
+SequenceResult Queue::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                           RunContext& context) {
+  OneByOne sequence(assembly, ordered_parts(assembly, params_.order), oracle, observer, context);
+  // The queue in two pieces: `failed` are those behind, tried with just the parts that are left now.
+  std::vector<PartId> waiting = sequence.left();
+  std::vector<PartId> failed;
+  while (!sequence.done() && !waiting.empty() && !sequence.interrupted()) {
+    const PartId part = waiting.front();
+    waiting.erase(waiting.begin());
+    if (is_success(sequence.attempt(part, 0, waiting))) {
+      waiting.insert(waiting.end(), failed.begin(), failed.end());  // there is room now: all of them once more
+      failed.clear();
+    } else {
+      failed.push_back(part);
+    }
+  }
+  sequence.interrupted();
+  return sequence.finish();
+}
+
+}  // namespace dismantle

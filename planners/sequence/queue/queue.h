@@ -1,0 +1,25 @@
+/// Algorithm 2 without depth limit: the paper's Full BFS, and the scheme of its baselines (section 6.3).
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+struct QueueParams {
+  PartOrder order = PartOrder::small_first;
+  static void describe(Schema<QueueParams>& schema);
+};
+
+class Queue final : public SequencePlanner {
+ public:
+  explicit Queue(const QueueParams& params) : params_(params) {}
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  QueueParams params_;
+};
+
+}  // namespace dismantle

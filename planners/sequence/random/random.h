@@ -1,0 +1,24 @@
+/// Parts in random order, without depth limit: what any cleverer order has to beat.
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+
+namespace dismantle {
+
+struct RandomParams {
+  unsigned max_depth = 0;
+  static void describe(Schema<RandomParams>& schema);
+};
+
+class Random final : public SequencePlanner {
+ public:
+  explicit Random(const RandomParams& params) : params_(params) {}
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  RandomParams params_;
+};
+
+}  // namespace dismantle
