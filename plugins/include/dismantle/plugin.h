@@ -1,7 +1,8 @@
 /// What a plugin includes: registration macro and registrar. See docs/write-a-planner.md.
 ///
 ///   DISMANTLE_PLUGIN("acme.planners", "1.2.0", "BSD-3-Clause", "https://example.org") {
-///     r.add<dismantle::PathPlanner, AcmeRrt, AcmeRrtParams>("acme.rrt", "Single-tree RRT in SE(3).", {.source = "LaValle 1998"});
+///     r.add<dismantle::PathPlanner, AcmeRrt, AcmeRrtParams>("acme.rrt", "Single-tree RRT in SE(3).", {.source =
+///     "LaValle 1998"});
 ///   }
 ///
 /// Impl is constructible from `const Params&`. Params declares itself (dismantle/parameters.h).
@@ -26,10 +27,22 @@ enum class PluginKind { simulator, path_planner, sequence_planner, importer };
 
 template <class Interface>
 struct PluginKindOf;
-template <> struct PluginKindOf<Simulator> { static constexpr PluginKind value = PluginKind::simulator; };
-template <> struct PluginKindOf<PathPlanner> { static constexpr PluginKind value = PluginKind::path_planner; };
-template <> struct PluginKindOf<SequencePlanner> { static constexpr PluginKind value = PluginKind::sequence_planner; };
-template <> struct PluginKindOf<Importer> { static constexpr PluginKind value = PluginKind::importer; };
+template <>
+struct PluginKindOf<Simulator> {
+  static constexpr PluginKind value = PluginKind::simulator;
+};
+template <>
+struct PluginKindOf<PathPlanner> {
+  static constexpr PluginKind value = PluginKind::path_planner;
+};
+template <>
+struct PluginKindOf<SequencePlanner> {
+  static constexpr PluginKind value = PluginKind::sequence_planner;
+};
+template <>
+struct PluginKindOf<Importer> {
+  static constexpr PluginKind value = PluginKind::importer;
+};
 
 /// For plugin types without parameters.
 struct NoParams {

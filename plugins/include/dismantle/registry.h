@@ -1,0 +1,113 @@
+/// Finds plugin files, refuses those that do not fit, and makes objects of the types that they offer.
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dismantle/errors.h"
+#include "dismantle/export.h"
+#include "dismantle/plugin.h"
+
+namespace dismantle {
+
+/// The key of the kind in a configuration: "simulator", "path_planner", "sequence_planner", "importer".
+DISMANTLE_API std::string_view to_string(PluginKind kind);
+
+/// A plugin file that was accepted.
+struct PluginFile {
+  std::filesystem::path path;  ///< absolute, symbolic links resolved
+  std::string id, version, licence, url;
+  bool built_in = false;           ///< from the install's own folder
+  std::vector<std::string> types;  ///< ids of its types, in the order of registration
+};
+
+/// A file or folder that could not be used. A warning in a list, an error when what it holds is asked for.
+struct PluginProblem {
+  std::filesystem::path file;
+  std::string plugin_id;           ///< empty when it could not be read
+  std::vector<std::string> types;  ///< ids that it would have offered, as far as known
+  std::string message;             ///< which item is wrong, both values, what to do
+};
+
+/// A type and the file that it came from.
+struct RegisteredType {
+  PluginType type;
+  const PluginFile* file = nullptr;
+};
+
+/// The folder that belongs to this copy of Dismantle: `<folder of libdismantle_plugins>/dismantle/plugins`.
+DISMANTLE_API std::filesystem::path built_in_plugin_folder();
+
+/// SHA-256 of a file's bytes, 64 hexadecimal digits. @throws InputError naming the file.
+DISMANTLE_API std::string sha256_of_file(const std::filesystem::path& file);
+
+/// What there is to choose from. Libraries stay loaded to the end of the process. After the last
+/// scan() or load(), const functions may be called from several threads.
+class DISMANTLE_API Registry {
+ public:
+  /// Searches the built-in folder, then the folders of `$DISMANTLE_PLUGIN_PATH` (colon separated).
+  Registry();
+  /// Searches `built_in_folder` alone (nothing when empty). Ids of types found elsewhere must carry a dot.
+  explicit Registry(const std::filesystem::path& built_in_folder);
+  ~Registry();
+  Registry(const Registry&) = delete;
+  Registry& operator=(const Registry&) = delete;
+
+  /// Appends a folder (all its `*.so`, in name order) or one file. Adding a path twice changes nothing.
+  void add_search_path(const std::filesystem::path& path);
+  /// Loads what the search paths hold and was not looked at before. Never throws because of a bad file:
+  /// see problems().
+  void scan();
+  /// Loads one file. The same file again is no error. @throws PluginError saying why it is refused.
+  const PluginFile& load(const std::filesystem::path& file);
+
+  /// All usable types of a kind, by id.
+  std::vector<const RegisteredType*> types(PluginKind kind) const;
+  /// nullptr when there is none (or when two files claim the id).
+  const RegisteredType* lookup(PluginKind kind, const std::string& id) const;
+  /// Of any kind: ids are unique over all kinds.
+  const RegisteredType* lookup(const std::string& id) const;
+  /// Why lookup() found nothing: a likely spelling, the kind that the id has, the file that was refused.
+  std::string why_missing(PluginKind kind, const std::string& id) const;
+  /// The same for `plugins describe ID`, where the kind does not matter.
+  std::string why_missing(const std::string& id) const;
+  /// @throws PluginError with why_missing().
+  const RegisteredType& find(PluginKind kind, const std::string& id) const;
+  const RegisteredType& find(const std::string& id) const;
+
+  /// Makes an object of type `id`; parameters that are not given have their defaults.
+  /// @throws PluginError: no such type, unknown or bad parameter, or the plugin threw.
+  template <class Interface>
+  std::shared_ptr<Interface> create(const std::string& id, const ParamSet& given = {}) const {
+    return std::static_pointer_cast<Interface>(create_object(PluginKindOf<Interface>::value, id, given));
+  }
+
+  const std::deque<PluginFile>& files() const { return files_; }
+  const std::vector<PluginProblem>& problems() const { return problems_; }
+  const std::vector<std::filesystem::path>& search_paths() const { return search_paths_; }
+
+ private:
+  struct Claim {
+    std::unique_ptr<RegisteredType> type;
+    std::vector<const PluginFile*> rivals;  // further files that claim the same id
+  };
+  std::shared_ptr<void> create_object(PluginKind kind, const std::string& id, const ParamSet& given) const;
+  const PluginFile& load_canonical(const std::filesystem::path& file);
+  void try_load(const std::filesystem::path& file);
+  std::string refused_files_text(const std::string& id) const;
+  std::string missing_text(std::string_view what, const std::string& id, const std::vector<std::string>& known) const;
+
+  std::filesystem::path built_in_folder_;
+  std::vector<std::filesystem::path> search_paths_;
+  std::size_t scanned_paths_ = 0;
+  std::deque<PluginFile> files_;  // addresses stay
+  std::map<std::string, Claim> claims_;
+  std::vector<PluginProblem> problems_;
+};
+
+}  // namespace dismantle
