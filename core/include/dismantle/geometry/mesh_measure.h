@@ -21,9 +21,9 @@ DISMANTLE_API double longest_edge(const Mesh& mesh);  ///< 0 for an empty mesh
 
 /// How the edges of a mesh are used. Closed = each directed edge is matched by its opposite.
 struct EdgeUse {
-  std::size_t open = 0;          ///< undirected edges of one triangle
-  std::size_t crowded = 0;       ///< of three or more triangles
-  std::size_t inconsistent = 0;  ///< of two or more, with unequal numbers in both directions
+  std::size_t open = 0;                             ///< undirected edges of one triangle
+  std::size_t crowded = 0;                          ///< of three or more triangles
+  std::size_t inconsistent = 0;                     ///< of two or more, with unequal numbers in both directions
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< middle of the first open (else inconsistent) edge
   bool closed() const { return open == 0 && inconsistent == 0; }
 };

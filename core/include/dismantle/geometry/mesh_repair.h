@@ -1,5 +1,6 @@
 /// Steps that turn the triangles of a file into a closed, outward surface. Each says what it did.
-/// No step moves a vertex further than its tolerance, or changes which points are inside a surface that is fine already.
+/// No step moves a vertex further than its tolerance, or changes which points are inside a surface that is fine
+/// already.
 #pragma once
 
 #include <cstddef>
@@ -51,19 +52,20 @@ struct Hole {
 DISMANTLE_API std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits);
 
 struct OrientResult {
-  std::size_t flipped = 0;     ///< triangles turned
-  std::size_t membranes = 0;   ///< triangles dropped: outside or inside of the solid on both sides
-  bool one_sided = false;      ///< some connected surface has no two sides (Moebius); left as it was
+  std::size_t flipped = 0;    ///< triangles turned
+  std::size_t membranes = 0;  ///< triangles dropped: outside or inside of the solid on both sides
+  bool one_sided = false;     ///< some connected surface has no two sides (Moebius); left as it was
 };
-/// Makes every edge-connected surface outward on its own, by following sides of triangles around edges, from a side that
-/// sees infinity. Where three or more triangles meet in an edge, triangles that do not separate the inside from the outside
-/// are dropped. Open edges count as tight. Closed consistent surfaces of positive volume come back unchanged.
+/// Makes every edge-connected surface outward on its own, by following sides of triangles around edges, from a side
+/// that sees infinity. Where three or more triangles meet in an edge, triangles that do not separate the inside from
+/// the outside are dropped. Open edges count as tight. Closed consistent surfaces of positive volume come back
+/// unchanged.
 DISMANTLE_API OrientResult orient_outward(Mesh& mesh);
 
 struct ShellResult {
   std::size_t shells = 0;
-  std::size_t voids = 0;       ///< inward shells inside a solid
-  std::size_t turned = 0;      ///< shells turned inside out
+  std::size_t voids = 0;         ///< inward shells inside a solid
+  std::size_t turned = 0;        ///< shells turned inside out
   std::size_t inner_solids = 0;  ///< outward shells inside a solid: taken as solid, as the file says
 };
 /// Decides which shells of a closed mesh are solid and which are voids. `trusted`: the file's orientation is

@@ -25,7 +25,7 @@ struct PrepareOptions {
   double size = 10.0;             ///< step 7: largest edge of the bounding box, assembly units
   double subdivide = 0.5;         ///< step 9: longest edge, assembly units; 0 = off
   std::int64_t max_triangles = 5'000'000;  ///< refuse larger assemblies with a clear message
-  static void describe(Schema<PrepareOptions>& s);
+  DISMANTLE_API static void describe(Schema<PrepareOptions>& s);
 };
 
 /// What was done to one part, in order.
