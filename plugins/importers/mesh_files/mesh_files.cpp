@@ -1,0 +1,46 @@
+#include "mesh_files.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+#include "dismantle/errors.h"
+#include "readers.h"
+
+namespace dismantle::mesh_files {
+namespace {
+
+std::string ending(const std::filesystem::path& file) {
+  std::string e = file.extension().string();
+  if (!e.empty()) e.erase(0, 1);
+  for (char& c : e)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return e;
+}
+
+}  // namespace
+
+std::vector<std::string> MeshFiles::extensions() const {
+  return {"obj", "stl", "off", "ply", "glb", "gltf", "3mf", "dae"};
+}
+
+std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::path& file) const {
+  const std::string e = ending(file);
+  if (e == "obj") return count_obj_triangles(file);
+  if (e == "stl") return count_stl_triangles(file);
+  return std::nullopt;
+}
+
+std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file) {
+  const std::string e = ending(file);
+  try {
+    if (e == "obj") return read_obj(file);
+    if (e == "stl") return read_stl(file);
+    if (e == "off") return read_off(file);
+    return read_with_assimp(file);
+  } catch (const std::bad_alloc&) {
+    throw InputError(file.string(), "too large for the memory of this machine");
+  }
+}
+
+}  // namespace dismantle::mesh_files

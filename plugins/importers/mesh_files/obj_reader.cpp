@@ -1,0 +1,194 @@
+// Wavefront OBJ in double precision.
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "dismantle/errors.h"
+#include "dismantle/geometry/mesh_measure.h"
+#include "readers.h"
+#include "text_scan.h"
+
+namespace dismantle::mesh_files {
+namespace {
+
+/// Triangles under one `o` or `g` name.
+struct Section {
+  std::string name;
+  std::vector<Triangle> triangles;
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const std::filesystem::path& file) : file_(file), lines_(file) {}
+
+  std::vector<RawPart> read() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (!line.empty() && line.back() == '\\') {
+        join_lines(line);
+        line = joined_;
+      }
+      statement(line);
+    }
+    if (objects_.empty() && groups_.empty()) {
+      if (vertices_.empty()) throw InputError(file_.string(), "no vertices: this is no OBJ mesh, or it is cut off");
+      throw InputError(file_.string(), fmt::format("{} vertices but no faces (points, lines and free-form surfaces are "
+                                                   "not read)",
+                                                   vertices_.size()));
+    }
+    return parts();
+  }
+
+ private:
+  void join_lines(std::string_view line) {
+    joined_.clear();
+    bool more = true;
+    while (more) {
+      more = !line.empty() && line.back() == '\\';
+      if (more) line.remove_suffix(1);
+      joined_ += line;
+      joined_ += ' ';
+      if (joined_.size() > (1u << 24)) lines_.fail("the line goes on for too long");
+      if (more && !lines_.next(line)) break;
+    }
+  }
+
+  void statement(std::string_view line) {
+    line = line.substr(0, line.find('#'));
+    const std::string_view keyword = take_word(line);
+    if (keyword == "v") {
+      Eigen::Vector3d v;
+      for (int k = 0; k < 3; ++k) v[k] = take_coordinate(line, lines_);
+      if (vertices_.size() >= 0xfffffffeu) lines_.fail("too many vertices");
+      vertices_.push_back(v);
+    } else if (keyword == "f") {
+      face(line);
+    } else if (keyword == "o") {
+      // Two objects of one name are two parts.
+      object_ = std::string(trimmed(line));
+      object_open_ = false;
+    } else if (keyword == "g") {
+      group_ = std::string(trimmed(line));
+    }
+    // All else is appearance, or geometry that is no mesh.
+  }
+
+  std::uint32_t index(std::string_view word) const {
+    const std::string_view first = word.substr(0, word.find('/'));
+    const auto value = to_integer(first);
+    const auto count = static_cast<std::int64_t>(vertices_.size());
+    if (!value) lines_.fail(fmt::format("'{}' is no vertex number", printable(word)));
+    const std::int64_t i = *value > 0 ? *value - 1 : count + *value;
+    if (*value == 0 || i < 0 || i >= count)
+      lines_.fail(fmt::format("vertex {} does not exist: there are {} so far", *value, count));
+    return static_cast<std::uint32_t>(i);
+  }
+
+  static std::string printable(std::string_view word) {
+    std::string s(word.substr(0, 40));
+    for (char& c : s)
+      if (c < 0x20 || c > 0x7E) c = '?';
+    return s;
+  }
+
+  void face(std::string_view rest) {
+    corners_.clear();
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) corners_.push_back(index(word));
+    if (corners_.size() < 3) lines_.fail(fmt::format("a face needs three corners, this one has {}", corners_.size()));
+    auto& out = section().triangles;
+    if (corners_.size() == 3) {
+      out.push_back({corners_[0], corners_[1], corners_[2]});
+      return;
+    }
+    points_.clear();
+    for (const auto i : corners_) points_.push_back(vertices_[i]);
+    const auto cut = triangulate_polygon(points_);
+    for (const auto& t : cut) out.push_back({corners_[t[0]], corners_[t[1]], corners_[t[2]]});
+    if (cut.empty())  // crosses itself or has no area: a fan keeps the surface closed
+      for (std::size_t i = 2; i < corners_.size(); ++i) out.push_back({corners_[0], corners_[i - 1], corners_[i]});
+  }
+
+  /// Where faces go now. Both ways of dividing the file are kept until its end tells which one it uses.
+  Section& section() {
+    if (!object_open_) {
+      objects_.push_back({object_, {}});
+      object_open_ = true;
+      groups_of_object_.clear();
+    }
+    const std::string key = object_ + '\n' + group_;
+    const auto [it, fresh] = groups_of_object_.try_emplace(key, groups_.size());
+    if (fresh) {
+      groups_.push_back({group_, {}});
+      object_of_group_.push_back(objects_.size() - 1);
+    }
+    return groups_[it->second];
+  }
+
+  std::vector<RawPart> parts() {
+    if (objects_.size() > 1 || !objects_[0].name.empty()) {
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        auto& to = objects_[object_of_group_[g]].triangles;
+        to.insert(to.end(), groups_[g].triangles.begin(), groups_[g].triangles.end());
+      }
+      // One object around all groups names the file, not a part.
+      if (objects_.size() == 1 && groups_.size() > 1) return built(groups_);
+      return built(objects_);
+    }
+    return built(groups_);
+  }
+
+  std::vector<RawPart> built(const std::vector<Section>& sections) const {
+    std::vector<RawPart> parts;
+    std::vector<std::uint32_t> local(vertices_.size(), 0), owner(vertices_.size(), 0xffffffffu);
+    for (std::uint32_t s = 0; s < sections.size(); ++s) {
+      RawPart part;
+      part.name = sections[s].name;
+      part.file = file_.filename().string();
+      for (Triangle t : sections[s].triangles) {
+        for (auto& v : t) {
+          if (owner[v] != s) {
+            owner[v] = s;
+            local[v] = static_cast<std::uint32_t>(part.mesh.vertices.size());
+            part.mesh.vertices.push_back(vertices_[v]);
+          }
+          v = local[v];
+        }
+        part.mesh.triangles.push_back(t);
+      }
+      parts.push_back(std::move(part));
+    }
+    return parts;
+  }
+
+  std::filesystem::path file_;
+  LineReader lines_;
+  std::string joined_;
+  std::vector<Eigen::Vector3d> vertices_, points_;
+  std::vector<std::uint32_t> corners_;
+  std::string object_, group_;
+  bool object_open_ = false;
+  std::vector<Section> objects_, groups_;
+  std::vector<std::size_t> object_of_group_;
+  std::unordered_map<std::string, std::size_t> groups_of_object_;
+};
+
+}  // namespace
+
+std::vector<RawPart> read_obj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+
+std::optional<std::uint64_t> count_obj_triangles(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::uint64_t triangles = 0;
+  std::string line;
+  while (std::getline(in, line)) {
+    std::string_view rest = line;
+    if (take_word(rest) != "f") continue;
+    std::uint64_t corners = 0;
+    while (!take_word(rest).empty()) ++corners;
+    triangles += corners > 2 ? corners - 2 : 0;
+  }
+  return triangles;
+}
+
+}  // namespace dismantle::mesh_files

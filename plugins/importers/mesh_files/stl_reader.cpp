@@ -1,0 +1,149 @@
+// STL, text and binary. Vertices are not shared in the file; preparation welds them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include "dismantle/errors.h"
+#include "readers.h"
+#include "text_scan.h"
+
+namespace dismantle::mesh_files {
+namespace {
+
+constexpr std::size_t kHeader = 84, kRecord = 50;
+
+/// What a binary file states about itself.
+struct BinaryHeader {
+  std::uint64_t size = 0;       ///< of the file
+  std::uint32_t triangles = 0;  ///< as stated
+  bool says_solid = false;      ///< starts like a text file (many binary files do, too)
+  bool fits() const { return size >= kHeader && size == kHeader + kRecord * std::uint64_t{triangles}; }
+};
+
+std::uint32_t little_endian(const unsigned char* p) {
+  return static_cast<std::uint32_t>(p[0]) | static_cast<std::uint32_t>(p[1]) << 8 |
+         static_cast<std::uint32_t>(p[2]) << 16 | static_cast<std::uint32_t>(p[3]) << 24;
+}
+
+std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
+  std::error_code ec;
+  BinaryHeader header;
+  header.size = std::filesystem::file_size(file, ec);
+  std::ifstream in(file, std::ios::binary);
+  if (ec || !in) return std::nullopt;
+  char bytes[kHeader] = {};
+  in.read(bytes, kHeader);
+  std::string_view start(bytes, static_cast<std::size_t>(in.gcount()));
+  if (start.starts_with("\xEF\xBB\xBF")) start.remove_prefix(3);
+  header.says_solid = trimmed(start).starts_with("solid");
+  header.triangles = little_endian(reinterpret_cast<const unsigned char*>(bytes) + 80);
+  return header;
+}
+
+bool is_text(const BinaryHeader& header) { return header.says_solid && !header.fits(); }
+
+std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header) {
+  const std::string name = file.string();
+  if (header.size < kHeader)
+    throw InputError(name, fmt::format("{} bytes are too short for an STL file: it is cut off or no STL", header.size));
+  const std::uint64_t expected = kHeader + kRecord * std::uint64_t{header.triangles};
+  if (header.size < expected)
+    throw InputError(name, fmt::format("cut off: its header states {} triangles, which take {} bytes, but it has {}",
+                                       header.triangles, expected, header.size));
+  if (header.triangles == 0) throw InputError(name, "no triangles");
+  RawPart part;
+  part.file = file.filename().string();
+  part.mesh.vertices.reserve(std::size_t{3} * header.triangles);
+  part.mesh.triangles.reserve(header.triangles);
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(kHeader);
+  unsigned char record[kRecord];
+  for (std::uint32_t t = 0; t < header.triangles; ++t) {
+    if (!in.read(reinterpret_cast<char*>(record), kRecord))
+      throw InputError(name, fmt::format("cannot be read beyond triangle {}", t));
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      Eigen::Vector3d v;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t bits = little_endian(record + 12 * (corner + 1) + 4 * k);
+        float value;
+        std::memcpy(&value, &bits, sizeof value);
+        v[static_cast<Eigen::Index>(k)] = static_cast<double>(value);
+      }
+      if (!v.allFinite()) throw InputError(name, fmt::format("triangle {}: coordinate is not finite", t + 1));
+      part.mesh.vertices.push_back(v);
+    }
+    part.mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  std::vector<RawPart> parts;
+  parts.push_back(std::move(part));
+  return parts;
+}
+
+std::vector<RawPart> read_text(const std::filesystem::path& file) {
+  LineReader lines(file);
+  std::vector<RawPart> parts;
+  bool in_solid = false, in_facet = false;
+  std::size_t corners = 0;
+  std::string_view line;
+  while (lines.next(line)) {
+    const std::string_view keyword = take_word(line);
+    if (keyword == "vertex") {
+      if (!in_facet) lines.fail("'vertex' outside of a facet");
+      if (++corners > 3) lines.fail("a facet with more than three vertices");
+      Eigen::Vector3d v;
+      for (int k = 0; k < 3; ++k) v[k] = take_coordinate(line, lines);
+      parts.back().mesh.vertices.push_back(v);
+    } else if (keyword == "facet") {
+      if (!in_solid) lines.fail("'facet' outside of a solid");
+      if (in_facet) lines.fail("'facet' inside a facet");
+      in_facet = true;
+      corners = 0;
+    } else if (keyword == "endfacet") {
+      if (!in_facet || corners != 3) lines.fail(fmt::format("a facet with {} vertices", corners));
+      const auto n = static_cast<std::uint32_t>(parts.back().mesh.vertices.size());
+      parts.back().mesh.triangles.push_back({n - 3, n - 2, n - 1});
+      in_facet = false;
+    } else if (keyword == "solid") {
+      if (in_solid) lines.fail("'solid' inside a solid");
+      in_solid = true;
+      parts.emplace_back();
+      parts.back().name = std::string(trimmed(line));
+      parts.back().file = file.filename().string();
+    } else if (keyword == "endsolid") {
+      if (!in_solid || in_facet) lines.fail("'endsolid' where none can be");
+      in_solid = false;
+    } else if (!keyword.empty() && keyword != "outer" && keyword != "endloop" && keyword != "color") {
+      lines.fail("this is no line of an STL file");
+    }
+  }
+  if (in_solid) lines.fail("the file ends inside a solid: it is cut off");
+  std::erase_if(parts, [](const RawPart& p) { return p.mesh.triangles.empty(); });
+  if (parts.empty()) throw InputError(file.string(), "no triangles");
+  return parts;
+}
+
+}  // namespace
+
+std::vector<RawPart> read_stl(const std::filesystem::path& file) {
+  const auto header = header_of(file);
+  if (!header) throw InputError(file.string(), "cannot be opened");
+  return is_text(*header) ? read_text(file) : read_binary(file, *header);
+}
+
+std::optional<std::uint64_t> count_stl_triangles(const std::filesystem::path& file) {
+  const auto header = header_of(file);
+  if (!header) return std::nullopt;
+  if (!is_text(*header)) return header->triangles;
+  std::ifstream in(file, std::ios::binary);
+  std::uint64_t triangles = 0;
+  std::string line;
+  while (std::getline(in, line)) {
+    std::string_view rest = line;
+    triangles += take_word(rest) == "endfacet";
+  }
+  return triangles;
+}
+
+}  // namespace dismantle::mesh_files

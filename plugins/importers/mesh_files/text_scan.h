@@ -1,0 +1,42 @@
+/// Reading numbers and words from lines, independent of the locale, with errors that name file and line.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dismantle::mesh_files {
+
+/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines.
+class LineReader {
+ public:
+  /// @throws InputError when the file cannot be opened.
+  explicit LineReader(const std::filesystem::path& file);
+  /// False at the end. The view holds until the next call. @throws InputError on read errors and binary data.
+  bool next(std::string_view& line);
+  /// @throws InputError "FILE: line N: problem".
+  [[noreturn]] void fail(const std::string& problem) const;
+  std::size_t number() const { return number_; }
+
+ private:
+  std::filesystem::path file_;
+  std::ifstream in_;
+  std::string buffer_;
+  std::size_t number_ = 0;
+};
+
+/// Takes the next word (no blanks) off the front of `rest`; empty at the end.
+std::string_view take_word(std::string_view& rest);
+std::string_view trimmed(std::string_view text);
+
+/// The whole word as a number. Accepts a leading '+'. Infinite and NaN values are returned as they are.
+std::optional<double> to_double(std::string_view word);
+std::optional<std::int64_t> to_integer(std::string_view word);
+
+/// Next word of `rest` as a finite coordinate. @throws InputError through `lines`.
+double take_coordinate(std::string_view& rest, const LineReader& lines);
+
+}  // namespace dismantle::mesh_files

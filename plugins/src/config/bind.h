@@ -1,0 +1,36 @@
+/// From nodes to typed values, with a diagnostic for everything that does not fit.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dismantle/config_node.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle {
+
+/// What is being bound, for messages.
+struct SectionContext {
+  std::string name;    ///< "path_planner"
+  std::string type;    ///< id, empty for sections without one
+  std::string source;  ///< "bfs 0.1.0, libbfs.so", empty for sections without a plugin
+};
+
+/// In which sections a parameter of this name exists.
+using KeyHomes = std::map<std::string, std::vector<std::string>>;
+
+/// The value that `node` holds for `spec`, or nothing and a diagnostic.
+std::optional<ParamValue> bind_value(const ParamSpec& spec, const ConfigNode& node, const SectionContext& context,
+                                     std::vector<Diagnostic>& problems);
+
+/// The complete values of a section (`node` may be nullptr: all defaults). Fills `origins` with "<name>.<key>".
+ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
+                      const KeyHomes& homes, std::map<std::string, std::string>& origins,
+                      std::vector<Diagnostic>& problems);
+
+/// "unknown key 'goal_bais' in path_planner (t_rrt); did you mean 'goal_bias'?"
+std::string unknown_key_message(const std::string& key, const SectionContext& context,
+                                const std::vector<std::string>& known, const KeyHomes& homes);
+
+}  // namespace dismantle

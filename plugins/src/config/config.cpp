@@ -1,0 +1,210 @@
+#include "dismantle/config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/bind.h"
+#include "config/layers.h"
+
+namespace dismantle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One pass over the merged tree; each step reports all that it finds.
+class Loader {
+ public:
+  Loader(const ConfigNode& root, Registry& registry, std::vector<Diagnostic>& problems)
+      : root_(root), registry_(registry), problems_(problems) {}
+
+  RunConfig load() {
+    check_top_level();
+    read_plugins();
+    for (const auto& section : plugin_sections()) choose(section);
+    collect_homes();
+    for (const auto& section : plugin_sections()) bind_plugin(section);
+    for (const auto& [name, specs] : fixed_sections())
+      config_.sections[name] = bind_section(specs, node(name), {name, "", ""}, homes_, config_.origins, problems_);
+    check_capabilities();
+    return std::move(config_);
+  }
+
+ private:
+  struct Chosen {
+    const RegisteredType* type = nullptr;
+    ConfigMark mark;
+    bool named = false;
+  };
+
+  const ConfigNode* node(const std::string& key) const {
+    const auto* member = root_.find(key);
+    return member == nullptr ? nullptr : &member->value;
+  }
+
+  void check_top_level() {
+    std::vector<std::string> known = {"schema", "extends", "plugins"};
+    for (const auto& section : plugin_sections()) known.emplace_back(section.name);
+    for (const auto& section : fixed_sections()) known.push_back(section.first);
+    for (const auto& member : root_.members)
+      if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_top_.push_back({&member, known});
+  }
+
+  void read_plugins() {
+    const ConfigNode* plugins = node("plugins");
+    if (plugins != nullptr && !plugins->is_map()) {
+      problems_.push_back(
+          plugins->mark.error(fmt::format("plugins must be a map of keys, not {}", plugins->kind_name())));
+    } else if (plugins != nullptr) {
+      for (const auto& member : plugins->members) {
+        if (member.key == "search_paths")
+          read_search_paths(member.value);
+        else
+          unknown_plugins_.push_back(&member);
+      }
+    }
+    for (const auto& path : config_.plugin_search_paths) registry_.add_search_path(path);
+    registry_.scan();
+  }
+
+  void read_search_paths(const ConfigNode& list) {
+    if (list.kind != ConfigNode::Kind::sequence) {
+      problems_.push_back(
+          list.mark.error(fmt::format("plugins.search_paths must be a list of folders, not {}", list.kind_name())));
+      return;
+    }
+    for (const auto& item : list.items) {
+      if (!item.is_scalar() || item.scalar.empty()) {
+        problems_.push_back(
+            item.mark.error(fmt::format("plugins.search_paths must hold names of folders, not {}", item.kind_name())));
+        continue;
+      }
+      // Relative to the file that says so; what the command line says is relative to the working directory.
+      const std::string file = item.mark.file();
+      const fs::path base = file.starts_with('<') ? fs::path() : fs::path(file).parent_path();
+      const fs::path path = (base / item.scalar).lexically_normal();
+      std::error_code error;
+      if (!fs::exists(path, error))
+        problems_.push_back(item.mark.error(fmt::format("plugin folder '{}' does not exist", path.string())));
+      else
+        config_.plugin_search_paths.push_back(path);
+      config_.origins[fmt::format("plugins.search_paths.{}", config_.plugin_search_paths.size())] = item.mark.text();
+    }
+  }
+
+  void choose(const PluginSection& section) {
+    Chosen& chosen = chosen_[section.name];
+    const ConfigNode* map = node(section.name);
+    if (map != nullptr) chosen.mark = map->mark;
+    const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
+    std::string id = section.default_id;
+    std::string origin = "default";
+    if (type != nullptr) {
+      chosen.mark = type->value.mark;
+      if (!type->value.is_scalar() || type->value.scalar.empty()) {
+        problems_.push_back(type->value.mark.error(fmt::format("{}.type must be the id of a {}, got {}", section.name,
+                                                               to_string(section.kind), type->value.kind_name())));
+        return;
+      }
+      id = type->value.scalar;
+      origin = type->value.mark.text();
+    }
+    chosen.type = registry_.lookup(section.kind, id);
+    if (chosen.type == nullptr) problems_.push_back(chosen.mark.error(registry_.why_missing(section.kind, id)));
+    config_.origins[std::string(section.name) + ".type"] = origin;
+    choice(section.kind).type = id;
+  }
+
+  PluginChoice& choice(PluginKind kind) {
+    if (kind == PluginKind::simulator) return config_.simulator;
+    return kind == PluginKind::path_planner ? config_.path_planner : config_.sequence_planner;
+  }
+
+  void collect_homes() {
+    for (const auto& section : plugin_sections()) {
+      const auto* type = chosen_[section.name].type;
+      if (type == nullptr) continue;
+      for (const auto& spec : type->type.params)
+        homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
+    }
+    for (const auto& [name, specs] : fixed_sections())
+      for (const auto& spec : specs) homes_[spec.name].push_back(name);
+    for (const auto& [member, known] : unknown_top_)
+      problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
+    for (const auto* member : unknown_plugins_)
+      problems_.push_back(
+          member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
+  }
+
+  void bind_plugin(const PluginSection& section) {
+    const ConfigNode* map = node(section.name);
+    const auto* type = chosen_[section.name].type;
+    if (type == nullptr) {  // its keys cannot be judged; that the section is no map can
+      if (map != nullptr && !map->is_map())
+        problems_.push_back(
+            map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
+      return;
+    }
+    const std::string source =
+        fmt::format("{} {}, {}", type->type.id, type->file->version, type->file->path.filename().string());
+    choice(section.kind).params =
+        bind_section(type->type.params, map, {section.name, type->type.id, source}, homes_, config_.origins, problems_);
+  }
+
+  void check_capabilities() {
+    const auto* planner = chosen_["path_planner"].type;
+    const auto* simulator = chosen_["simulator"].type;
+    if (planner == nullptr || simulator == nullptr) return;
+    const Capabilities& needs = planner->type.traits.needs;
+    const Capabilities& has = simulator->type.traits.provides;
+    const auto report = [&](const std::string& what) {
+      problems_.push_back(chosen_["path_planner"].mark.error(
+          fmt::format("path_planner '{}' needs a simulator with {}, which '{}' does not have", planner->type.id, what,
+                      simulator->type.id)));
+    };
+    if (needs.dynamics && !has.dynamics) report("dynamics");
+    if (needs.contacts && !has.contacts) report("contacts");
+    if (needs.distance && !has.distance) report("distance queries");
+    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+  }
+
+  const ConfigNode& root_;
+  Registry& registry_;
+  std::vector<Diagnostic>& problems_;
+  RunConfig config_;
+  KeyHomes homes_;
+  std::map<std::string, Chosen> chosen_;
+  std::vector<std::pair<const ConfigMember*, std::vector<std::string>>> unknown_top_;
+  std::vector<const ConfigMember*> unknown_plugins_;
+};
+
+/// Reading order: files as they first appear, then line and column.
+void sort_by_place(std::vector<Diagnostic>& problems) {
+  std::vector<std::string> files;
+  for (const auto& problem : problems)
+    if (std::find(files.begin(), files.end(), problem.file) == files.end()) files.push_back(problem.file);
+  const auto rank = [&files](const Diagnostic& d) {
+    return std::find(files.begin(), files.end(), d.file) - files.begin();
+  };
+  std::stable_sort(problems.begin(), problems.end(), [&rank](const Diagnostic& a, const Diagnostic& b) {
+    return std::make_tuple(rank(a), a.line, a.column) < std::make_tuple(rank(b), b.line, b.column);
+  });
+}
+
+}  // namespace
+
+RunConfig load_config(const ConfigSource& source, Registry& registry) {
+  std::vector<Diagnostic> problems;
+  const ConfigNode root = merged_tree(source, problems);
+  RunConfig config = Loader(root, registry, problems).load();
+  if (!problems.empty()) {
+    sort_by_place(problems);
+    throw ConfigError(std::move(problems));
+  }
+  config.assembly = Schema<PrepareOptions>().bind(config.sections.at("assembly"));
+  config.run = Schema<RunSettings>().bind(config.sections.at("run"));
+  config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
+  return config;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,51 @@
+#include "dismantle/config.h"
+
+namespace dismantle {
+namespace {
+
+struct VerifySettings {
+  double max_penetration = VerifyOptions{}.max_penetration;
+  static void describe(Schema<VerifySettings>& s) {
+    s.add("max_penetration", &VerifySettings::max_penetration,
+          {.unit = "assembly units",
+           .min = 0,
+           .min_open = true,
+           .doc = "Deepest penetration that a path may have, above what the pair had when assembled."});
+  }
+};
+
+}  // namespace
+
+void RunSettings::describe(Schema<RunSettings>& s) {
+  s.add("seed", &RunSettings::seed, {.unit = "1", .min = 0, .doc = "Seed of every random choice."});
+  s.add("threads", &RunSettings::threads,
+        {.unit = "1",
+         .min = 0,
+         .max = 1024,
+         .doc = "Threads to plan with; 0 = all cores. The plan does not depend on it."});
+  s.add("path_timeout", &RunSettings::path_timeout,
+        {.unit = "s", .min = 0, .doc = "Time for one attempt to take one part out; 0 = no limit."});
+  s.add("path_steps", &RunSettings::path_steps,
+        {.unit = "1",
+         .min = 0,
+         .doc = "Simulated time steps for one attempt; 0 = no limit. Unlike seconds, the same on every machine."});
+  s.add("timeout", &RunSettings::timeout, {.unit = "s", .min = 0, .doc = "Time for the whole run; 0 = no limit."});
+}
+
+const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections() {
+  static const std::vector<std::pair<std::string, std::vector<ParamSpec>>> sections = {
+      {"assembly", Schema<PrepareOptions>().specs()},
+      {"run", Schema<RunSettings>().specs()},
+      {"verify", Schema<VerifySettings>().specs()}};
+  return sections;
+}
+
+const std::vector<PluginSection>& plugin_sections() {
+  static const std::vector<PluginSection> sections = {
+      {"simulator", PluginKind::simulator, "sdf_penalty"},
+      {"path_planner", PluginKind::path_planner, "bfs"},
+      {"sequence_planner", PluginKind::sequence_planner, "progressive"}};
+  return sections;
+}
+
+}  // namespace dismantle
