@@ -1,0 +1,137 @@
+// PLY, glTF, 3MF and DAE through assimp.
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <cmath>
+
+#include "dismantle/errors.h"
+#include "readers.h"
+
+namespace dismantle::mesh_files {
+namespace {
+
+constexpr std::size_t kMaxTriangles = 100'000'000;  // a small file can name one mesh a million times
+constexpr std::size_t kMaxNodes = 1'000'000;
+
+Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
+  Eigen::Matrix4d out;
+  out << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
+  return out;
+}
+
+class SceneReader {
+ public:
+  SceneReader(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
+
+  std::vector<RawPart> read(bool ignore_root_transform) {
+    struct Visit {
+      const aiNode* node;
+      Eigen::Matrix4d above;
+    };
+    std::vector<Visit> todo{{scene_.mRootNode, Eigen::Matrix4d::Identity()}};
+    std::size_t visited = 0;
+    while (!todo.empty()) {
+      const Visit visit = todo.back();
+      todo.pop_back();
+      if (++visited > kMaxNodes) fail(fmt::format("more than {} nodes", kMaxNodes));
+      Eigen::Matrix4d to_world = visit.above;
+      if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
+      add(*visit.node, to_world);
+      for (unsigned i = visit.node->mNumChildren; i-- > 0;) todo.push_back({visit.node->mChildren[i], to_world});
+    }
+    if (parts_.empty())
+      fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
+    return std::move(parts_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_.string(), problem); }
+
+  /// All meshes of one node are one part: formats split them by material only.
+  void add(const aiNode& node, const Eigen::Matrix4d& to_world) {
+    RawPart part;
+    part.name = node.mName.C_Str();
+    part.file = file_.filename().string();
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+      if (part.name.empty()) part.name = mesh.mName.C_Str();
+      append(mesh, to_world, part);
+    }
+    if (part.mesh.empty()) return;
+    total_ += part.mesh.triangles.size();
+    if (total_ > kMaxTriangles) fail(fmt::format("more than {} triangles", kMaxTriangles));
+    parts_.push_back(std::move(part));
+  }
+
+  void append(const aiMesh& mesh, const Eigen::Matrix4d& to_world, RawPart& part) {
+    const auto base = static_cast<std::uint32_t>(part.mesh.vertices.size());
+    const Eigen::Matrix3d linear = to_world.topLeftCorner<3, 3>();
+    const Eigen::Vector3d shift = to_world.topRightCorner<3, 1>();
+    const bool mirrored = linear.determinant() < 0;
+    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+      const Eigen::Vector3d local(static_cast<double>(mesh.mVertices[v].x), static_cast<double>(mesh.mVertices[v].y),
+                                  static_cast<double>(mesh.mVertices[v].z));
+      part.mesh.vertices.push_back(linear * local + shift);
+      if (!part.mesh.vertices.back().allFinite())
+        fail(fmt::format("part '{}': vertex {} is not finite", part.name, v + 1));
+    }
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      if (face.mNumIndices != 3) {
+        other_primitives_ = true;
+        continue;
+      }
+      Triangle t;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (face.mIndices[k] >= mesh.mNumVertices)
+          fail(fmt::format("part '{}': face {} names vertex {} of {}", part.name, f + 1, face.mIndices[k] + 1,
+                           mesh.mNumVertices));
+        t[k] = base + face.mIndices[k];
+      }
+      if (mirrored) std::swap(t[1], t[2]);
+      part.mesh.triangles.push_back(t);
+    }
+  }
+
+  const std::filesystem::path& file_;
+  const aiScene& scene_;
+  std::vector<RawPart> parts_;
+  std::size_t total_ = 0;
+  bool other_primitives_ = false;
+};
+
+}  // namespace
+
+std::vector<RawPart> read_with_assimp(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  try {
+    Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
+    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    if (!scene || !scene->mRootNode) {
+      const std::string why = importer.GetErrorString();
+      throw InputError(file.string(), "cannot be read: " + (why.empty() ? "no scene in it" : why));
+    }
+    // What assimp puts into the root node of a DAE scene is a conversion to metres: parts keep the units of their file.
+    std::vector<RawPart> parts = SceneReader(file, *scene).read(ending == ".dae");
+    if (ending == ".ply")
+      for (auto& part : parts) part.name.clear();  // assimp's own invention
+    return parts;
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw InputError(file.string(), fmt::format("cannot be read: {}", e.what()));
+  }
+}
+
+}  // namespace dismantle::mesh_files
