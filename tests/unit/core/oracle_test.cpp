@@ -1,0 +1,468 @@
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fake_planning.h"
+
+namespace dismantle {
+namespace {
+
+using fake::leave;
+using fake::outcome;
+
+/// An oracle with all that it refers to.
+struct Rig {
+  Rig(Assembly a, Ingredients i, unsigned threads = 1, RunOptions o = {})
+      : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {
+    context.threads = threads;
+    context.rng = Rng(17);
+    context.on_log = [this](LogLevel level, std::string_view text) {
+      if (level == LogLevel::error) errors.emplace_back(text);
+    };
+    oracle = make_oracle(assembly, prepared, parts, options, verifier, context);
+  }
+  const AttemptResult& ask(const Attempt& a) { return oracle->attempt(a, context); }
+
+  Assembly assembly;
+  Ingredients parts;
+  RunOptions options;
+  Verifier verifier;
+  Prepared prepared;
+  RunContext context;
+  std::vector<std::string> errors;
+  std::unique_ptr<PathOracle> oracle;
+};
+
+double largest_way(const Mesh& mesh, const Pose& a, const Pose& b) {
+  double most = 0;
+  for (const auto& v : mesh.vertices) most = std::max(most, (a * v - b * v).norm());
+  return most;
+}
+
+TEST(Oracle, PathIsDenseExactAtTheStartAndEndsWhereThePlannerSaid) {
+  Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
+  const AttemptResult& r = s.ask(leave(s.assembly, 2));
+  ASSERT_EQ(r.result.outcome, Outcome::solved);
+  const Path& path = r.result.path;
+  ASSERT_GE(path.size(), 2u);
+  EXPECT_TRUE(path.front()[0].is_identity());
+  EXPECT_NEAR((path.back()[0].t - Eigen::Vector3d(0, 0, 30)).norm(), 0, 1e-9);
+  const double limit = 0.01 * s.assembly.input_box.size().maxCoeff();
+  for (std::size_t k = 1; k < path.size(); ++k)
+    EXPECT_LE(largest_way(*s.assembly.parts[2].mesh, path[k - 1][0], path[k][0]), limit);
+  EXPECT_TRUE(s.verifier.check_motion({2}, leave(s.assembly, 2).still, path).valid);
+}
+
+TEST(Oracle, LeavesOutInstantsThatSayNothingNew) {
+  const auto crawl = [](const PathQuery& q, RunContext&) {  // straight up in 50 000 steps
+    PathResult r = outcome(Outcome::solved);
+    for (int k = 0; k <= 50000; ++k) r.path.push_back(fake::straight(q.cast, {0, 0, k * 2e-4})[1]);
+    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
+    return r;
+  };
+  Rig s(fake::tube_with_blocks(1), fake::ingredients(crawl));
+  const AttemptResult& r = s.ask(leave(s.assembly, 1));
+  ASSERT_EQ(r.result.outcome, Outcome::solved);
+  EXPECT_LT(r.result.path.size(), 300u);  // 10 units at 0.04 a piece
+  EXPECT_NEAR(r.result.path.back()[0].t.z(), 10, 1e-9);
+}
+
+TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
+  for (const bool asks_first : {false, true}) {
+    const auto liar = [asks_first](const PathQuery& q, RunContext&) {
+      PathResult r = outcome(Outcome::solved);
+      r.path = fake::straight(q.cast, {0, 0, 30});
+      if (asks_first) EXPECT_FALSE(q.judge(r.path).accepted);
+      return r;
+    };
+    Rig s(fake::closed_box(), fake::ingredients(liar));
+    const AttemptResult& r = s.ask(leave(s.assembly, 1));
+    EXPECT_EQ(r.result.outcome, Outcome::crashed);
+    EXPECT_TRUE(r.result.path.empty());
+    EXPECT_NE(r.result.message.find("'scripted'"), std::string::npos) << r.result.message;
+    ASSERT_EQ(s.errors.size(), 1u);
+    EXPECT_EQ(s.errors[0], r.result.message);
+  }
+}
+
+TEST(Oracle, AcceptingOnePathDoesNotAcceptAnother) {
+  const auto swaps = [](const PathQuery& q, RunContext&) {
+    EXPECT_TRUE(q.judge(fake::straight(q.cast, {0, 0, 30})).accepted);
+    PathResult r = outcome(Outcome::solved);
+    r.path = fake::straight(q.cast, {30, 0, 0});
+    return r;
+  };
+  Rig s(fake::tube_with_blocks(1), fake::ingredients(swaps));
+  EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed);
+}
+
+TEST(Oracle, TheJudgeSaysWhere) {
+  Verdict said;
+  const auto once = [&said](const PathQuery& q, RunContext&) {
+    Path path = fake::straight(q.cast, {0, 0, -0.05});
+    path.push_back(fake::straight(q.cast, {0, 0, -30})[1]);
+    said = q.judge(path);
+    return outcome(Outcome::exhausted);
+  };
+  Rig s(fake::tube_with_blocks(1), fake::ingredients(once));
+  s.ask(leave(s.assembly, 1));
+  EXPECT_FALSE(said.accepted);
+  ASSERT_TRUE(said.has_witness);
+  EXPECT_EQ(said.part + said.other, 1u);
+  EXPECT_EQ(said.instant, 1u);
+  EXPECT_FALSE(said.reason.empty());
+}
+
+TEST(Oracle, RefusesPathsThatAreNoPaths) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto with = [](std::function<void(Path&)> spoil) {
+    return [spoil](const PathQuery& q, RunContext&) {
+      PathResult r = outcome(Outcome::solved);
+      r.path = fake::straight(q.cast, {0, 0, 30});
+      spoil(r.path);
+      EXPECT_FALSE(q.judge(r.path).accepted);
+      return r;
+    };
+  };
+  const std::vector<std::function<void(Path&)>> spoilt{
+      [](Path& p) { p.clear(); },
+      [](Path& p) { p[1].clear(); },
+      [&](Path& p) { p[1][0].t.x() = nan; },
+      [](Path& p) { p[1][0].q.coeffs() *= 2; },
+      [](Path& p) { p[0][0].t.z() = 0.01; },   // starts elsewhere
+      [](Path& p) { p[1][0].t.z() = 0.2; },    // not out yet
+      [](Path& p) { p[1][0].t.z() = 1e200; },  // runaway
+      [](Path& p) { p.resize(1); },            // goes nowhere
+  };
+  for (std::size_t i = 0; i < spoilt.size(); ++i) {
+    Rig s(fake::tube_with_blocks(1), fake::ingredients(with(spoilt[i])));
+    EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed) << "case " << i;
+  }
+}
+
+TEST(Oracle, StartIsGoalHasToBeTrue) {
+  const auto lazy = [](const PathQuery&, RunContext&) { return outcome(Outcome::start_is_goal); };
+  Rig apart(fake::row(2), fake::ingredients(lazy));
+  const AttemptResult& yes = apart.ask(leave(apart.assembly, 0));
+  EXPECT_EQ(yes.result.outcome, Outcome::start_is_goal);
+  EXPECT_EQ(yes.result.path.size(), 2u);
+  Rig inside(fake::closed_box(), fake::ingredients(lazy));
+  EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome, Outcome::crashed);
+}
+
+TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
+  const auto throws = [](const PathQuery& q, RunContext&) -> PathResult {
+    if (q.cast.moving[0].part == 0) throw std::runtime_error("index out of range");
+    throw 42;
+  };
+  Rig s(fake::row(2), fake::ingredients(throws));
+  const AttemptResult& known = s.ask(leave(s.assembly, 0));
+  EXPECT_EQ(known.result.outcome, Outcome::crashed);
+  EXPECT_NE(known.result.message.find("index out of range"), std::string::npos);
+  EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed);
+  EXPECT_EQ(s.errors.size(), 2u);
+
+  Ingredients broken = fake::ingredients(fake::push);
+  broken.path_planner = []() -> std::shared_ptr<PathPlanner> { throw std::runtime_error("no licence"); };
+  Rig t(fake::row(2), broken);
+  EXPECT_EQ(t.ask(leave(t.assembly, 0)).result.outcome, Outcome::crashed);
+  EXPECT_NE(t.ask(leave(t.assembly, 0)).result.message.find("no licence"), std::string::npos);
+}
+
+TEST(Oracle, StoppingUnaskedIsABug) {
+  const auto quits = [](const PathQuery&, RunContext&) { return outcome(Outcome::cancelled); };
+  Rig s(fake::row(2), fake::ingredients(quits));
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::crashed);
+}
+
+TEST(Oracle, SaysWhatTheSimulatorLacks) {
+  Ingredients parts = fake::ingredients(fake::push);
+  auto simulator = std::make_shared<fake::Physics>();
+  simulator->has = {.dynamics = false, .max_moving = 1};
+  parts.simulator = simulator;
+  Rig s(fake::row(3), parts);
+  const AttemptResult& r = s.ask(leave(s.assembly, 0));
+  EXPECT_EQ(r.result.outcome, Outcome::unsupported);
+  EXPECT_NE(r.result.message.find("dynamics"), std::string::npos);
+  simulator->has.dynamics = true;
+  Attempt two;
+  two.moving = {{0, Pose{}}, {1, Pose{}}};
+  two.still = {{2, Pose{}}};
+  EXPECT_EQ(s.ask(two).result.outcome, Outcome::unsupported);
+}
+
+TEST(Oracle, TheSameQuestionIsPlannedOnce) {
+  int planned = 0;
+  const auto counting = [&planned](const PathQuery& q, RunContext& c) {
+    ++planned;
+    return fake::push(q, c);
+  };
+  Rig s(fake::row(4), fake::ingredients(counting));
+  Attempt a = leave(s.assembly, 1);
+  const AttemptResult& first = s.ask(a);
+  std::swap(a.still[0], a.still[2]);
+  a.still[1].pose.q.coeffs() *= -1;  // the same rotation
+  a.still[1].pose.t.x() = -0.0;
+  EXPECT_EQ(&s.ask(a), &first);
+  EXPECT_EQ(planned, 1);
+  a.still.pop_back();  // another question
+  s.ask(a);
+  EXPECT_EQ(planned, 2);
+  EXPECT_EQ(s.oracle->counts().attempts, 2u);
+  EXPECT_EQ(s.oracle->counts().memoised, 1u);
+}
+
+TEST(Oracle, ColumnsFollowTheOrderAsked) {
+  const auto fan = [](const PathQuery& q, RunContext&) {  // each part by its own way
+    PathResult r = outcome(Outcome::solved);
+    r.path = fake::straight(q.cast, {0, 0, 0});
+    for (std::size_t i = 0; i < q.cast.moving.size(); ++i) r.path[1][i].t.z() = 10 + 10.0 * q.cast.moving[i].part;
+    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
+    return r;
+  };
+  Rig s(fake::row(3), fake::ingredients(fan));
+  Attempt a;
+  a.moving = {{0, Pose{}}, {1, Pose{}}};
+  a.still = {{2, Pose{}}};
+  Attempt b = a;
+  std::swap(b.moving[0], b.moving[1]);
+  const AttemptResult& ra = s.ask(a);
+  const AttemptResult& rb = s.ask(b);
+  ASSERT_EQ(ra.result.outcome, Outcome::solved);
+  EXPECT_EQ(ra.result.path.back()[0].t.z(), 10);
+  EXPECT_EQ(rb.result.path.back()[0].t.z(), 20);
+  EXPECT_EQ(s.oracle->counts().attempts, 1u);
+  EXPECT_EQ(&s.ask(b), &rb);
+}
+
+TEST(Oracle, WhatMoreDepthCannotChangeIsRemembered) {
+  for (const auto& [said, remembered] : std::vector<std::pair<Outcome, bool>>{{Outcome::exhausted, true},
+                                                                              {Outcome::timeout, true},
+                                                                              {Outcome::unsupported, true},
+                                                                              {Outcome::invalid_start, true},
+                                                                              {Outcome::depth_limit, false},
+                                                                              {Outcome::crashed, false}}) {
+    int planned = 0;
+    const auto fails = [&planned, said = said](const PathQuery&, RunContext&) {
+      ++planned;
+      return outcome(said);
+    };
+    Rig s(fake::row(2), fake::ingredients(fails));
+    s.ask(leave(s.assembly, 0, 3));
+    for (const unsigned depth : {4u, 5u, 0u}) EXPECT_EQ(s.ask(leave(s.assembly, 0, depth)).result.outcome, said);
+    EXPECT_EQ(planned, remembered ? 1 : 4);
+    s.ask(leave(s.assembly, 1, 3));  // another part
+    EXPECT_EQ(planned, remembered ? 2 : 5);
+  }
+}
+
+TEST(Oracle, FailingDeepSaysNothingOfShallow) {
+  int planned = 0;
+  const auto fails = [&planned](const PathQuery&, RunContext&) {
+    ++planned;
+    return outcome(Outcome::exhausted);
+  };
+  Rig s(fake::row(2), fake::ingredients(fails));
+  s.ask(leave(s.assembly, 0, 3));
+  s.ask(leave(s.assembly, 0, 2));
+  EXPECT_EQ(planned, 2);
+}
+
+TEST(Oracle, BudgetReachesThePlanner) {
+  RunOptions options;
+  options.path_steps = 77;
+  options.path_timeout = 0;
+  const auto looks = [](const PathQuery& q, RunContext&) {
+    EXPECT_EQ(q.effort.max_steps, 77u);
+    EXPECT_EQ(q.effort.max_depth, 5u);
+    EXPECT_EQ(q.effort.timeout, 0);
+    return outcome(Outcome::timeout);
+  };
+  Rig s(fake::row(2), fake::ingredients(looks), 1, options);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0, 5)).result.outcome, Outcome::timeout);
+}
+
+TEST(Oracle, InterruptionsAreNotAnswers) {
+  for (const unsigned threads : {1u, 3u}) {
+    CancelToken stop;
+    const auto interrupted = [&stop](const PathQuery& q, RunContext& c) {
+      stop.cancel();  // the user, in the midst of it
+      while (stop.cancelled() && !c.should_stop()) std::this_thread::yield();
+      if (c.should_stop()) return outcome(Outcome::exhausted);  // a sloppy planner
+      return fake::push(q, c);
+    };
+    Rig s(fake::row(2), fake::ingredients(interrupted), threads);
+    RunContext impatient = s.context;
+    impatient.cancel = stop;
+    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome, Outcome::cancelled);
+    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome, Outcome::cancelled);  // not begun
+    EXPECT_EQ(s.oracle->counts().attempts, 0u);
+    EXPECT_EQ(s.oracle->counts().memoised, 0u);
+  }
+}
+
+TEST(Oracle, AfterTheDeadlineNothingIsBegun) {
+  int planned = 0;
+  const auto counting = [&planned](const PathQuery& q, RunContext& c) {
+    ++planned;
+    return fake::push(q, c);
+  };
+  Rig s(fake::row(2), fake::ingredients(counting));
+  RunContext late = s.context;
+  late.deadline = Deadline::after_seconds(0);
+  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome, Outcome::timeout);
+  EXPECT_EQ(planned, 0);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::solved);
+  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome, Outcome::solved);  // from memory
+}
+
+PathResult draw(const PathQuery& q, RunContext& c) {
+  PathResult r = fake::push(q, c);
+  r.counts["draw"] = c.rng.uniform();
+  return r;
+}
+
+TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
+  const Assembly assembly = fake::row(6);
+  std::vector<Attempt> questions;
+  for (PartId id = 0; id < 6; ++id)
+    for (const unsigned depth : {1u, 2u, 3u}) questions.push_back(leave(assembly, id, depth));
+  std::vector<double> expected;
+  {
+    Rig s(assembly, fake::ingredients(draw));
+    for (const auto& q : questions) expected.push_back(s.ask(q).result.counts.at("draw"));
+    EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), expected.size());
+  }
+  for (const unsigned threads : {1u, 2u, 4u})
+    for (const bool hint : {false, true}) {
+      Rig s(assembly, fake::ingredients(draw), threads);
+      if (hint) s.oracle->prefetch(questions, s.context);
+      for (std::size_t i = questions.size(); i-- > 0;) {
+        EXPECT_EQ(s.ask(questions[i]).result.counts.at("draw"), expected[i]);
+      }
+      EXPECT_EQ(s.oracle->counts().attempts, questions.size());
+      EXPECT_EQ(s.oracle->counts().memoised, 0u);
+      EXPECT_EQ(s.oracle->counts().discarded, 0u);
+    }
+}
+
+TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
+  std::atomic<int> now{0}, most{0};
+  const auto busy = [&](const PathQuery& q, RunContext& c) {
+    const int n = ++now;
+    int seen = most;
+    while (n > seen && !most.compare_exchange_weak(seen, n)) {
+    }
+    std::this_thread::yield();
+    PathResult r = fake::push(q, c);
+    --now;
+    return r;
+  };
+  Rig s(fake::row(8), fake::ingredients(busy), 3);
+  std::vector<Attempt> hints;
+  for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
+  s.oracle->prefetch(hints, s.context);
+  for (const auto& h : hints) s.ask(h);
+  EXPECT_LE(most, 3);
+}
+
+/// Part 0 never ends by itself.
+PathResult endless(const PathQuery& q, RunContext& c) {
+  if (q.cast.moving[0].part != 0) return fake::push(q, c);
+  while (!c.should_stop()) std::this_thread::yield();
+  return outcome(Outcome::cancelled);
+}
+
+TEST(Oracle, WorkNobodyAskedForMakesWay) {
+  Rig s(fake::row(5), fake::ingredients(endless), 2);
+  std::vector<Attempt> hints;
+  for (const unsigned depth : {1u, 2u, 3u, 4u}) hints.push_back(leave(s.assembly, 0, depth));
+  s.oracle->prefetch(hints, s.context);  // both threads are stuck
+  for (PartId id = 1; id < 5; ++id) EXPECT_EQ(s.ask(leave(s.assembly, id)).result.outcome, Outcome::solved);
+  s.oracle->prefetch({}, s.context);
+  EXPECT_EQ(s.oracle->counts().attempts, 4u);
+  EXPECT_TRUE(s.errors.empty());
+}
+
+TEST(Oracle, EndsWhileThreadsWork) {
+  for (int trial = 0; trial < 20; ++trial) {
+    Rig s(fake::row(4), fake::ingredients(endless), 3);
+    s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1), leave(s.assembly, 0, 1)},
+                       s.context);
+    s.oracle.reset();
+  }
+}
+
+TEST(Oracle, CountsWhatWasComputedAheadInVain) {
+  std::atomic<int> ended{0};
+  const auto counting = [&](const PathQuery& q, RunContext& c) {
+    PathResult r = fake::push(q, c);
+    ++ended;
+    return r;
+  };
+  Rig s(fake::row(3), fake::ingredients(counting), 2);
+  s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1)}, s.context);
+  while (s.oracle->counts().discarded < 2) std::this_thread::yield();
+  EXPECT_EQ(ended, 2);
+  EXPECT_EQ(s.oracle->counts().attempts, 0u);
+  s.ask(leave(s.assembly, 1));
+  EXPECT_EQ(ended, 2);  // it was there already
+  EXPECT_EQ(s.oracle->counts().attempts, 1u);
+  EXPECT_EQ(s.oracle->counts().discarded, 1u);
+}
+
+TEST(Oracle, LogsOfWorkAheadAppearWhenAsked) {
+  const auto talks = [](const PathQuery& q, RunContext& c) {
+    c.log(LogLevel::error, "part " + std::to_string(q.cast.moving[0].part));
+    return outcome(Outcome::exhausted);
+  };
+  Rig s(fake::row(3), fake::ingredients(talks), 2);
+  s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1)}, s.context);
+  while (s.oracle->counts().discarded < 2) std::this_thread::yield();
+  EXPECT_TRUE(s.errors.empty());
+  s.ask(leave(s.assembly, 1));
+  EXPECT_EQ(s.errors, (std::vector<std::string>{"part 1"}));
+}
+
+TEST(Oracle, QuestionsWithoutSenseAreErrorsOfTheCaller) {
+  Rig s(fake::row(3), fake::ingredients(fake::push));
+  Attempt a = leave(s.assembly, 0);
+  a.still.push_back({0, Pose{}});
+  EXPECT_THROW(s.ask(a), std::invalid_argument);
+  a = leave(s.assembly, 0);
+  a.moving[0].part = 9;
+  EXPECT_THROW(s.ask(a), std::invalid_argument);
+  a.moving.clear();
+  EXPECT_THROW(s.ask(a), std::invalid_argument);
+  a = leave(s.assembly, 0);
+  a.still[0].pose.t.x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(s.ask(a), std::invalid_argument);
+}
+
+TEST(Oracle, NobodyLeftIsApartFromNobody) {
+  Rig s(fake::row(1), fake::ingredients(fake::push));
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::start_is_goal);
+}
+
+TEST(Oracle, NonsenseAboutBlockersIsDropped) {
+  const auto babbles = [](const PathQuery&, RunContext&) {
+    PathResult r = outcome(Outcome::exhausted);
+    r.blocked_by = {7, 1, 0, 1, 2};
+    r.best_pose = {Pose{}, Pose{}};
+    return r;
+  };
+  Rig s(fake::row(3), fake::ingredients(babbles));
+  const AttemptResult& r = s.ask(leave(s.assembly, 0));
+  EXPECT_EQ(r.result.blocked_by, (std::vector<PartId>{1, 2}));
+  EXPECT_TRUE(r.result.best_pose.empty());
+}
+
+}  // namespace
+}  // namespace dismantle
