@@ -28,7 +28,7 @@ struct Parameters {
   sdf::DistanceModel distance = sdf::DistanceModel::exact;
   double cell = 0.05;
   std::int64_t cells_per_edge = 20;
-  double edge_spacing = 0.1;
+  double contact_spacing = 0.1;
 
   static void describe(Schema<Parameters>& s) {
     s.add("contact_stiffness", &Parameters::contact_stiffness,
@@ -64,8 +64,9 @@ struct Parameters {
           {.unit = "unit", .min = 1e-3, .max = 1, .doc = "Largest cell of the distance field (appendix A)."});
     s.add("cells_per_edge", &Parameters::cells_per_edge,
           {.unit = "1", .min = 1, .max = 1000, .doc = "At least so many cells along each edge of the part's box (appendix A)."});
-    s.add("edge_spacing", &Parameters::edge_spacing,
-          {.unit = "unit", .min = 1e-3, .max = 10, .doc = "Distance of contact points along sharp convex edges."});
+    s.add("contact_spacing", &Parameters::contact_spacing,
+          {.unit = "unit", .min = 1e-3, .max = 10,
+           .doc = "Distance of contact points along edges; halved or doubled at most, after the thinnest part."});
   }
 };
 

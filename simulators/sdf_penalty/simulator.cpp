@@ -20,7 +20,7 @@ class PenaltySimulator final : public Simulator {
     sdf::ShapeOptions options;
     options.grid.cell = parameters_.cell;
     options.grid.cells_per_edge = static_cast<int>(parameters_.cells_per_edge);
-    options.points.edge_spacing = parameters_.edge_spacing;
+    options.points.spacing = parameters_.contact_spacing;
     prepared->placed = sdf::build_shapes(assembly, options, context);
     if (context.should_stop()) return prepared;
     // What overlaps when assembled may overlap as deep while it moves, pair by pair (end of B.1).

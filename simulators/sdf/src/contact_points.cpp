@@ -1,6 +1,7 @@
 #include "dismantle/sdf/contact_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -9,19 +10,29 @@
 namespace dismantle::sdf {
 namespace {
 
+/// Deviations below this (assembly units) count as straight or flat: far below any clearance that matters.
+constexpr double kFlat = 1e-5;
+/// Edges that bend less than this (rad) are tessellation of a flat face.
+constexpr double kCoplanar = 1e-3;
+
 struct Edge {
-  Eigen::Vector3d a, b;
+  std::uint32_t from = 0, to = 0;
+  double bend = 0;  ///< angle between the faces, > 0; convex only
 };
 
-/// Edges where the surface bends outwards by more than `angle`.
-std::vector<Edge> convex_edges(const Mesh& mesh, double angle) {
+struct Creases {
+  std::vector<Edge> convex;
+  std::vector<std::vector<std::uint32_t>> ends;  ///< per vertex: other ends of its bent edges, convex or not
+};
+
+Creases find_creases(const Mesh& mesh) {
   struct Side {
     std::uint32_t triangle = 0;
     int corner = 0;
-    bool paired = false;
   };
+  Creases result;
+  result.ends.resize(mesh.vertices.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Side> open;
-  std::vector<Edge> result;
   const auto normal = [&](std::size_t t) -> Eigen::Vector3d {
     return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
   };
@@ -30,21 +41,56 @@ std::vector<Edge> convex_edges(const Mesh& mesh, double angle) {
       const auto from = mesh.triangles[t][static_cast<std::size_t>(k)];
       const auto to = mesh.triangles[t][static_cast<std::size_t>((k + 1) % 3)];
       const auto other = open.find({to, from});
-      if (other == open.end() || other->second.paired) {
-        open[{from, to}] = {t, k, false};
+      if (other == open.end()) {
+        open[{from, to}] = {t, k};
         continue;
       }
-      other->second.paired = true;
-      const std::uint32_t u = other->second.triangle;
-      const Eigen::Vector3d nt = normal(t), nu = normal(u);
-      const Eigen::Vector3d& apex = mesh.vertex(u, (other->second.corner + 2) % 3);
+      const Side u = other->second;
+      open.erase(other);
+      const Eigen::Vector3d nt = normal(t), nu = normal(u.triangle);
       const double bend = std::atan2(nt.cross(nu).norm(), nt.dot(nu));
+      if (bend <= kCoplanar) continue;
+      result.ends[from].push_back(to);
+      result.ends[to].push_back(from);
       // Convex: the neighbour's apex lies below this triangle's plane.
-      if (bend > angle && nt.dot(apex - mesh.vertex(t, k)) < 0)
-        result.push_back({mesh.vertices[from], mesh.vertices[to]});
+      const Eigen::Vector3d& apex = mesh.vertex(u.triangle, (u.corner + 2) % 3);
+      if (nt.dot(apex - mesh.vertex(t, k)) < 0) result.convex.push_back({from, to, bend});
     }
   return result;
 }
+
+/// False inside flat faces and where a crease runs straight through.
+bool is_corner(const Mesh& mesh, const std::vector<std::uint32_t>& ends, std::uint32_t v) {
+  if (ends.empty()) return false;
+  if (ends.size() != 2) return true;
+  const Eigen::Vector3d &a = mesh.vertices[ends[0]], &b = mesh.vertices[ends[1]];
+  const Eigen::Vector3d along = b - a;
+  if (along.norm() < 1e-12) return true;
+  return (mesh.vertices[v] - a).cross(along).norm() / along.norm() > kFlat;
+}
+
+/// Keeps points that are at least `distance` from those kept before.
+class Thinning {
+ public:
+  explicit Thinning(double distance) : distance_(distance) {}
+  bool keep(const Eigen::Vector3d& p) {
+    const auto cell = [&](int a, int d) { return static_cast<std::int64_t>(std::floor(p[a] / distance_)) + d; };
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto found = cells_.find({cell(0, x), cell(1, y), cell(2, z)});
+          if (found == cells_.end()) continue;
+          for (const auto& q : found->second)
+            if ((p - q).squaredNorm() < distance_ * distance_) return false;
+        }
+    cells_[{cell(0, 0), cell(1, 0), cell(2, 0)}].push_back(p);
+    return true;
+  }
+
+ private:
+  double distance_;
+  std::map<std::array<std::int64_t, 3>, std::vector<Eigen::Vector3d>> cells_;
+};
 
 void split(std::vector<Eigen::Vector3d>& points, std::uint32_t first, std::uint32_t count, ContactPoints& out) {
   if (count <= ContactPoints::kBlockSize) {
@@ -84,24 +130,34 @@ ContactPoints make_blocks(std::vector<Eigen::Vector3d> points) {
   return out;
 }
 
-ContactPoints sample_contact_points(const Mesh& mesh, const Mesh& surface, const ContactPointOptions& options) {
-  const std::vector<Edge> edges = convex_edges(mesh, options.sharp_angle);
-  double total = 0;
-  for (const Edge& e : edges) total += (e.b - e.a).norm();
-  double spacing = options.edge_spacing;
-  const double room = static_cast<double>(options.max_points) - static_cast<double>(surface.vertices.size());
-  if (total / spacing > std::max(room, 1000.0)) spacing = total / std::max(room, 1000.0);
-  std::vector<Eigen::Vector3d> points = surface.vertices;
-  for (const Edge& e : edges) {
-    const int pieces = static_cast<int>(std::ceil((e.b - e.a).norm() / spacing));
-    for (int i = 1; i < pieces; ++i) points.push_back(e.a + (e.b - e.a) * (static_cast<double>(i) / pieces));
-  }
-  // The subdivided surface has vertices on the same edges: drop what coincides.
-  const auto less = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  };
-  std::sort(points.begin(), points.end(), less);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
+ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions& options) {
+  const Creases creases = find_creases(mesh);
+  std::vector<Eigen::Vector3d> points;
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
+    if (is_corner(mesh, creases.ends[v], v)) points.push_back(mesh.vertices[v]);
+
+  double sharp_length = 0;
+  for (const Edge& e : creases.convex)
+    if (e.bend > options.sharp_angle) sharp_length += (mesh.vertices[e.to] - mesh.vertices[e.from]).norm();
+  const double room = std::max(1000.0, static_cast<double>(options.max_points) - static_cast<double>(points.size()));
+  const double spacing = std::max(options.spacing, sharp_length / room);
+
+  // Sharp edges first; the smooth ones then fill what is left per area.
+  Thinning sharp(0.6 * spacing), smooth(0.8 * spacing);
+  for (const bool want_sharp : {true, false})
+    for (const Edge& e : creases.convex) {
+      if ((e.bend > options.sharp_angle) != want_sharp) continue;
+      const Eigen::Vector3d &a = mesh.vertices[e.from], &b = mesh.vertices[e.to];
+      const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
+      for (int i = 0; i <= pieces; ++i) {
+        const bool end = i == 0 || i == pieces;
+        if (end && is_corner(mesh, creases.ends[i == 0 ? e.from : e.to], i == 0 ? e.from : e.to)) continue;
+        const Eigen::Vector3d p = a + (b - a) * (static_cast<double>(i) / pieces);
+        if ((want_sharp ? sharp : smooth).keep(p)) points.push_back(p);
+      }
+      if (points.size() >= options.max_points) break;
+    }
+  if (points.empty()) points = mesh.vertices;
   return make_blocks(std::move(points));
 }
 

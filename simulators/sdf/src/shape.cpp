@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -72,7 +73,6 @@ Mesh moved(const Mesh& mesh, const Pose& pose) {
 std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, const ShapeOptions& options) {
   auto shape = std::make_shared<Shape>();
   const Mesh mesh = moved(*part.mesh, to_shape);
-  const Mesh surface = moved(*part.surface, to_shape);
   shape->box = mesh.box();
   for (const Solid& solid : split_solids(mesh)) {
     SolidField field;
@@ -82,7 +82,7 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
     shape->solids.push_back(std::move(field));
   }
   if (shape->solids.empty()) throw InputError(part.name, "encloses no volume");
-  shape->points = sample_contact_points(mesh, surface, options.points);
+  shape->points = sample_contact_points(mesh, options.points);
   shape->hull = hull_corners(mesh.vertices);
   shape->mass = mass_properties(mesh);
   for (const auto& v : mesh.vertices) shape->radius = std::max(shape->radius, (v - shape->mass.center).norm());
@@ -138,6 +138,18 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
     if (model[i] == i) distinct.push_back(i);
   }
 
+  // Contact points lie as dense as the thinnest part asks for: nothing may slip between two of them.
+  std::vector<Pose> to_shape(distinct.size());
+  double thinnest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < distinct.size(); ++k) {
+    const Mesh& mesh = *assembly.parts[distinct[k]].mesh;
+    const Eigen::Quaterniond to_box = box_frame(mesh);
+    to_shape[k] = {-(to_box * mesh.box().center()), to_box};
+    thinnest = std::min(thinnest, moved(mesh, to_shape[k]).box().size().minCoeff());
+  }
+  ShapeOptions chosen = options;
+  chosen.points.spacing = std::clamp(0.5 * thinnest, 0.5 * options.points.spacing, 2 * options.points.spacing);
+
   std::vector<Placed> placed(n);
   std::vector<std::exception_ptr> failure(distinct.size());
   std::atomic<std::size_t> next{0}, done{0};
@@ -146,11 +158,7 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
     for (std::size_t k; (k = next.fetch_add(1)) < distinct.size();) {
       const Part& part = assembly.parts[distinct[k]];
       try {
-        if (!context.should_stop()) {
-          const Eigen::Quaterniond to_box = box_frame(*part.mesh);
-          const Pose to_shape{-(to_box * part.mesh->box().center()), to_box};
-          placed[distinct[k]] = {make_shape(part, to_shape, options), to_shape.inverse()};
-        }
+        if (!context.should_stop()) placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
       } catch (const std::exception&) {
         failure[k] = std::current_exception();
       }

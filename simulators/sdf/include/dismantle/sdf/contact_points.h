@@ -22,15 +22,18 @@ struct ContactPoints {
 };
 
 struct ContactPointOptions {
-  double edge_spacing = 0.1;   ///< along convex edges, assembly units, > 0
-  double sharp_angle = 0.26;   ///< rad; edges that bend less count as smooth and get the vertices only
-  std::size_t max_points = 60'000;
+  double spacing = 0.1;            ///< along sharp edges and over smooth surfaces, assembly units, > 0
+  double sharp_angle = 0.5;        ///< rad; convex edges that bend more are sampled one by one
+  std::size_t max_points = 60'000; ///< the spacing grows where there would be more
 };
 
-/// Vertices of `surface` (the subdivided mesh) plus samples along the convex sharp edges of `mesh`. Two
-/// polyhedra that penetrate have an edge of one going through a face of the other, so edges and vertices
-/// of both sides together see every contact down to the spacing; concave edges cannot touch first.
-ContactPoints sample_contact_points(const Mesh& mesh, const Mesh& surface, const ContactPointOptions& options);
+/// Where this closed surface can touch another one first:
+///  - every vertex that is a corner or lies on a curved rim or surface,
+///  - points along convex edges, at most `spacing` apart on sharp edges, as dense per area elsewhere.
+/// Two polyhedra that penetrate have an edge of one going through a face of the other, so vertices and
+/// edges of both sides together see every contact down to the spacing. Vertices inside flat faces or on
+/// straight edges, slivers and concave edges add nothing and are left out, however finely the mesh is cut.
+ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions& options);
 
 /// Reorders `points` into blocks.
 ContactPoints make_blocks(std::vector<Eigen::Vector3d> points);

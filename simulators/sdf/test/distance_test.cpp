@@ -1,0 +1,208 @@
+/// Laws of the exact query and of the grid, on solids that are thick, thin, round, threaded, hollow and joined.
+#include <gtest/gtest.h>
+
+#include "dismantle/sdf/distance_grid.h"
+#include "dismantle/sdf/solid.h"
+#include "dismantle/sdf/surface_query.h"
+#include "test_solids.h"
+
+namespace dismantle::sdf {
+namespace {
+
+struct Case {
+  const char* name;
+  Mesh mesh;
+};
+
+std::vector<Case> cases() {
+  using Eigen::Vector3d;
+  return {
+      {"box", test::box(Vector3d(-1, -0.5, -0.3), Vector3d(1, 0.7, 0.3))},
+      {"plate thinner than a cell", test::box(Vector3d(-2, -2, 0), Vector3d(2, 2, 0.01))},
+      {"needle", test::box(Vector3d(-3, 0, 0), Vector3d(3, 0.02, 0.015))},
+      {"torus", test::torus(1.5, 0.4)},
+      {"thin ring", test::torus(1.5, 0.03, 64, 8)},
+      {"thread thinner than a cell", test::threaded_rod(0.4, 0.03, 1.2, 12)},
+      {"hollow box", test::joined(test::box(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)),
+                                  test::inside_out(test::box(Vector3d(-0.97, -0.97, -0.97), Vector3d(0.97, 0.97, 0.97))))},
+  };
+}
+
+TEST(SurfaceQuery, ValueIsTheSignedDistanceWhateverTheHint) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    ASSERT_EQ(solids.size(), 1u);
+    const SurfaceQuery query(solids[0]);
+    Rng rng(7);
+    Aabb around = c.mesh.box();
+    around.inflate(0.2);
+    for (int i = 0; i < 400; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, around);
+      const double w = test::winding(c.mesh, p);
+      const double expected = test::distance(c.mesh, p) * (w > 0.5 ? -1 : 1);
+      const Sample s = query.sample(p);
+      ASSERT_NEAR(s.value, expected, 1e-9) << p.transpose();
+      ASSERT_NEAR(s.normal.norm(), 1.0, 1e-9);
+      const auto hint = static_cast<std::uint32_t>(rng.below(c.mesh.triangles.size()));
+      const Sample t = query.sample(p, 1e9, hint);
+      ASSERT_EQ(s.value, t.value);
+      ASSERT_EQ(s.triangle, t.triangle);
+    }
+  }
+}
+
+TEST(SurfaceQuery, GradientIsTheDirectionOfSteepestAscent) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    Rng rng(8);
+    Aabb around = c.mesh.box();
+    around.inflate(0.1);
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, around);
+      const Sample s = query.sample(p);
+      if (std::abs(s.value) < 1e-4) continue;
+      const double h = 1e-6;
+      // Along its own gradient a distance grows at rate one, except across a medial axis.
+      const double rate = (query.sample(p + h * s.normal).value - s.value) / h;
+      const double back = (s.value - query.sample(p - h * s.normal).value) / h;
+      EXPECT_NEAR(std::max(rate, back), 1.0, 1e-3) << p.transpose();
+    }
+  }
+}
+
+TEST(SurfaceQuery, LimitedQueriesAnswerExactlyWithinTheLimit) {
+  const auto solids = split_solids(test::torus(1.5, 0.4));
+  const SurfaceQuery query(solids[0]);
+  Rng rng(3);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d p(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-0.6, 0.6));
+    const double limit = rng.uniform(0.01, 0.5), full = query.sample(p).value;
+    const Sample s = query.sample(p, limit);
+    if (std::abs(full) < limit)
+      EXPECT_EQ(s.value, full);
+    else
+      EXPECT_EQ(s.triangle, kNoTriangle);
+  }
+}
+
+TEST(DistanceGrid, SignIsRightWhereverTheSurfaceIsFurtherThanACell) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    const DistanceGrid grid(solids[0], query, {});
+    Rng rng(9);
+    Aabb around = c.mesh.box();
+    around.inflate(0.3);
+    int inside = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, around);
+      const double exact = query.sample(p).value;
+      if (std::abs(exact) < 0.5 * grid.cell().norm()) continue;
+      inside += exact < 0;
+      EXPECT_EQ(grid.value(p) < 0, exact < 0) << p.transpose() << " exact " << exact << " grid " << grid.value(p);
+    }
+    if (std::string_view(c.name) == "box" || std::string_view(c.name) == "torus") EXPECT_GT(inside, 50);
+  }
+}
+
+TEST(DistanceGrid, NodesOfTheBandAreExact) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    const DistanceGrid grid(solids[0], query, {});
+    const double reach = grid.cell().maxCoeff();
+    int checked = 0;
+    Rng rng(4);
+    for (int n = 0; n < 20000; ++n) {
+      const int i = static_cast<int>(rng.below(static_cast<std::uint64_t>(grid.nodes().x())));
+      const int j = static_cast<int>(rng.below(static_cast<std::uint64_t>(grid.nodes().y())));
+      const int k = static_cast<int>(rng.below(static_cast<std::uint64_t>(grid.nodes().z())));
+      const Eigen::Vector3d p = grid.origin() + Eigen::Vector3d(i, j, k).cwiseProduct(grid.cell());
+      const double exact = query.sample(p).value;
+      if (std::abs(exact) > reach) continue;
+      ++checked;
+      ASSERT_NEAR(grid.node(i, j, k), exact, 1e-6);
+    }
+    EXPECT_GT(checked, 100);
+  }
+}
+
+TEST(DistanceGrid, TrilinearErrorStaysBelowTheKnownBound) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    const DistanceGrid grid(solids[0], query, {});
+    Rng rng(10);
+    Aabb around = c.mesh.box();
+    for (int i = 0; i < 2000; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, around);
+      const double exact = query.sample(p).value;
+      if (std::abs(exact) > 0.3 * grid.cell().minCoeff()) continue;
+      // Interpolating exact nodes of a 1-Lipschitz function: at most half the cell's diagonal.
+      EXPECT_LE(std::abs(grid.value(p) - exact), 0.5 * grid.cell().norm() + 1e-6);
+    }
+  }
+}
+
+TEST(DistanceGrid, LowerBoundNeverExceedsTheDistance) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    const DistanceGrid grid(solids[0], query, {});
+    Rng rng(11);
+    Aabb around = c.mesh.box();
+    around.inflate(2);
+    double best_share = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, around);
+      const double exact = std::max(0.0, query.sample(p).value);
+      const double bound = grid.lower_bound(p);
+      ASSERT_LE(bound, exact + 1e-9) << p.transpose();
+      if (exact > 0.5) best_share = std::max(best_share, bound / exact);
+    }
+    EXPECT_GT(best_share, 0.5);  // a bound of nothing would cull nothing
+  }
+}
+
+TEST(SplitSolids, OverlappingShellsAreSeparateSolidsAndVoidsStayWithTheirs) {
+  using Eigen::Vector3d;
+  const Mesh hollow = test::joined(test::box(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)),
+                                   test::inside_out(test::box(Vector3d(-.5, -.5, -.5), Vector3d(.5, .5, .5))));
+  EXPECT_EQ(split_solids(hollow).size(), 1u);
+  const Mesh two = test::joined(hollow, test::box(Vector3d(0.8, -0.2, -0.2), Vector3d(1.5, 0.2, 0.2)));
+  const auto solids = split_solids(two);
+  ASSERT_EQ(solids.size(), 2u);
+  // Their union has the winding number's inside, also where the shells overlap.
+  std::vector<SurfaceQuery> queries;
+  for (const auto& s : solids) queries.emplace_back(s);
+  Rng rng(5);
+  Aabb around = two.box();
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3d p = test::random_point(rng, around);
+    double d = 1e9;
+    for (const auto& q : queries) d = std::min(d, q.sample(p).value);
+    EXPECT_EQ(d < 0, test::winding(two, p) > 0.5) << p.transpose();
+  }
+}
+
+TEST(MassProperties, MatchClosedForms) {
+  using Eigen::Vector3d;
+  const auto b = mass_properties(test::box(Vector3d(100, 0, 0), Vector3d(102, 3, 4)));
+  EXPECT_NEAR(b.volume, 24, 1e-9);
+  EXPECT_NEAR((b.center - Vector3d(101, 1.5, 2)).norm(), 0, 1e-9);
+  EXPECT_NEAR(b.inertia(0, 0), 24.0 / 12 * (9 + 16), 1e-8);
+  EXPECT_NEAR(b.inertia(1, 1), 24.0 / 12 * (4 + 16), 1e-8);
+  EXPECT_NEAR(b.inertia(0, 1), 0, 1e-8);
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(mass_properties(test::torus(2, 0.5, 400, 200)).volume, 2 * pi * pi * 2 * 0.25, 0.01);
+}
+
+}  // namespace
+}  // namespace dismantle::sdf
