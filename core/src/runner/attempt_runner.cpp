@@ -93,14 +93,11 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
     j.verdict.reason = "the path cuts into another part";
     if (j.check.violation) {
       const Violation& v = *j.check.violation;
-      const std::size_t from = std::min(v.segment, j.written.source.size() - 1);
-      const std::size_t to = std::min(v.segment + 1, j.written.source.size() - 1);
-      const double span = static_cast<double>(j.written.source[to] - j.written.source[from]);
       j.verdict.has_witness = true;
       j.verdict.part = v.part;
       j.verdict.other = v.other;
       j.verdict.point = v.point;
-      j.verdict.instant = j.written.source[from] + static_cast<std::size_t>(std::clamp(v.u, 0.0, 1.0) * span);
+      j.verdict.instant = j.written.given_instant(v.segment, v.u);
       const auto name = [&](PartId id) {
         return id < assembly_.parts.size() ? assembly_.parts[id].name : fmt::format("part {}", id);
       };

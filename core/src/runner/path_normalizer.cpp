@@ -82,12 +82,25 @@ double PathNormalizer::travel(const std::vector<Pose>& a, const std::vector<Pose
   return most;
 }
 
+std::size_t NormalizedPath::given_instant(std::size_t segment, double u) const {
+  const std::size_t a = std::min(segment, way.size() - 1);
+  const std::size_t b = std::min(segment + 1, way.size() - 1);
+  const double place = way[a] + std::clamp(u, 0.0, 1.0) * (way[b] - way[a]);
+  const auto after = std::upper_bound(given_way.begin(), given_way.end(), place);
+  return after == given_way.begin() ? 0 : static_cast<std::size_t>(after - given_way.begin()) - 1;
+}
+
+std::vector<double> PathNormalizer::ways(const Path& path, const std::vector<PlacedPart>& moving) const {
+  std::vector<double> way(path.size(), 0.0);
+  for (std::size_t k = 1; k < path.size(); ++k) way[k] = way[k - 1] + travel(path[k - 1], path[k], moving);
+  return way;
+}
+
 // Ramer, Douglas and Peucker on screw motions: an instant is left out when it lies on the screw motion that joins
 // the instants kept, at the place that the length of the way gives it.
-std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<PlacedPart>& moving) const {
+std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& way,
+                                                   const std::vector<PlacedPart>& moving) const {
   const std::size_t n = path.size();
-  std::vector<double> way(n, 0.0);
-  for (std::size_t k = 1; k < n; ++k) way[k] = way[k - 1] + travel(path[k - 1], path[k], moving);
   std::vector<bool> keep(n, false);
   keep.front() = keep.back() = true;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
@@ -123,9 +136,10 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
   Path clean_path = path;
   result.problem = clean(clean_path, moving);
   if (!result.problem.empty()) return result;
-  const std::vector<std::size_t> kept = essential(clean_path, moving);
+  result.given_way = ways(clean_path, moving);
+  const std::vector<std::size_t> kept = essential(clean_path, result.given_way, moving);
   result.path.push_back(clean_path.front());
-  result.source.push_back(0);
+  result.way.push_back(0);
   for (std::size_t j = 1; j < kept.size(); ++j) {
     const std::vector<Pose>& a = clean_path[kept[j - 1]];
     const std::vector<Pose>& b = clean_path[kept[j]];
@@ -143,12 +157,13 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
       if (p < pieces)
         for (std::size_t i = 0; i < moving.size(); ++i) instant[i] = screw_interpolate(a[i], b[i], u);
       result.path.push_back(std::move(instant));
-      result.source.push_back(kept[j - 1] + static_cast<std::size_t>(u * static_cast<double>(kept[j] - kept[j - 1])));
+      const double begin = result.given_way[kept[j - 1]];
+      result.way.push_back(begin + u * (result.given_way[kept[j]] - begin));
     }
   }
   if (result.path.size() == 1) {  // a plan's move has at least two poses
     result.path.push_back(result.path.front());
-    result.source.push_back(0);
+    result.way.push_back(0);
   }
   return result;
 }

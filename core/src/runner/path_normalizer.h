@@ -18,8 +18,12 @@ struct PartBall {
 /// A path as DESIGN section 7 wants it, or why there is none.
 struct NormalizedPath {
   Path path;
-  std::vector<std::size_t> source;  ///< for each instant, the instant of the given path that it is at or after
-  std::string problem;              ///< not empty: the given path is unusable
+  std::vector<double> way;        ///< for each instant, the length of the way from the start; assembly units
+  std::vector<double> given_way;  ///< the same for each instant of the given path
+  std::string problem;            ///< not empty: the given path is unusable
+
+  /// The last instant of the given path at or before place `u` in [0, 1] of `segment` (after instant `segment`).
+  std::size_t given_instant(std::size_t segment, double u) const;
 };
 
 /// Immutable; safe to share between threads.
@@ -37,7 +41,9 @@ class PathNormalizer {
 
  private:
   double travel(const std::vector<Pose>& a, const std::vector<Pose>& b, const std::vector<PlacedPart>& moving) const;
-  std::vector<std::size_t> essential(const Path& path, const std::vector<PlacedPart>& moving) const;
+  std::vector<double> ways(const Path& path, const std::vector<PlacedPart>& moving) const;
+  std::vector<std::size_t> essential(const Path& path, const std::vector<double>& way,
+                                     const std::vector<PlacedPart>& moving) const;
 
   std::vector<PartBall> balls_;  // by part id
   double max_travel_ = 0;

@@ -79,7 +79,9 @@ TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
     const auto liar = [asks_first](const PathQuery& q, RunContext&) {
       PathResult r = outcome(Outcome::solved);
       r.path = fake::straight(q.cast, {0, 0, 30});
-      if (asks_first) EXPECT_FALSE(q.judge(r.path).accepted);
+      if (asks_first) {
+        EXPECT_FALSE(q.judge(r.path).accepted);
+      }
       return r;
     };
     Rig s(fake::closed_box(), fake::ingredients(liar));
