@@ -1,0 +1,189 @@
+#include "verify/directed_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle::verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr std::uint32_t kNone = 0xffffffffu;
+/// Displacements stay this share below what is allowed, so that rounding cannot carry them beyond.
+constexpr double kShare = 1 - 1e-9;
+/// Below this share of the penetration allowed a patch in a time interval is not divided further.
+constexpr double kResolution = 1.0 / 8;
+
+Aabb box_under(const Placement& m, const Aabb& box) {
+  const Vec3 c = m * box.center(), h = m.r.cwiseAbs() * (0.5 * box.size());
+  return {c - h, c + h};
+}
+
+}  // namespace
+
+DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits,
+                             Budget& budget)
+    : a_(a), b_(b), motion_(motion), limits_(limits), budget_(budget), patch_of_(a.mesh.triangles.size(), kNone) {}
+
+Finding DirectedCheck::run() {
+  if (descend(0, static_cast<double>(motion_.segments()))) sides();
+  return finding_;
+}
+
+DirectedCheck::Interval DirectedCheck::interval(double s0, double s1) const {
+  return {s0, s1, motion_.deviation(s0, s1), Placement(motion_.at(s0)), Placement(motion_.at(s1))};
+}
+
+double DirectedCheck::middle(const Interval& i) const {
+  const double m = 0.5 * (i.s0 + i.s1);
+  return i.s1 - i.s0 > 1 ? std::floor(m) : m;
+}
+
+bool DirectedCheck::fail(Answer answer, const Vec3& point, double depth, std::uint32_t triangle, double time) {
+  finding_ = {answer, point, false, depth, a_.thickness[triangle], time};
+  return false;
+}
+
+std::uint32_t DirectedCheck::add(const Patch& patch) {
+  patches_.push_back(patch);
+  return static_cast<std::uint32_t>(patches_.size() - 1);
+}
+
+/// Triangles of A whose box comes near B's in the interval.
+void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
+  const TriangleBvh::Node& node = a_.bvh.nodes()[id];
+  Aabb swept = box_under(i.at0, node.box);
+  swept.extend(box_under(i.at1, node.box));
+  swept.inflate(i.margin + limits_.most());
+  if (!swept.overlaps(b_.box)) return;
+  if (node.count == 0) {
+    collect(i, id + 1, list);
+    collect(i, node.first, list);
+    return;
+  }
+  for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+    const std::uint32_t t = a_.bvh.order()[k];
+    if (patch_of_[t] == kNone) {
+      Patch patch{a_.bvh.corners(t), {}, t};
+      const double most = allowed(patch);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = a_.mesh.triangles[t][c];
+        // One displacement per vertex, whatever triangle it is seen from.
+        patch.inward[c] = (limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
+      }
+      patch_of_[t] = add(patch);
+    }
+    list.push_back(patch_of_[t]);
+  }
+}
+
+/// Cuts winding paths into pieces that are roughly straight before looking at triangles.
+bool DirectedCheck::descend(double s0, double s1) {
+  const Interval i = interval(s0, s1);
+  if (s1 - s0 > 1 && i.margin > 0.05 * a_.box.size().maxCoeff()) {
+    const double m = middle(i);
+    return descend(s0, m) && descend(m, s1);
+  }
+  List list;
+  if (!a_.bvh.nodes().empty()) collect(i, 0, list);
+  return process(i, std::move(list), true);
+}
+
+bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {
+  List later;
+  while (!list.empty()) {
+    const std::uint32_t id = list.back();
+    list.pop_back();
+    if (!settle(i, id, vertex_rule, list, later)) return false;
+  }
+  if (later.empty()) return true;
+  const double m = middle(i);
+  return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
+}
+
+bool DirectedCheck::clear(const Interval& i, const Corners& moved, bool& far) {
+  const Sighting seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), i.margin).look(b_.bvh);
+  far = seen == Sighting::far;
+  return seen != Sighting::unclear;
+}
+
+bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
+  return !b_.bvh.inside(place * ((moved[0] + moved[1] + moved[2]) / 3));
+}
+
+/// Certifies one patch for one interval, or puts it (or its quarters) on one of the lists. False: the check failed.
+bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
+  const Patch patch = patches_[id];
+  const double most = allowed(patch), e = most * kShare, leeway = most - limits_.overlap;
+  if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
+  bool far = false;
+  if (vertex_rule && clear(i, moved_by_vertices(patch, e), far)) {
+    if (!far) pieces_.push_back({id, i.s0, i.s1});
+    return true;
+  }
+  if (i.margin > 0.5 * leeway) {  // too bent to be judged as straight
+    later.push_back(id);
+    return true;
+  }
+  const Corners by_normal = moved_by_normal(patch, a_, e);
+  if (clear(i, by_normal, far) && (far || outside(i.at0, by_normal))) {
+    by_shrunken_copy_ = false;
+    return true;
+  }
+  const double s = 0.5 * (i.s0 + i.s1);
+  const Placement mid(motion_.at(s));
+  const Probe seen = probe(patch, mid, b_);
+  const auto deepest = static_cast<std::size_t>(seen.deepest);
+  if (seen.depth[deepest] > most)
+    return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
+  const Corners by_probe = moved_by_probe(patch, seen, e);
+  if (clear(i, by_probe, far) && (far || outside(i.at0, by_probe))) {
+    by_shrunken_copy_ = false;
+    return true;
+  }
+  const double depth = depth_at(mid * patch.center(), b_);
+  if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
+  const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
+  double travel = 0;
+  for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
+  const double reach = patch.radius() + travel + 2 * i.margin;
+  if (depth + reach <= most) {  // depth changes no faster than the point moves
+    by_shrunken_copy_ = false;
+    return true;
+  }
+  if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
+  if (i.s1 - i.s0 > 1 || travel + 2 * i.margin > patch.longest_edge()) {
+    later.push_back(id);
+    return true;
+  }
+  if (budget_.patches_left < 4) return fail(Answer::exhausted, patch.center(), depth, patch.triangle, s);
+  budget_.patches_left -= 4;
+  for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  return true;
+}
+
+/// What the vertex rule certified stays off the surface of B; here it is shown to be on the outer side of it.
+bool DirectedCheck::sides() {
+  if (by_shrunken_copy_) {
+    // Each shell of the shrunken copy moves off the surface at all times: one corner at one time tells its side.
+    const Placement start(motion_.at(0));
+    bool all_outside = true;
+    for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
+      const std::uint32_t v = a_.shell_vertices[a_.shell_begin[k]];
+      const Vec3 x = a_.mesh.vertices[v] + limits_.at(a_.vertex_thickness[v]) * kShare * a_.inward[v];
+      all_outside = !b_.bvh.inside(start * x);
+    }
+    if (all_outside) return true;
+  }
+  by_shrunken_copy_ = false;
+  const std::vector<Piece> pieces = std::move(pieces_);
+  pieces_.clear();
+  for (const Piece& piece : pieces) {
+    const Patch& patch = patches_[piece.patch];
+    if (outside(Placement(motion_.at(piece.s0)), moved_by_vertices(patch, allowed(patch) * kShare))) continue;
+    if (!process(interval(piece.s0, piece.s1), {piece.patch}, false)) return false;
+  }
+  return true;
+}
+
+}  // namespace dismantle::verify

@@ -1,0 +1,98 @@
+/// Certified continuous check of the surface of one solid against another solid that it moves past.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "verify/patch.h"
+#include "verify/relative_motion.h"
+#include "verify/solid.h"
+
+namespace dismantle::verify {
+
+/// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
+struct Limits {
+  double overlap = 0;      ///< >= 0, the pair's when assembled
+  double penetration = 0;  ///< > 0
+  double at(double thickness) const { return overlap + std::min(penetration, 0.25 * thickness); }
+  double most() const { return overlap + penetration; }
+};
+
+enum class Answer {
+  certified,
+  violated,   ///< a point beyond its limit was found
+  uncertain,  ///< neither, down to the resolution limit
+  exhausted,  ///< neither, within the budget
+};
+
+struct Finding {
+  Answer answer = Answer::certified;
+  // Unless certified:
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();             ///< frame of its part
+  bool of_second = false;                                      ///< `point` belongs to the second part of the pair
+  double depth = 0;                                            ///< measured at `point`; negative outside
+  double thickness = std::numeric_limits<double>::infinity();  ///< of the triangle that it lies on
+  double time = 0;
+};
+
+/// Work allowed and done, in elementary sweep tests and patches. Counts, so that answers do not depend on the machine.
+struct Budget {
+  std::uint64_t tests_left = 0;
+  std::uint64_t patches_left = 0;
+  std::uint64_t tests_done = 0;
+  bool spend_test() {
+    if (tests_left == 0) return false;
+    --tests_left;
+    ++tests_done;
+    return true;
+  }
+};
+
+/// The surface of `a` against `b`. One object per question.
+class DirectedCheck {
+ public:
+  DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
+  Finding run();
+  /// After a certified run: all of it by the vertex rule. Then one and the same shrunken copy of A stayed off the
+  /// surface of B at all times.
+  bool by_shrunken_copy() const { return by_shrunken_copy_; }
+
+ private:
+  struct Interval {
+    double s0, s1, margin;
+    Placement at0, at1;
+  };
+  struct Piece {  // certified by the vertex rule except for which side it is on
+    std::uint32_t patch;
+    double s0, s1;
+  };
+  using List = std::vector<std::uint32_t>;
+
+  Interval interval(double s0, double s1) const;
+  double middle(const Interval& i) const;
+  std::uint32_t add(const Patch& patch);
+  void collect(const Interval& i, std::uint32_t node, List& list);
+  bool descend(double s0, double s1);
+  bool process(const Interval& i, List list, bool vertex_rule);
+  bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
+  bool clear(const Interval& i, const Corners& moved, bool& far);
+  bool outside(const Placement& place, const Corners& moved) const;
+  bool sides();
+  bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
+  double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }
+
+  const Solid& a_;
+  const Solid& b_;
+  const RelativeMotion& motion_;
+  Limits limits_;
+  Budget& budget_;
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
+  std::vector<Piece> pieces_;
+  bool by_shrunken_copy_ = true;
+  Finding finding_;
+};
+
+}  // namespace dismantle::verify

@@ -1,0 +1,50 @@
+/// A (piece of a) triangle and the ways to move it back out of another solid.
+///
+/// The displacement rule behind all of them: let the corners of a triangle be moved by at most e each, the rest
+/// linearly with them. If the moved triangle lies outside solid B without crossing its surface, no point of the
+/// triangle is deeper than e in B, for the way that the point was moved leads out through the surface of B.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "verify/relative_motion.h"
+#include "verify/solid.h"
+#include "verify/sweep.h"
+
+namespace dismantle::verify {
+
+struct Patch {
+  Corners p;       ///< frame of its part
+  Corners inward;  ///< displacement of the vertex rule for a unit of depth, lengths <= 1
+  std::uint32_t triangle = 0;
+
+  Eigen::Vector3d center() const { return (p[0] + p[1] + p[2]) / 3; }
+  double longest_edge() const;
+  double radius() const;  ///< largest distance of a corner from the centre
+  std::array<Patch, 4> quarters() const;
+};
+
+/// Corners moved by `depth` times the patch's own inward directions: the vertex rule. Neighbours stay joined.
+Corners moved_by_vertices(const Patch& patch, double depth);
+/// Corners moved back along the normal of the face, and a twentieth of the way by the vertex rule.
+Corners moved_by_normal(const Patch& patch, const Solid& solid, double depth);
+
+/// Where the corners of a patch are with respect to a solid.
+struct Probe {
+  std::array<double, 3> depth;  ///< > 0 inside, < 0 outside; distance to the surface
+  Corners out;                  ///< unit, frame of the patch's part: the shortest way out
+  int deepest = 0;
+};
+Probe probe(const Patch& patch, const Placement& place, const Solid& other);
+/// Corners moved the shortest way out, so far that half of what `depth` leaves over puts them off the surface, and by
+/// the vertex rule for the other half; none by more than `depth`.
+Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth);
+
+/// > 0 inside, < 0 outside; distance to the surface.
+double depth_at(const Eigen::Vector3d& point, const Solid& solid);
+
+Corners placed(const Placement& place, const Corners& p);
+
+}  // namespace dismantle::verify

@@ -1,0 +1,49 @@
+/// How one part moves in the frame of another, with bounds on how far that is from straight lines.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/geometry/pose.h"
+
+namespace dismantle::verify {
+
+/// A pose as matrix and vector: cheaper to apply to many points.
+struct Placement {
+  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  Placement() = default;
+  explicit Placement(const Pose& p) : r(p.q.toRotationMatrix()), t(p.t) {}
+  Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return r * p + t; }
+};
+
+/// Time runs from 0 to segments(); segment k joins instants k and k + 1 by the screw motions of both parts.
+class RelativeMotion {
+ public:
+  /// Poses of part A and of part B, instant by instant; one pose alone stands still. `box` holds the points of A
+  /// (its assembled frame) for which deviation() has to hold. At least one pose each; equal numbers if both move.
+  RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const Aabb& box);
+
+  std::size_t segments() const { return at_instant_.size() - 1; }
+  /// Takes points of A to the frame of B.
+  Pose at(double s) const;
+  /// No point of the box leaves where it is in the frame of B by more than `tolerance`.
+  bool constant(double tolerance) const;
+  /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are
+  /// (1 - w) x(s0) + w x(s1) for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
+  double deviation(double s0, double s1) const;
+  /// Box in the frame of B that holds the box of A at all times.
+  Aabb swept_box() const;
+
+ private:
+  double chord_deviation(std::size_t i, std::size_t j) const;
+  std::vector<Pose> a_, b_;
+  std::array<Eigen::Vector3d, 8> corners_;
+  std::vector<Placement> at_instant_;
+  std::vector<double> bend_;  // by segment: bound of the second derivative of a point's way in the frame of B
+};
+
+}  // namespace dismantle::verify

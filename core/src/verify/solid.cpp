@@ -1,0 +1,249 @@
+#include "verify/solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "verify/ray.h"
+
+namespace dismantle::verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A vertex direction that enters some face by less than this sine is useless.
+constexpr double kLeastSine = 0.05;
+/// Triangles lower than this have no normal to speak of.
+constexpr double kSliverHeight = 1e-7;
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  std::uint32_t root(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// The smaller index stays the root, so that numbering follows the input.
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+/// By triangle: number of its shell, counted in order of first appearance.
+std::vector<std::uint32_t> number_shells(const Mesh& mesh, std::uint32_t& shells) {
+  struct Edge {
+    std::uint32_t a, b, triangle;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      edges.push_back({a, b, t});
+    }
+  std::sort(edges.begin(), edges.end());
+  UnionFind sets(mesh.triangles.size());
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].a == edges[i - 1].a && edges[i].b == edges[i - 1].b)
+      sets.join(edges[i].triangle, edges[i - 1].triangle);
+  std::vector<std::uint32_t> shell(mesh.triangles.size()), number(mesh.triangles.size());
+  shells = 0;
+  for (std::uint32_t t = 0; t < shell.size(); ++t) {
+    if (sets.root(t) == t) number[t] = shells++;
+    shell[t] = number[sets.root(t)];
+  }
+  return shell;
+}
+
+/// The triangles of `pick` with the vertices that they use.
+Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
+  Mesh out;
+  std::vector<std::uint32_t> used;
+  for (const auto t : pick) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  out.vertices.reserve(used.size());
+  for (const auto v : used) out.vertices.push_back(mesh.vertices[v]);
+  const auto renumbered = [&](std::uint32_t v) {
+    return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  };
+  for (const auto t : pick) {
+    Triangle r{renumbered(mesh.triangles[t][0]), renumbered(mesh.triangles[t][1]), renumbered(mesh.triangles[t][2])};
+    if (flip) std::swap(r[1], r[2]);
+    out.triangles.push_back(r);
+  }
+  return out;
+}
+
+double signed_volume(const Mesh& mesh) {
+  if (mesh.vertices.empty()) return 0;
+  const Vec3 o = mesh.vertices.front();
+  double v = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    v += (mesh.vertex(t, 0) - o).dot((mesh.vertex(t, 1) - o).cross(mesh.vertex(t, 2) - o));
+  return v / 6;
+}
+
+void append(Mesh& to, const Mesh& from) {
+  const auto base = static_cast<std::uint32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const auto& t : from.triangles) to.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+}
+
+Vec3 triangle_normal(const Mesh& mesh, std::size_t t) {
+  const Vec3 a = mesh.vertex(t, 0), ab = mesh.vertex(t, 1) - a, ac = mesh.vertex(t, 2) - a;
+  const Vec3 n = ab.cross(ac);
+  const double length = n.norm();
+  const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
+  if (!(length > kSliverHeight * longest)) return Vec3::Zero();
+  return n / length;
+}
+
+/// Direction that enters all faces with these outward normals as steeply as can be (centre of the smallest cap of
+/// the sphere around them, by Badoiu and Clarkson's iteration), or zero.
+Vec3 inward_direction(const std::vector<Vec3>& normals) {
+  Vec3 c = Vec3::Zero();
+  for (const auto& n : normals) c += n;
+  c /= static_cast<double>(normals.size());
+  const auto steepness = [&](const Vec3& d) {
+    double least = kInfinity;
+    for (const auto& n : normals) least = std::min(least, n.dot(d));
+    return least;
+  };
+  Vec3 best = c.norm() > 1e-9 ? Vec3(c.normalized()) : normals.front();
+  double best_sine = steepness(best);
+  for (int k = 1; k <= 48 && best_sine < 1 - 1e-9; ++k) {
+    const Vec3* far = &normals.front();
+    for (const auto& n : normals)
+      if ((n - c).squaredNorm() > (*far - c).squaredNorm()) far = &n;
+    c += (*far - c) / (k + 1.0);
+    if (c.norm() < 1e-9) continue;
+    const Vec3 d = c.normalized();
+    const double sine = steepness(d);
+    if (sine > best_sine) {
+      best_sine = sine;
+      best = d;
+    }
+  }
+  return best_sine < kLeastSine ? Vec3(Vec3::Zero()) : Vec3(-best);
+}
+
+std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals) {
+  std::vector<std::vector<Vec3>> around(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (normals[t].isZero(0)) continue;
+    for (const auto v : mesh.triangles[t]) {
+      auto& list = around[v];
+      if (std::none_of(list.begin(), list.end(), [&](const Vec3& n) { return (n - normals[t]).squaredNorm() < 1e-20; }))
+        list.push_back(normals[t]);
+    }
+  }
+  std::vector<Vec3> directions(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < directions.size(); ++v)
+    if (!around[v].empty()) directions[v] = inward_direction(around[v]);
+  return directions;
+}
+
+bool share_corner(const Triangle& a, const Triangle& b) {
+  for (const auto i : a)
+    for (const auto j : b)
+      if (i == j) return true;
+  return false;
+}
+
+}  // namespace
+
+Solid::Solid(Mesh m) : mesh(std::move(m)), bvh(mesh), box(mesh.box()) {
+  normals.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
+  inward = inward_directions(mesh, normals);
+  thickness.assign(mesh.triangles.size(), kInfinity);
+  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+
+  std::uint32_t shells = 0;
+  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+  std::vector<std::vector<std::uint32_t>> vertices(shells);
+  for (std::size_t t = 0; t < shell.size(); ++t)
+    vertices[shell[t]].insert(vertices[shell[t]].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  shell_begin.push_back(0);
+  for (auto& list : vertices) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    shell_vertices.insert(shell_vertices.end(), list.begin(), list.end());
+    shell_begin.push_back(static_cast<std::uint32_t>(shell_vertices.size()));
+  }
+}
+
+void Solid::measure_thickness(double reach) {
+  constexpr double kAlmostOpposite = -0.9;
+  static constexpr std::array<std::array<double, 3>, 4> kSamples = {
+      {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    thickness[t] = kInfinity;
+    if (normals[t].isZero(0)) continue;
+    const auto blocks = [&](std::uint32_t other) {
+      if (other == t) return false;
+      const double facing = normals[t].dot(normals[other]);
+      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < kAlmostOpposite;
+      return facing < 0;  // an opposite side faces away
+    };
+    for (const auto& w : kSamples) {
+      const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
+      thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
+    }
+  }
+  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto v : mesh.triangles[t]) vertex_thickness[v] = std::min(vertex_thickness[v], thickness[t]);
+}
+
+std::vector<Solid> split_into_solids(const Mesh& mesh) {
+  std::uint32_t shells = 0;
+  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+  std::vector<std::vector<std::uint32_t>> triangles(shells);
+  for (std::uint32_t t = 0; t < shell.size(); ++t) triangles[shell[t]].push_back(t);
+
+  struct Group {
+    Mesh mesh;
+    double volume;
+  };
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> voids;
+  for (std::uint32_t s = 0; s < shells; ++s) {
+    Mesh m = sub_mesh(mesh, triangles[s]);
+    const double v = signed_volume(m);
+    if (v < 0)
+      voids.push_back(s);
+    else
+      groups.push_back({std::move(m), v});
+  }
+  const std::size_t outer = groups.size();
+  std::vector<TriangleBvh> trees;
+  if (!voids.empty())
+    for (const auto& g : groups) trees.emplace_back(g.mesh);
+  for (const auto s : voids) {
+    const Mesh m = sub_mesh(mesh, triangles[s]);
+    std::size_t owner = outer;
+    for (std::size_t g = 0; g < outer; ++g)
+      if ((owner == outer || groups[g].volume < groups[owner].volume) && trees[g].inside(m.vertices.front())) owner = g;
+    if (owner < outer)
+      append(groups[owner].mesh, m);
+    else
+      groups.push_back({sub_mesh(mesh, triangles[s], true), -signed_volume(m)});
+  }
+  std::vector<Solid> solids;
+  solids.reserve(groups.size());
+  for (auto& g : groups) solids.emplace_back(std::move(g.mesh));
+  return solids;
+}
+
+}  // namespace dismantle::verify

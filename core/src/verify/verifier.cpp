@@ -1,0 +1,205 @@
+#include "dismantle/verify/verifier.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "dismantle/geometry/hull.h"
+#include "verify/pair_check.h"
+
+namespace dismantle {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using verify::Answer;
+using verify::Finding;
+
+/// Relative motion below this is none (assembly units).
+constexpr double kStill = 1e-9;
+/// Bounds that max_penetration is reported by, and the one that gets full effort although a wider one will do.
+constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
+constexpr double kWorthwhile = 1e-3;
+/// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
+constexpr std::uint64_t kTryTests = 100'000;
+constexpr std::uint64_t kFullTests = 4'000'000;
+constexpr std::uint64_t kPatches = 400'000;
+
+std::vector<double> rungs_up_to(double most) {
+  std::vector<double> rungs;
+  for (const double r : kLadder)
+    if (r < most * (1 - 1e-12)) rungs.push_back(r);
+  rungs.push_back(most);
+  return rungs;
+}
+
+Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
+  const verify::RelativeMotion motion(poses, {Pose{}}, box);
+  return motion.swept_box();
+}
+
+}  // namespace
+
+struct Verifier::Impl {
+  struct Body {
+    std::vector<verify::Solid> solids;
+    Aabb box;
+    std::vector<Vec3> corners;  // of the convex hull
+  };
+  /// One column of the question: a part and its poses, one or as many as there are instants.
+  struct Actor {
+    PartId part = 0;
+    std::vector<Pose> poses;
+    Aabb swept;  // world
+  };
+
+  Impl(const Assembly& a, VerifyOptions o)
+      : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)) {
+    bodies.reserve(a.parts.size());
+    for (const auto& part : a.parts) {
+      Body body{verify::split_into_solids(*part.mesh), part.mesh->box(), hull_corners(part.mesh->vertices)};
+      for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
+      bodies.push_back(std::move(body));
+      meshes.push_back(part.mesh);
+    }
+  }
+
+  double overlap(PartId a, PartId b) const {
+    if (a > b) std::swap(a, b);
+    for (const auto& o : assembly_overlaps)
+      if (o.a == a && o.b == b) return o.depth;
+    return 0;
+  }
+
+  bool check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const;
+  bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
+             std::size_t& rung, MotionCheck& result) const;
+
+  std::vector<InitialOverlap> assembly_overlaps;
+  VerifyOptions options;
+  std::vector<double> rungs;
+  std::vector<Body> bodies;
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+};
+
+/// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
+bool Verifier::Impl::check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const {
+  const double allowed = overlap(a.part, b.part);
+  Aabb near = a.swept;
+  near.inflate(kStill);
+  if (!near.overlaps(b.swept)) return true;
+  if (verify::RelativeMotion(a.poses, b.poses, bodies[a.part].box).constant(kStill)) return true;
+  for (const auto& x : bodies[a.part].solids)
+    for (const auto& y : bodies[b.part].solids)
+      if (!check(a, b, x, y, allowed, rung, result)) return false;
+  return true;
+}
+
+bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                           double allowed, std::size_t& rung, MotionCheck& result) const {
+  const auto grown = [&](Aabb box) {  // displaced corners may leave the box by as much as they are displaced
+    box.inflate(allowed + options.max_penetration);
+    return box;
+  };
+  const verify::RelativeMotion forward(a.poses, b.poses, grown(x.box));
+  if (!forward.swept_box().overlaps(y.box)) return true;
+  const verify::RelativeMotion backward(b.poses, a.poses, grown(y.box));
+
+  const std::size_t last = rungs.size() - 1;
+  for (;;) {
+    const bool decides = rung == last || rungs[rung] == kWorthwhile;
+    verify::Budget budget{decides ? kFullTests : kTryTests, kPatches, 0};
+    const Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    result.tests += budget.tests_done;
+    if (f.answer == Answer::certified) return true;
+
+    const bool beyond_all =
+        f.answer == Answer::violated && f.depth > verify::Limits{allowed, options.max_penetration}.at(f.thickness);
+    if (rung == last || beyond_all) {
+      Violation v;
+      v.part = f.of_second ? b.part : a.part;
+      v.other = f.of_second ? a.part : b.part;
+      v.point = f.point;
+      v.depth = std::max(0.0, f.depth);
+      v.allowed = allowed;
+      const double end = static_cast<double>(forward.segments());
+      v.segment = static_cast<std::size_t>(std::min(std::floor(f.time), end - 1));
+      v.u = f.time - static_cast<double>(v.segment);
+      v.uncertain = f.answer != Answer::violated;
+      result.violation = v;
+      return false;
+    }
+    ++rung;
+    if (f.answer == Answer::violated)
+      while (rung < last && f.depth > verify::Limits{allowed, rungs[rung]}.at(f.thickness)) ++rung;
+    if (f.answer == Answer::exhausted)
+      while (rung < last && rungs[rung] != kWorthwhile) ++rung;
+  }
+}
+
+Verifier::Verifier(const Assembly& assembly, VerifyOptions options) {
+  if (!(options.max_penetration > 0) || !std::isfinite(options.max_penetration))
+    throw std::invalid_argument("Verifier: max_penetration must be finite and > 0");
+  impl_ = std::make_unique<Impl>(assembly, options);
+}
+
+Verifier::~Verifier() = default;
+
+const VerifyOptions& Verifier::options() const { return impl_->options; }
+
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+                                   const Path& path) const {
+  if (path.size() < 2) throw std::invalid_argument("Verifier: a path needs two instants at least");
+  for (const auto& row : path) {
+    if (row.size() != moving.size()) throw std::invalid_argument("Verifier: path has the wrong number of columns");
+    for (const auto& pose : row)
+      if (!pose.t.allFinite() || !pose.q.coeffs().allFinite() || std::abs(pose.q.norm() - 1) > 1e-6)
+        throw std::invalid_argument("Verifier: path has a pose that is not finite or not a unit quaternion");
+  }
+  std::vector<Impl::Actor> movers, others;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Impl::Actor actor{moving[i], {}, {}};
+    for (const auto& row : path) actor.poses.push_back({row[i].t, row[i].q.normalized()});
+    actor.swept = box_along(impl_->bodies.at(moving[i]).box, actor.poses);
+    movers.push_back(std::move(actor));
+  }
+  for (const auto& s : still) {
+    Impl::Actor actor{s.part, {{s.pose.t, s.pose.q.normalized()}}, {}};
+    actor.swept = box_along(impl_->bodies.at(s.part).box, actor.poses);
+    others.push_back(std::move(actor));
+  }
+  MotionCheck result;
+  std::size_t rung = 0;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    for (const auto& other : others)
+      if (!impl_->check(movers[i], other, rung, result)) return result;
+    for (std::size_t k = i + 1; k < movers.size(); ++k)
+      if (!impl_->check(movers[i], movers[k], rung, result)) return result;
+  }
+  result.valid = true;
+  result.max_penetration = impl_->rungs[rung];
+  return result;
+}
+
+bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {
+  if (group.empty() || rest.empty()) return true;
+  const auto corners = [&](const std::vector<PlacedPart>& parts) {
+    std::vector<Vec3> points;
+    for (const auto& p : parts)
+      for (const auto& c : impl_->bodies.at(p.part).corners) points.push_back(p.pose * c);
+    return points;
+  };
+  const auto found = separate(corners(group), corners(rest));
+  if (!found) return false;
+  // qhull leaves out points that are within rounding of a face: the last word is on all vertices.
+  double top = -std::numeric_limits<double>::infinity(), bottom = -top;
+  for (const auto& p : group)
+    for (const auto& v : impl_->meshes[p.part]->vertices) top = std::max(top, found->normal.dot(p.pose * v));
+  for (const auto& p : rest)
+    for (const auto& v : impl_->meshes[p.part]->vertices) bottom = std::min(bottom, found->normal.dot(p.pose * v));
+  return bottom > top;
+}
+
+}  // namespace dismantle
