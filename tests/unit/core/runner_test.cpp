@@ -58,6 +58,11 @@ class InTurn : public SequencePlanner {
   }
 };
 
+/// The tube could go first, downwards: here it stands on a table.
+PathResult push_blocks(const PathQuery& query, RunContext& context) {
+  return query.cast.moving[0].part == 0 ? fake::outcome(Outcome::exhausted) : fake::push(query, context);
+}
+
 using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, SequenceObserver&, RunContext&)>;
 class Custom final : public SequencePlanner {
  public:
@@ -81,7 +86,8 @@ std::string text_without_times(Plan plan) {
 
 TEST(Run, TakesATubeApartFromTheTop) {
   const Assembly assembly = fake::tube_with_blocks(3);
-  const RunResult r = run_in_turn(assembly);
+  RunContext context;
+  const RunResult r = run(assembly, fake::ingredients(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
   EXPECT_EQ(r.outcome, Outcome::solved);
   const Plan& plan = r.plan;
   EXPECT_EQ(plan.status, PlanStatus::complete);
@@ -98,7 +104,8 @@ TEST(Run, TakesATubeApartFromTheTop) {
     EXPECT_EQ(step.depth, 1u);
     EXPECT_LE(step.max_penetration, 0.01);
   }
-  EXPECT_EQ(plan.disassembly[0].moves[0].part, "block3");
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(plan.disassembly[i].moves[0].part, "block" + std::to_string(3 - i));
+  EXPECT_EQ(plan.remaining, (std::vector<std::string>{"tube"}));
   EXPECT_EQ(plan.assembly.parts.size(), 4u);
 }
 
@@ -137,7 +144,7 @@ TEST(Run, PosesAreInInputUnits) {
 
 TEST(Run, PrecedenceIsWhatFailedAttemptsTouchedAndNoMore) {
   const auto blocks_only = [](const PathQuery& q, RunContext& c) {  // touched: all blocks above
-    PathResult r = fake::push(q, c);
+    PathResult r = push_blocks(q, c);
     r.blocked_by.clear();
     if (!is_success(r.outcome))
       for (const auto& p : q.cast.still)
@@ -148,10 +155,10 @@ TEST(Run, PrecedenceIsWhatFailedAttemptsTouchedAndNoMore) {
   RunContext context;
   const RunResult r = run(assembly, fake::ingredients(blocks_only, std::make_shared<InTurn>()), RunOptions{}, context);
   ASSERT_EQ(r.plan.disassembly.size(), 4u);
-  // 4 > 3 > 2 > 1 follow from one another; the tube (0) comes after some blocks or is the last.
-  for (const auto& pair : Pairs{{"block4", "block3"}, {"block3", "block2"}})
+  // Each block needs the next one gone; what follows from that is left out.
+  for (const auto& pair : Pairs{{"block4", "block3"}, {"block3", "block2"}, {"block2", "block1"}, {"block1", "tube"}})
     EXPECT_EQ(std::count(r.precedence.begin(), r.precedence.end(), pair), 1) << pair.first;
-  for (const auto& pair : Pairs{{"block4", "block2"}, {"block4", "block1"}, {"block3", "block1"}})
+  for (const auto& pair : Pairs{{"block4", "block2"}, {"block4", "block1"}, {"block3", "block1"}, {"block2", "tube"}})
     EXPECT_EQ(std::count(r.precedence.begin(), r.precedence.end(), pair), 0) << pair.first;
 }
 
