@@ -12,16 +12,19 @@ constexpr int kMaxDof = 6 * kMaxBodies;
 
 /// Row of a contact in the generalised displacement x of all bodies: gap(x) = gap + j . x. At most two
 /// bodies take part; `first` and `second` are where their degrees of freedom begin, -1 = none.
+/// A contact on a convex edge has several rows in a run, `alternatives` counts those that follow: its gap is
+/// the largest of theirs.
 struct ContactRow {
   double gap = 0;
   double stiffness = 0;
   int first = -1, second = -1;
+  int alternatives = 0;
   Eigen::Matrix<double, 6, 1> j_first, j_second;  ///< only the first `dof per body` entries are used
 };
 
 /// Minimises  1/2 (x - x*)^T W (x - x*) + 1/2 sum_i k_i min(0, gap_i + j_i . x)^2  over x.
-/// Convex and piecewise quadratic: Newton on the active set with step halving ends at the exact minimum
-/// in a few iterations. Dof = 3 or 6 (one body) or Eigen::Dynamic. Allocates nothing.
+/// Piecewise quadratic, and convex but for contacts on edges: Newton on the active set with step halving
+/// ends at a minimum in a few iterations. Dof = 3 or 6 (one body) or Eigen::Dynamic. Allocates nothing.
 template <int Dof>
 class StepSolver {
  public:
@@ -82,9 +85,13 @@ class StepSolver {
       *gradient = pull;
       *hessian = weight;
     }
-    for (const ContactRow& row : rows) {
-      const double g = gap_at(row, per_body, x);
+    for (std::size_t i = 0; i < rows.size(); i += 1 + static_cast<std::size_t>(rows[i].alternatives)) {
+      std::size_t best = i;
+      double g = gap_at(rows[i], per_body, x);
+      for (std::size_t k = 1; g < 0 && k <= static_cast<std::size_t>(rows[i].alternatives); ++k)
+        if (const double other = gap_at(rows[i + k], per_body, x); other > g) g = other, best = i + k;
       if (g >= 0) continue;
+      const ContactRow& row = rows[best];
       energy += 0.5 * row.stiffness * g * g;
       if (gradient == nullptr) continue;
       const double f = row.stiffness * g;

@@ -79,18 +79,19 @@ void PenaltyWorld::update_contacts(const State& state) {
 void PenaltyWorld::build_rows(const State& state, double dt) {
   rows_.clear();
   const bool damped = parameters_.contact_damping > 0 && dt > 0;
-  for (const auto& c : touching_) {
+  const auto add = [&](const sdf::ContactPoint& c, double gap, const Eigen::Vector3d& normal, int alternatives) {
     ContactRow row;
-    row.gap = c.gap;
+    row.gap = gap;
     row.stiffness = parameters_.contact_stiffness;
+    row.alternatives = alternatives;
     double approach = 0;
     const auto side = [&](int body, double sign, int& first, Eigen::Matrix<double, 6, 1>& j) {
       if (body < 0) return;
       const BodyState& b = state.bodies[static_cast<std::size_t>(body)];
       const Eigen::Vector3d arm = c.point - b.pose * bodies_[static_cast<std::size_t>(body)].center;
       first = body * per_body_;
-      j.head<3>() = sign * c.normal;
-      j.tail<3>() = sign * arm.cross(c.normal);
+      j.head<3>() = sign * normal;
+      j.tail<3>() = sign * arm.cross(normal);
       approach += j.head<3>().dot(b.velocity) + j.tail<3>().dot(b.angular_velocity);
     };
     side(c.owner, 1.0, row.first, row.j_first);
@@ -98,6 +99,10 @@ void PenaltyWorld::build_rows(const State& state, double dt) {
     // Equation (1): f = (-k_n + k_d d') d n, with the rate of the last step.
     if (damped) row.stiffness = std::max(0.0, row.stiffness - parameters_.contact_damping * approach);
     rows_.push_back(row);
+  };
+  for (const auto& c : touching_) {
+    add(c, c.gap, c.normal, c.plane_count);
+    for (int i = 0; i < c.plane_count; ++i) add(c, c.planes[i].gap, c.planes[i].normal, 0);
   }
 }
 

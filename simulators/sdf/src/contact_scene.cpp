@@ -8,6 +8,9 @@ namespace {
 
 /// Beyond this distance a query gives up and the block sleeps for that long.
 constexpr double kReach = 0.5;
+/// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
+/// below what the verifier lets pass.
+constexpr double kOnEdge = 2e-4;
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
   const Eigen::Vector3d center = pose * local.center();
@@ -47,19 +50,20 @@ void ContactScene::add_point(PartId part, PartId other, const Eigen::Vector3d& p
 }
 
 double ContactScene::signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
-                                     std::uint32_t& hint, Eigen::Vector3d& normal) {
+                                     std::uint32_t& hint, Sample& sample) {
   ++queries_;
-  if (model_ == DistanceModel::grid) return field.grid->value(p, normal);
+  sample.triangle = kNoTriangle;
+  if (model_ == DistanceModel::grid) return sample.value = field.grid->value(p, sample.normal);
   const Sample s = field.surface->sample(p, limit, hint);
   if (s.triangle != kNoTriangle) {
     hint = s.triangle;
-    normal = s.normal;
+    sample = s;
     return s.value;
   }
   // Nothing within the limit: far outside, or deep inside, which only the grid can tell.
   if (field.box.contains(p)) {
-    const double rough = field.grid->value(p, normal);
-    if (rough < 0) return std::min(rough, -limit);
+    const double rough = field.grid->value(p, sample.normal);
+    if (rough < 0) return sample.value = std::min(rough, -limit);
   }
   return limit;
 }
@@ -78,30 +82,39 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
   const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
   const Eigen::Vector3d shift = to_target.t;
   const Eigen::Matrix3d to_world = world_[surface].q.toRotationMatrix();
-  const double limit = kReach;  // on the signed distance itself
 
-  const auto emit = [&](const Eigen::Vector3d& p, double gap, const Eigen::Vector3d& normal) {
+  struct Touch {
+    double distance = kReach;
+    std::size_t solid = 0;
+    Sample sample;
+  };
+  const auto emit = [&](const Eigen::Vector3d& p, const Touch& touch) {
     ContactPoint c;
-    c.gap = gap;
-    c.normal = to_world * normal;
+    c.gap = touch.distance + pair.allowed;
+    c.normal = to_world * touch.sample.normal;
     c.point = to_world * p + world_[surface].t;
     c.owner = owner < moving_ ? static_cast<int>(owner) : -1;
     c.surface = surface < moving_ ? static_cast<int>(surface) : -1;
     c.owner_part = members_[owner].part;
     c.surface_part = members_[surface].part;
+    if (touch.sample.triangle != kNoTriangle) {
+      c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, kOnEdge + pair.allowed, c.planes);
+      for (int i = 0; i < c.plane_count; ++i) {
+        c.planes[i].normal = to_world * c.planes[i].normal;
+        c.planes[i].gap += pair.allowed;
+      }
+    }
     out.push_back(c);
   };
-  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, Eigen::Vector3d& normal) {
-    double best = limit;
+  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint) {
+    Touch best;
     for (std::size_t s = 0; s < solids; ++s) {
       // Box distance bounds the signed distance from below outside: most solids drop out here.
-      if (best <= 0 ? !target.solids[s].box.contains(p) : target.solids[s].box.squared_distance(p) >= best * best) continue;
-      Eigen::Vector3d n;
-      const double d = signed_distance(target.solids[s], p, limit, hint[s], n);
-      if (d < best) {
-        best = d;
-        normal = n;
-      }
+      const Aabb& box = target.solids[s].box;
+      if (best.distance <= 0 ? !box.contains(p) : box.squared_distance(p) >= best.distance * best.distance) continue;
+      Sample sample;
+      const double d = signed_distance(target.solids[s], p, kReach, hint[s], sample);
+      if (d < best.distance) best = {d, s, sample};
     }
     return best;
   };
@@ -121,13 +134,12 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
     }
     double slack = lower + pair.allowed - margin;
     if (slack <= 0) {
-      double closest = limit;
+      double closest = kReach;
       for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
         const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
-        Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-        const double d = nearest(p, &set.hint[i * solids], normal);
-        closest = std::min(closest, d);
-        if (d + pair.allowed < margin) emit(p, d + pair.allowed, normal);
+        const Touch touch = nearest(p, &set.hint[i * solids]);
+        closest = std::min(closest, touch.distance);
+        if (touch.distance + pair.allowed < margin) emit(p, touch);
       }
       slack = closest + pair.allowed - margin;
     }
@@ -136,9 +148,8 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
   set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
   for (std::size_t i = 0; i < set.extra.size(); ++i) {
     const Eigen::Vector3d p = rotation * set.extra[i] + shift;
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    const double d = nearest(p, &set.extra_hint[i * solids], normal);
-    if (d + pair.allowed < margin) emit(p, d + pair.allowed, normal);
+    const Touch touch = nearest(p, &set.extra_hint[i * solids]);
+    if (touch.distance + pair.allowed < margin) emit(p, touch);
   }
 }
 

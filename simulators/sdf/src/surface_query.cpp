@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+
+#include <Eigen/Geometry>
 
 namespace dismantle::sdf {
 namespace {
@@ -64,6 +67,80 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
   }
+  find_convex_features(solid);
+}
+
+void SurfaceQuery::find_convex_features(const Solid& solid) {
+  constexpr double kFlat = 1e-6;
+  const Mesh& mesh = solid.mesh;
+  const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::size_t>> open;
+  neighbor_.assign(n, {kNoTriangle, kNoTriangle, kNoTriangle});
+  std::vector<bool> convex(mesh.vertices.size(), true);
+  for (std::uint32_t t = 0; t < n; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = mesh.triangles[t][k], to = mesh.triangles[t][(k + 1) % 3];
+      const auto other = open.find({to, from});
+      if (other == open.end()) {
+        open[{from, to}] = {t, k};
+        continue;
+      }
+      const auto [u, j] = other->second;
+      open.erase(other);
+      const Eigen::Vector3d along = (mesh.vertices[to] - mesh.vertices[from]).stableNormalized();
+      // Positive where the surface bends away from the viewer outside.
+      const double bend = face_[t].cross(face_[u]).dot(along);
+      if (bend > kFlat || (std::abs(bend) <= kFlat && face_[t].dot(face_[u]) < 0)) {
+        neighbor_[t][k] = u;
+        neighbor_[u][j] = t;
+      } else if (bend < -kFlat) {
+        convex[from] = convex[to] = false;
+      }
+    }
+  std::vector<std::vector<std::uint32_t>> fans(mesh.vertices.size());
+  for (std::uint32_t t = 0; t < n; ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      if (!convex[v]) continue;
+      const bool known = std::any_of(fans[v].begin(), fans[v].end(),
+                                     [&](std::uint32_t f) { return (face_[f] - face_[t]).squaredNorm() < 1e-8; });
+      if (!known) fans[v].push_back(t);
+    }
+  fan_begin_.push_back(0);
+  for (const auto& fan : fans) {
+    fan_.insert(fan_.end(), fan.begin(), fan.end());
+    fan_begin_.push_back(static_cast<std::uint32_t>(fan_.size()));
+  }
+}
+
+int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const {
+  const std::uint32_t t = sample.triangle, slot = slot_[t];
+  const Corner& c = corners_[slot];
+  const Closest closest_point = closest(p, c.a, c.ab, c.ac);
+  const auto f = static_cast<std::size_t>(closest_point.feature);
+  int count = 0;
+  const auto add = [&](std::uint32_t face, const Eigen::Vector3d& on) {
+    if (count == kMaxPlanes) return;
+    for (int i = 0; i < count; ++i)
+      if ((out[i].normal - face_[face]).squaredNorm() < 1e-8) return;
+    out[count++] = {face_[face], face_[face].dot(p - on)};
+  };
+  if (f >= 4) {
+    const std::uint32_t v = indices_[t][f - 4];
+    const Eigen::Vector3d on = f == 4 ? c.a : f == 5 ? Eigen::Vector3d(c.a + c.ab) : Eigen::Vector3d(c.a + c.ac);
+    for (std::uint32_t i = fan_begin_[v]; i < fan_begin_[v + 1]; ++i) add(fan_[i], on);
+    return count > 1 ? count : 0;
+  }
+  const Eigen::Vector3d corner[3] = {c.a, c.a + c.ab, c.a + c.ac};
+  const Eigen::Vector3d q = p - closest_point.offset;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (neighbor_[t][k] == kNoTriangle) continue;
+    const Eigen::Vector3d along = corner[(k + 1) % 3] - corner[k];
+    const bool on_edge = f == k + 1;
+    if (!on_edge && (q - corner[k]).cross(along).squaredNorm() > near * near * along.squaredNorm()) continue;
+    add(t, corner[k]);
+    add(neighbor_[t][k], corner[k]);
+  }
+  return count > 1 ? count : 0;
 }
 
 void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids,

@@ -24,6 +24,10 @@ struct ContactPoint {
   int owner = -1;            ///< moving body that carries the point, -1 = a part that stands still
   int surface = -1;          ///< moving body that carries the surface, likewise
   PartId owner_part = 0, surface_part = 0;
+  /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
+  /// it is outside of one of them: gap(x) is the largest of all.
+  int plane_count = 0;
+  FacePlane planes[kMaxPlanes];  ///< normals in world axes, gaps as above
 };
 
 /// Points are culled by motion: each pair, then each block of points, remembers how far the bodies may
@@ -78,7 +82,7 @@ class ContactScene {
   void scan(Pair& pair, Directed& set, std::uint32_t owner, std::uint32_t surface, double margin, double odometer,
             std::vector<ContactPoint>& out);
   double signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit, std::uint32_t& hint,
-                         Eigen::Vector3d& normal);
+                         Sample& sample);
 
   DistanceModel model_;
   double margin_;

@@ -20,6 +20,14 @@ struct Sample {
   std::uint32_t triangle = kNoTriangle;  ///< closest triangle; kNoTriangle: nothing within the limit
 };
 
+/// Half-space whose plane passes through a face: a point is outside the solid near a convex edge or corner
+/// as soon as it is outside one of the faces there.
+struct FacePlane {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double gap = 0;  ///< signed distance of the point from the plane
+};
+constexpr int kMaxPlanes = 4;
+
 /// Bounding-volume hierarchy with precomputed triangles. Immutable; queries allocate nothing.
 class SurfaceQuery {
  public:
@@ -29,6 +37,12 @@ class SurfaceQuery {
   /// `hint`: a triangle that is probably close (from the last query of a moving point); only affects speed.
   Sample sample(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity(),
                 std::uint32_t hint = kNoTriangle) const;
+
+  /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
+  /// edge: the planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: none, the
+  /// sample's own plane is all there is). Parts that stand flush make such contacts by the hundred, and a
+  /// single normal would hold them in directions that are free.
+  int planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const;
 
   std::size_t triangle_count() const { return corners_.size(); }
 
@@ -41,6 +55,7 @@ class SurfaceQuery {
   struct Corner {
     Eigen::Vector3d a, ab, ac;
   };
+  void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes);
   Sample signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const;
 
@@ -51,6 +66,8 @@ class SurfaceQuery {
   std::vector<Triangle> indices_;          // by triangle
   std::vector<Eigen::Vector3d> face_, vertex_;
   std::vector<std::array<Eigen::Vector3d, 3>> edge_;
+  std::vector<std::array<std::uint32_t, 3>> neighbor_;  // across a convex edge; kNoTriangle: flat or concave
+  std::vector<std::uint32_t> fan_begin_, fan_;          // per vertex: faces of distinct planes; empty unless convex
 };
 
 }  // namespace dismantle::sdf
