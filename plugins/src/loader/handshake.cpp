@@ -61,7 +61,7 @@ std::vector<std::string> tag_differences(std::string_view plugin, std::string_vi
     if (a != b) differences.push_back(fmt::format("{} is {} in the plugin, {} here ({})", key, a, b, remedy(key)));
   }
   if (differences.empty() && plugin != host)
-    differences.push_back("the ABI tag is spelled differently (rebuild the plugin)");
+    differences.emplace_back("the ABI tag is spelled differently (rebuild the plugin)");
   return differences;
 }
 
@@ -97,12 +97,12 @@ PluginHeader accept_header(const std::vector<std::uint8_t>& bytes, const std::st
   if (!terminated(header.abi_tag) || !terminated(header.id) || !terminated(header.version) ||
       !terminated(header.licence) || !terminated(header.url))
     fail("plugin header is damaged: a text in it does not end; rebuild the plugin");
+  if (header.id[0] == '\0' || header.version[0] == '\0' || header.licence[0] == '\0')
+    fail("plugin id, version and licence must not be empty in DISMANTLE_PLUGIN");
   std::string all;
   for (const auto& difference : tag_differences(header.abi_tag, abi::kTag.data))
     all += (all.empty() ? "" : "; ") + difference;
   if (!all.empty()) fail("built in a way that does not fit: " + all);
-  if (header.id[0] == '\0' || header.version[0] == '\0' || header.licence[0] == '\0')
-    fail("plugin id, version and licence must not be empty in DISMANTLE_PLUGIN");
   header.register_types = nullptr;  // not relocated: only the loaded library has the real one
   return header;
 }

@@ -1,0 +1,172 @@
+// Laws of parameter declarations: defaults come from the struct, checks name what is wrong, text round-trips.
+#include "dismantle/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/errors.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+namespace {
+
+enum class Motion { translation, rotation };
+
+struct Sample {
+  double range = 0.05;
+  std::int64_t seed = 3;
+  unsigned depth = 4;
+  bool greedy = true;
+  std::string title = "plain";
+  Motion motion = Motion::rotation;
+
+  static void describe(Schema<Sample>& s) {
+    s.add("range", &Sample::range, {.unit = "m", .min = 0, .max = 1, .min_open = true, .doc = "Range."});
+    s.add("seed", &Sample::seed, {.unit = "1", .min = 0, .doc = "Seed."});
+    s.add("depth", &Sample::depth, {.unit = "1", .doc = "Depth."});
+    s.add("greedy", &Sample::greedy, {.doc = "Greedy."});
+    s.add("title", &Sample::title, {.doc = "Title."});
+    s.add_choice<Motion>("motion", &Sample::motion,
+                         {{"translation", Motion::translation, "R3."}, {"rotation", Motion::rotation, "SE(3)."}},
+                         "Motion.");
+  }
+};
+
+const ParamSpec& spec(const Schema<Sample>& schema, const std::string& name) {
+  for (const auto& s : schema.specs())
+    if (s.name == name) return s;
+  throw std::out_of_range(name);
+}
+
+TEST(Schema, DefaultsComeFromTheStruct) {
+  const Schema<Sample> schema;
+  EXPECT_TRUE(problems_of_schema(schema.specs()).empty());
+  const ParamSet values = complete(schema.specs(), {});
+  EXPECT_EQ(values.size(), schema.specs().size());
+  const Sample s = schema.bind(values);
+  EXPECT_EQ(s.range, 0.05);
+  EXPECT_EQ(s.seed, 3);
+  EXPECT_EQ(s.depth, 4u);
+  EXPECT_TRUE(s.greedy);
+  EXPECT_EQ(s.title, "plain");
+  EXPECT_EQ(s.motion, Motion::rotation);
+}
+
+TEST(Schema, BindsWhatIsGiven) {
+  const Schema<Sample> schema;
+  const Sample s = schema.bind(complete(schema.specs(), {{"range", std::int64_t{1}},
+                                                         {"depth", std::int64_t{9}},
+                                                         {"greedy", false},
+                                                         {"motion", std::string("translation")}}));
+  EXPECT_EQ(s.range, 1.0);  // an integer is a number
+  EXPECT_EQ(s.depth, 9u);
+  EXPECT_FALSE(s.greedy);
+  EXPECT_EQ(s.motion, Motion::translation);
+}
+
+TEST(Schema, RefusesUnknownAndBadValues) {
+  const Schema<Sample> schema;
+  EXPECT_THROW(complete(schema.specs(), {{"rnge", 0.1}}), std::invalid_argument);
+  EXPECT_THROW(complete(schema.specs(), {{"range", 2.0}}), std::invalid_argument);
+  EXPECT_THROW(complete(schema.specs(), {{"greedy", std::int64_t{1}}}), std::invalid_argument);
+  EXPECT_THROW(complete(schema.specs(), {{"motion", std::string("jump")}}), std::invalid_argument);
+}
+
+TEST(ParamSpec, SaysWhatIsWrong) {
+  const Schema<Sample> schema;
+  EXPECT_EQ(spec(schema, "range").problem_with(0.0), "must be in (0, 1], got 0 m");
+  EXPECT_EQ(spec(schema, "range").problem_with(std::string("x")), "must be a number, got 'x'");
+  EXPECT_EQ(spec(schema, "seed").problem_with(std::int64_t{-1}), "must be >= 0, got -1");
+  EXPECT_EQ(spec(schema, "seed").problem_with(1.5), "must be an integer, got 1.5");
+  EXPECT_EQ(spec(schema, "greedy").problem_with(std::string("yes")), "must be true or false, got 'yes'");
+  EXPECT_EQ(spec(schema, "motion").problem_with(std::string("jump")),
+            "must be one of translation, rotation; got 'jump'");
+  for (const double bad : {std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_TRUE(spec(schema, "range").problem_with(bad)) << bad;
+}
+
+TEST(ParamSpec, WhatTheMemberCannotHoldIsOutOfRange) {
+  const Schema<Sample> schema;
+  EXPECT_TRUE(spec(schema, "depth").problem_with(std::int64_t{-1}));
+  EXPECT_TRUE(spec(schema, "depth").problem_with(std::int64_t{1} << 32));
+  EXPECT_FALSE(spec(schema, "depth").problem_with((std::int64_t{1} << 32) - 1));
+}
+
+// Law: a value is accepted exactly when it lies between the bounds, open ends left out.
+TEST(ParamSpec, RangeLaw) {
+  Rng rng(7);
+  for (int i = 0; i < 2000; ++i) {
+    ParamSpec s;
+    s.name = "x";
+    const double a = std::floor(rng.uniform(-5, 5)), b = std::floor(rng.uniform(-5, 5));
+    const double x = std::floor(rng.uniform(-7, 7));
+    if (rng.below(4) != 0) s.min = std::min(a, b), s.min_open = rng.below(2) == 0;
+    if (rng.below(4) != 0) s.max = std::max(a, b), s.max_open = rng.below(2) == 0;
+    const bool low = s.min && (x < *s.min || (s.min_open && x == *s.min));
+    const bool high = s.max && (x > *s.max || (s.max_open && x == *s.max));
+    EXPECT_EQ(s.problem_with(x).has_value(), low || high) << s.range_text() << " " << x;
+  }
+}
+
+TEST(ParamSpec, RangeText) {
+  ParamSpec s;
+  EXPECT_EQ(s.range_text(), "");
+  s.min = 0;
+  EXPECT_EQ(s.range_text(), ">= 0");
+  s.min_open = true;
+  EXPECT_EQ(s.range_text(), "> 0");
+  s.max = 1;
+  s.max_open = true;
+  EXPECT_EQ(s.range_text(), "(0, 1)");
+  s.min.reset();
+  EXPECT_EQ(s.range_text(), "< 1");
+}
+
+// Law: text of a number reads back as the same number, whatever the locale.
+TEST(ToText, RoundTrips) {
+  Rng rng(11);
+  for (int i = 0; i < 5000; ++i) {
+    const double x = rng.normal() * std::pow(10.0, rng.uniform(-300, 300));
+    const std::string text = to_text(x);
+    double back = 0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), back);
+    ASSERT_EQ(read.ptr, text.data() + text.size()) << text;
+    ASSERT_EQ(back, x) << text;
+  }
+  EXPECT_EQ(to_text(true), "true");
+  EXPECT_EQ(to_text(std::int64_t{-5}), "-5");
+  EXPECT_EQ(to_text(std::string("a b")), "a b");
+}
+
+TEST(ProblemsOfSchema, NamesEachFault) {
+  ParamSpec s;
+  s.name = "9lives";
+  s.type = ParamType::number;
+  s.fallback = 2.0;
+  s.min = 3;
+  s.max = 1;
+  const auto problems = problems_of_schema({s, s});
+  std::string all;
+  for (const auto& p : problems) all += p + "\n";
+  for (const char* part : {"'9lives' does not match", "declared twice", "has no doc", "has no unit", "empty range",
+                           "default of parameter"})
+    EXPECT_NE(all.find(part), std::string::npos) << part << " not in\n" << all;
+}
+
+TEST(Errors, CarryTheirPlace) {
+  const Diagnostic full{"a.yaml", 6, 48, "unknown key"};
+  EXPECT_EQ(full.text(), "a.yaml:6:48: error: unknown key");
+  EXPECT_EQ((Diagnostic{"<--set>", 1, 0, "bad"}.text()), "<--set>:1: error: bad");
+  EXPECT_EQ((Diagnostic{"a.yaml", 0, 0, "bad"}.text()), "a.yaml: error: bad");
+  EXPECT_EQ((Diagnostic{"", 0, 0, "bad"}.text()), "error: bad");
+  const ConfigError error({full, {"a.yaml", 7, 1, "more"}});
+  EXPECT_STREQ(error.what(), "a.yaml:6:48: error: unknown key\na.yaml:7:1: error: more");
+  EXPECT_STREQ(InputError("lid", "not closed").what(), "lid: not closed");
+  EXPECT_EQ(PluginError("x.so", "bad").file(), "x.so");
+}
+
+}  // namespace
+}  // namespace dismantle
