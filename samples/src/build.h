@@ -1,0 +1,62 @@
+/// What the sample makers share: parameter declarations and the making of models.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "dismantle/samples.h"
+#include "solids.h"
+
+namespace dismantle::samples {
+
+/// A sample and how to make it from complete parameters, before `rotate_seed` is applied.
+struct Maker {
+  Sample sample;
+  std::function<Model(const ParamSet&)> make;
+};
+
+struct SampleFacts {
+  bool solvable = true;
+  bool translation_only = true;
+  bool one_at_a_time = true;
+};
+
+template <class Params>
+Maker maker(std::string name, std::string summary, Model (*build)(const Params&), SampleFacts facts = {}) {
+  const Schema<Params> schema;
+  Maker m;
+  m.sample = {std::move(name), std::move(summary),     schema.specs(),
+              facts.solvable,  facts.translation_only, facts.one_at_a_time};
+  m.make = [schema, build](const ParamSet& values) { return build(schema.bind(values)); };
+  return m;
+}
+
+// The makers, one function per source file.
+std::vector<Maker> fit_makers();        // fits.cpp: pegs, sleeves, washers
+std::vector<Maker> slot_makers();       // slots.cpp: slots and boxes
+std::vector<Maker> turning_makers();    // turning.cpp: threads and rings
+std::vector<Maker> interlock_makers();  // interlock.cpp
+std::vector<Maker> machine_makers();    // machine.cpp
+
+/// Adds a part, checked, and returns its name.
+std::string add_part(Model& model, std::string name, Mesh mesh);
+
+/// A straight slide of one part; `out` says that this frees it.
+TruthStep slide(const std::string& part, const Point& way, bool out);
+
+/// Adds `clearance` with the doc that all samples share.
+template <class Params>
+void add_clearance(Schema<Params>& s, double min, double max) {
+  s.add("clearance", &Params::clearance,
+        {.unit = "mm", .min = min, .max = max, .doc = "Smallest distance between any two parts when assembled."});
+}
+
+template <class Params>
+void add_segments(Schema<Params>& s) {
+  s.add("segments", &Params::segments,
+        {.unit = "1", .min = 8, .max = 512, .doc = "Flat faces that stand for a full turn of a round surface."});
+}
+
+}  // namespace dismantle::samples

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <cstdint>
+#include <map>
+
+#include "solids.h"
+
+namespace dismantle::samples {
+namespace {
+
+constexpr double kSame = 1e-9;  // mm; coordinates closer than this are one grid plane
+
+std::size_t plane_of(const std::vector<double>& planes, double x) {
+  return static_cast<std::size_t>(std::lower_bound(planes.begin(), planes.end(), x - kSame) - planes.begin());
+}
+
+}  // namespace
+
+Cells& Cells::add(const Point& lo, const Point& hi) {
+  ops_.push_back({lo, hi, true});
+  return *this;
+}
+
+Cells& Cells::cut(const Point& lo, const Point& hi) {
+  ops_.push_back({lo, hi, false});
+  return *this;
+}
+
+Mesh Cells::mesh() const {
+  std::array<std::vector<double>, 3> planes;
+  for (int axis = 0; axis < 3; ++axis) {
+    auto& p = planes[static_cast<std::size_t>(axis)];
+    for (const auto& op : ops_) {
+      p.push_back(op.lo[axis]);
+      p.push_back(op.hi[axis]);
+    }
+    std::sort(p.begin(), p.end());
+    p.erase(std::unique(p.begin(), p.end(), [](double a, double b) { return b - a < kSame; }), p.end());
+  }
+  const std::array<std::size_t, 3> n = {planes[0].size() - 1, planes[1].size() - 1, planes[2].size() - 1};
+  std::vector<char> solid(n[0] * n[1] * n[2], 0);
+  const auto at = [&n](std::size_t i, std::size_t j, std::size_t k) { return (k * n[1] + j) * n[0] + i; };
+  for (const auto& op : ops_) {
+    std::array<std::size_t, 3> lo{}, hi{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = plane_of(planes[a], op.lo[static_cast<int>(a)]);
+      hi[a] = plane_of(planes[a], op.hi[static_cast<int>(a)]);
+    }
+    for (std::size_t k = lo[2]; k < hi[2]; ++k)
+      for (std::size_t j = lo[1]; j < hi[1]; ++j)
+        for (std::size_t i = lo[0]; i < hi[0]; ++i) solid[at(i, j, k)] = op.solid;
+  }
+
+  Mesh mesh;
+  std::map<std::array<std::size_t, 3>, std::uint32_t> ids;
+  const auto vertex = [&](const std::array<std::size_t, 3>& g) {
+    const auto [entry, fresh] = ids.try_emplace(g, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (fresh) mesh.vertices.emplace_back(planes[0][g[0]], planes[1][g[1]], planes[2][g[2]]);
+    return entry->second;
+  };
+  for (std::size_t k = 0; k < n[2]; ++k)
+    for (std::size_t j = 0; j < n[1]; ++j)
+      for (std::size_t i = 0; i < n[0]; ++i) {
+        if (!solid[at(i, j, k)]) continue;
+        const std::array<std::size_t, 3> cell = {i, j, k};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          for (const bool upper : {false, true}) {
+            auto next = cell;
+            const bool edge = upper ? cell[axis] + 1 == n[axis] : cell[axis] == 0;
+            if (!edge) {
+              next[axis] = upper ? cell[axis] + 1 : cell[axis] - 1;
+              if (solid[at(next[0], next[1], next[2])]) continue;
+            }
+            const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+            std::array<std::uint32_t, 4> q{};
+            for (std::size_t c = 0; c < 4; ++c) {
+              auto g = cell;
+              if (upper) ++g[axis];
+              if (c == 1 || c == 2) ++g[u];
+              if (c >= 2) ++g[v];
+              q[c] = vertex(g);
+            }
+            if (!upper) std::swap(q[1], q[3]);
+            mesh.triangles.push_back({q[0], q[1], q[2]});
+            mesh.triangles.push_back({q[0], q[2], q[3]});
+          }
+      }
+  return mesh;
+}
+
+}  // namespace dismantle::samples
