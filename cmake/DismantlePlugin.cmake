@@ -9,6 +9,9 @@ function(dismantle_add_plugin name)
     CXX_STANDARD 20 CXX_STANDARD_REQUIRED ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     PREFIX "lib")
+  set(exports "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/dismantle_plugin.map")
+  target_link_options(${name} PRIVATE "LINKER:--version-script=${exports}")
+  set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${exports}")
   if(DEFINED DISMANTLE_PLUGIN_OUTPUT_DIRECTORY)  # in tree
     target_link_libraries(${name} PRIVATE dismantle_settings)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")

@@ -51,7 +51,7 @@ struct NoParams {
 
 /// Facts about a type that can be read without making one.
 struct TypeTraits {
-  std::string source;          ///< paper section or reference
+  std::string source{};        ///< paper section or reference
   Capabilities needs = {};     ///< path planners: what the simulator must have
   Capabilities provides = {};  ///< simulators
 };

@@ -14,14 +14,20 @@ namespace {
 
 std::map<std::string, std::string> items_of(std::string_view tag) {
   std::map<std::string, std::string> items;
-  while (!tag.empty()) {
-    const std::size_t end = std::min(tag.find(';'), tag.size());
-    const std::string_view item = tag.substr(0, end);
-    const std::size_t equals = std::min(item.find('='), item.size());
-    if (!item.empty())
-      items.emplace(item.substr(0, equals), equals < item.size() ? item.substr(equals + 1) : std::string_view{});
-    tag.remove_prefix(std::min(end + 1, tag.size()));
+  std::string key, value;
+  bool in_value = false;
+  for (const char c : tag) {
+    if (c == ';') {
+      items.emplace(key, value);
+      key.clear(), value.clear();
+      in_value = false;
+    } else if (c == '=' && !in_value) {
+      in_value = true;
+    } else {
+      (in_value ? value : key) += c;
+    }
   }
+  if (!key.empty()) items.emplace(key, value);
   return items;
 }
 

@@ -66,7 +66,7 @@ std::string joined(const std::vector<std::string>& parts) {
 std::vector<std::string> problems_of_types(const std::vector<PluginType>& types, bool built_in) {
   std::vector<std::string> problems;
   std::set<std::string> ids;
-  if (types.empty()) problems.push_back("registers no type");
+  if (types.empty()) problems.emplace_back("registers no type");
   for (const auto& type : types) {
     const auto add = [&](const std::string& problem) {
       problems.push_back(fmt::format("type '{}' {}", type.id, problem));
