@@ -1,0 +1,185 @@
+// dismantle plan INPUT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/output/animation.h"
+#include "dismantle/output/summary.h"
+#include "dismantle/runner.h"
+#include "dismantle/settings.h"
+
+namespace dismantle::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PlanOptions {
+  std::string input, folder, part;
+  ConfigFlags config;
+  ConsoleOptions console;
+};
+
+/// "gearbox/" -> "gearbox.plan", "x/gearbox.step" -> "gearbox.plan".
+fs::path default_folder(const std::string& input) {
+  std::error_code error;
+  fs::path path = fs::absolute(input, error).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  const fs::path name = fs::is_directory(path, error) ? path.filename() : path.stem();
+  return (name.empty() ? "assembly" : name.string()) + ".plan";
+}
+
+Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
+  Ingredients out;
+  out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
+  out.path_planner = [&registry, choice = config.path_planner] {
+    return registry.create<PathPlanner>(choice.type, choice.params);
+  };
+  out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
+  out.path_planner_id = config.path_planner.type;
+  return out;
+}
+
+RunOptions run_options_of(const RunConfig& config, const std::string& part) {
+  RunOptions out;
+  out.path_timeout = config.run.path_timeout;
+  out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
+  out.only_part = part;
+  out.verify = config.verify;
+  out.seed = static_cast<std::uint64_t>(config.run.seed);
+  return out;
+}
+
+/// Saves the plan while it grows, at most once a second: what a crash can cost is one second's steps.
+class Saver {
+ public:
+  Saver(fs::path file, Console& console) : file_(std::move(file)), console_(console) {}
+
+  void operator()(const Plan& plan) {
+    const PlanStep& step = plan.disassembly.back();
+    std::string names;
+    for (const auto& move : step.moves) names += (names.empty() ? "" : ", ") + move.part;
+    console_.line(
+        fmt::format("step {}: {} out, {} left ({:.2f} s)", step.step, names, plan.remaining.size(), step.seconds));
+    const auto now = std::chrono::steady_clock::now();
+    if (saved_once_ && now - saved_ < std::chrono::seconds(1)) return;
+    write_file(file_, to_json(plan));
+    saved_once_ = true;
+    saved_ = now;
+  }
+
+ private:
+  fs::path file_;
+  Console& console_;
+  bool saved_once_ = false;
+  std::chrono::steady_clock::time_point saved_;
+};
+
+/// Returns the names of the files in `folder`.
+std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder) {
+  write_file(folder / "plan.json", to_json(result.plan));
+  const auto glb = to_glb(result.plan, assembly);
+  write_file(folder / "plan.glb", std::string(glb.begin(), glb.end()));
+  write_file(folder / "precedence.dot", to_dot(result.plan, result.precedence));
+  return {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+}
+
+bool any_crash(const RunResult& result) {
+  return result.outcome == Outcome::crashed ||
+         std::ranges::any_of(result.plan.unsolved, [](const PlanUnsolved& u) { return u.outcome == Outcome::crashed; });
+}
+
+int status_of(const RunResult& result, bool one_part, const RunContext& context) {
+  const bool done = one_part ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
+  if (done) return kComplete;
+  if (context.cancel.cancelled()) return kInterrupted;
+  return any_crash(result) ? kPluginFailed : kPartial;
+}
+
+nlohmann::ordered_json result_json(const RunResult& result, int status, const fs::path& plan) {
+  const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
+  const char* words = status == kComplete      ? "complete"
+                      : status == kInterrupted ? "interrupted"
+                      : status == kPartial     ? "partial"
+                                               : "error";
+  nlohmann::ordered_json out = {{"status", words},
+                                {"parts", parts},
+                                {"steps", result.plan.disassembly.size()},
+                                {"removed", parts - left},
+                                {"left", left},
+                                {"excluded", result.plan.assembly.excluded.size()},
+                                {"unsolved", result.plan.unsolved.size()},
+                                {"plan", plan.string()}};
+  if (status == kPluginFailed) out["message"] = "a plugin failed; see 'unsolved' in the plan";
+  return out;
+}
+
+int plan(const PlanOptions& options) {
+  Console console(options.console);
+  Registry registry;
+  const RunConfig config = load_config(options.config.source(), registry);
+  warn_of_problems(registry, console);
+  const Ingredients ingredients = ingredients_of(config, registry);
+  RunContext context = context_of(config.run, console);
+
+  const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
+  PrepareReport report;
+  if (!options.folder.empty()) open_output_folder(folder);
+  const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+  open_output_folder(folder);
+  write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
+
+  Saver saver(folder / "plan.json", console);
+  const RunResult result = run(assembly, ingredients, run_options_of(config, options.part), context, std::ref(saver));
+  const auto files = write_results(result, assembly, folder);
+  console.end_progress();
+
+  const int status = status_of(result, !options.part.empty(), context);
+  std::string text = summary_text(result.plan);
+  text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)\n",
+                      result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
+  if (status == kInterrupted) text += "interrupted: this is what was done until then\n";
+  text += fmt::format("wrote to {}:", folder.string());
+  for (const auto& file : files) text += " " + file;
+  console.text(text + "\n");
+  console.result(result_json(result, status, folder / "plan.json"));
+  return status;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("plan", "Find an order in which the parts come out, and a way for each");
+  auto options = std::make_shared<PlanOptions>();
+  command->add_option("input", options->input, "Folder of mesh files (one part each), or one file with several parts")
+      ->required()
+      ->option_text("INPUT");
+  command
+      ->add_option("-o,--output", options->folder, "Folder for the results; default: NAME.plan here, for an input NAME")
+      ->option_text("DIR");
+  options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--simulator", "simulator.type", "ID", "Simulator");
+  options->config.add_key(*command, "--path-planner", "path_planner.type", "ID", "Path planner");
+  options->config.add_key(*command, "--sequence-planner", "sequence_planner.type", "ID", "Sequence planner");
+  command->add_option("--part", options->part, "Plan just this part's path, all other parts still")
+      ->option_text("NAME");
+  options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
+  options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
+  options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");
+  options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer(
+      "Writes plan.json, plan.glb (the animation), precedence.dot and resolved.yaml. Ctrl-C once stops soon and "
+      "saves.\n"
+      "Examples:\n"
+      "  dismantle plan gearbox/\n"
+      "  dismantle plan gearbox/ --part shaft --set path_planner.motion=rotation -o shaft\n"
+      "  dismantle plan gearbox/ --format json -q | tail -n 1");
+  command->callback([&action, options] { action = [options] { return plan(*options); }; });
+}
+
+}  // namespace dismantle::app

@@ -1,0 +1,57 @@
+// dismantle prepare INPUT -o DIR
+#include <fmt/format.h>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/output/summary.h"
+#include "dismantle/prepare/write_prepared.h"
+#include "dismantle/settings.h"
+
+namespace dismantle::app {
+namespace {
+
+struct Prepare {
+  std::string input, folder;
+  ConfigFlags config;
+  ConsoleOptions console;
+};
+
+int prepare(const Prepare& options) {
+  Console console(options.console);
+  Registry registry;
+  const RunConfig config = load_config(options.config.source(), registry);
+  warn_of_problems(registry, console);
+  open_output_folder(options.folder);
+  RunContext context = context_of(config.run, console);
+  PrepareReport report;
+  const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+  const auto files = write_prepared(assembly, report, options.folder);
+  console.end_progress();
+  console.text(prepare_text(assembly, report) + fmt::format("wrote {} files to {}\n", files.size(), options.folder));
+  console.result({{"status", "complete"},
+                  {"parts", assembly.parts.size()},
+                  {"excluded", assembly.excluded.size()},
+                  {"report", files.back().string()}});
+  return kComplete;
+}
+
+}  // namespace
+
+void add_prepare(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("prepare", "Clean an assembly's meshes and say what was done to each part");
+  auto options = std::make_shared<Prepare>();
+  command->add_option("input", options->input, "Folder of mesh files, or one file with several parts")
+      ->required()
+      ->option_text("INPUT");
+  command->add_option("-o,--output", options->folder, "Where the cleaned meshes and prepare.json go")
+      ->required()
+      ->option_text("DIR");
+  options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer("Example:\n  dismantle prepare scans/ -o clean --set assembly.max_overlap=0.1");
+  command->callback([&action, options] { action = [options] { return prepare(*options); }; });
+}
+
+}  // namespace dismantle::app

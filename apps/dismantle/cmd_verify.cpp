@@ -1,0 +1,108 @@
+// dismantle verify PLAN.json
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/output/summary.h"
+#include "dismantle/plan/assembly_of_plan.h"
+#include "dismantle/plan/check_plan.h"
+#include "dismantle/plan_file.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+namespace {
+
+struct Verify {
+  std::string plan, assembly;
+  ConsoleOptions console;
+};
+
+/// The plan's input: what the user names, else the path in the plan, seen from here or from the plan file.
+std::string find_source(const Verify& options, const Plan& plan) {
+  if (!options.assembly.empty()) return options.assembly;
+  const std::filesystem::path named = plan.assembly.source;
+  std::error_code error;
+  for (const auto& path : {named, std::filesystem::path(options.plan).parent_path() / named})
+    if (!named.empty() && std::filesystem::exists(path, error)) return path.string();
+  throw InputError(options.plan,
+                   fmt::format("the assembly '{}' that this plan is for is neither here nor beside the plan; "
+                               "name it with --assembly",
+                               plan.assembly.source));
+}
+
+/// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid.
+double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
+  const double most = VerifyOptions{}.max_penetration;
+  if (plan.verified_max_penetration > most)
+    console.warning(fmt::format("the plan was made with a tolerance of {:.3g}; it is judged by {:.3g} assembly units",
+                                plan.verified_max_penetration, most));
+  const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff();
+  if (std::abs(size - 10) > 1e-6)
+    console.warning(
+        fmt::format("the largest edge of the assembly is {:.6g} of the plan's units, usually it is 10: the "
+                    "tolerance is {:.2g} of it",
+                    size, std::min(plan.verified_max_penetration, most) / size));
+  return std::min(plan.verified_max_penetration, most);
+}
+
+int verify(const Verify& options) {
+  Console console(options.console);
+  Registry registry;
+  registry.scan();
+  warn_of_problems(registry, console);
+  RunSettings settings;
+  settings.timeout = 0;
+  RunContext context = context_of(settings, console);
+
+  const Plan plan = read_plan(options.plan);
+  const std::string source = find_source(options, plan);
+  ReadOptions read;
+  read.max_triangles = std::numeric_limits<std::int64_t>::max();
+  const Assembly assembly = stoppable(context, [&] {
+    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
+  });
+  VerifyOptions tolerance;
+  tolerance.max_penetration = tolerance_of(plan, assembly, console);
+  const PlanCheck check = check_plan(plan, assembly, tolerance, context);
+  console.end_progress();
+  if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
+
+  console.text(check_text(plan, check));
+  auto problems = nlohmann::ordered_json::array();
+  for (const auto& p : check.problems) problems.push_back({{"step", p.step}, {"message", p.message}});
+  console.result({{"status", !check.valid     ? "invalid"
+                             : check.complete ? "complete"
+                                              : "partial"},
+                  {"parts", assembly.parts.size()},
+                  {"steps", plan.disassembly.size()},
+                  {"max_penetration", check.max_penetration},
+                  {"problems", problems},
+                  {"plan", options.plan}});
+  return check.valid && check.complete ? kComplete : kPartial;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Action& action) {
+  auto* command =
+      app.add_subcommand("verify", "Check a plan against the original triangles, independently of its planner");
+  auto options = std::make_shared<Verify>();
+  command->add_option("plan", options->plan, "Plan file")->required()->option_text("PLAN.json");
+  command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
+      ->option_text("INPUT");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer(
+      "Example:\n"
+      "  dismantle verify out/plan.json --assembly gearbox/\n"
+      "Exit status: 0 valid and complete; 1 valid but partial, or not valid; 3 the plan or the input cannot be used.");
+  command->callback([&action, options] { action = [options] { return verify(*options); }; });
+}
+
+}  // namespace dismantle::app

@@ -1,0 +1,28 @@
+/// Sub-commands. Each add_... declares its options; parsing picks one and stores what it does in `action`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace dismantle::app {
+
+/// Exit statuses (docs/cli.md).
+enum ExitStatus : int {
+  kComplete = 0,
+  kPartial = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kPluginFailed = 4,
+  kInterrupted = 130,
+};
+
+using Action = std::function<int()>;
+
+void add_plan(CLI::App& app, Action& action);
+void add_prepare(CLI::App& app, Action& action);
+void add_verify(CLI::App& app, Action& action);
+void add_explain(CLI::App& app, Action& action);
+void add_plugins(CLI::App& app, Action& action);
+void add_sample(CLI::App& app, Action& action);
+
+}  // namespace dismantle::app

@@ -1,0 +1,98 @@
+// dismantle: one command, sub-commands. Errors become messages and exit statuses here.
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string_view>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+namespace {
+
+/// True if the user asked for JSON, also on a command line that does not parse.
+bool asks_for_json(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view arg = argv[i];
+    if (arg == "--format=json" || (arg == "--format" && i + 1 < argc && std::string_view(argv[i + 1]) == "json"))
+      return true;
+  }
+  return false;
+}
+
+int report_failure(bool json, int status, const std::string& message) {
+  fmt::print(stderr, "dismantle: error: {}\n", message);
+  if (json)
+    fmt::print("{}", result_line({{"status", status == kInterrupted ? "interrupted" : "error"}, {"message", message}}));
+  return status;
+}
+
+/// One per line, without a prefix of ours: `file:line:column: error: message` is what editors jump to.
+int report_diagnostics(bool json, const ConfigError& e) {
+  std::string all;
+  for (const auto& d : e.diagnostics()) all += (all.empty() ? "" : "\n") + d.text();
+  fmt::print(stderr, "{}\n", all);
+  if (json) fmt::print("{}", result_line({{"status", "error"}, {"message", all}}));
+  return kUsage;
+}
+
+int run(CLI::App& app, Action& action, int argc, char** argv) {
+  const bool json = asks_for_json(argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {  // --help and --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    const int status = report_failure(json, kUsage, e.what());
+    fmt::print(stderr, "Try 'dismantle --help' or 'dismantle COMMAND --help'.\n");
+    return status;
+  }
+  try {
+    return action();
+  } catch (const ConfigError& e) {
+    return report_diagnostics(json, e);
+  } catch (const InputError& e) {
+    return report_failure(json, kBadInput, e.what());
+  } catch (const PluginError& e) {
+    return report_failure(json, kPluginFailed, e.what());
+  } catch (const Stopped& e) {
+    return report_failure(json, e.status(), e.what());
+  } catch (const Error& e) {
+    return report_failure(json, kUsage, e.what());
+  } catch (const std::filesystem::filesystem_error& e) {
+    return report_failure(json, kUsage, e.what());
+  } catch (const std::bad_alloc&) {
+    return report_failure(json, kBadInput, "not enough memory for this input");
+  } catch (const std::exception& e) {
+    return report_failure(json, kPluginFailed, fmt::format("internal error: {}", e.what()));
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::app
+
+int main(int argc, char** argv) {
+  using namespace dismantle::app;
+  CLI::App app("Takes assemblies apart, to find out how to put them together.", "dismantle");
+  app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Examples:\n"
+      "  dismantle sample peg_in_hole -o peg && dismantle plan peg\n"
+      "  dismantle plan gearbox/ -c configs/paper.yaml -o out\n"
+      "  dismantle verify out/plan.json\n"
+      "Exit status: 0 complete, 1 not all parts came out, 2 usage or configuration, 3 unusable input,\n"
+      "4 a plugin failed, 130 interrupted.");
+  Action action;
+  add_plan(app, action);
+  add_prepare(app, action);
+  add_verify(app, action);
+  add_explain(app, action);
+  add_plugins(app, action);
+  add_sample(app, action);
+  return run(app, action, argc, argv);
+}

@@ -1,0 +1,24 @@
+#include "dismantle/plan_file.h"
+
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "dismantle/errors.h"
+
+namespace dismantle::app {
+
+Plan read_plan(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error)) throw InputError(file.string(), "is a folder, not a plan file");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
+  if (!in.is_open() || in.bad() || text.bad())
+    throw InputError(file.string(), "cannot be read: " + std::generic_category().message(errno));
+  return plan_from_json(text.str(), file.string());
+}
+
+}  // namespace dismantle::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+
+#include "dismantle/plan/plan.h"
+
+namespace dismantle::app {
+
+/// @throws InputError naming the file and what is wrong with it.
+Plan read_plan(const std::filesystem::path& file);
+
+}  // namespace dismantle::app

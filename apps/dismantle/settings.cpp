@@ -1,0 +1,83 @@
+#include "dismantle/settings.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <thread>
+
+#include "dismantle/errors.h"
+#include "dismantle/interrupt.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+
+void ConfigFlags::add_file_and_set(CLI::App& command) {
+  command.add_option("-c,--config", file_, "Configuration (docs/configuration.md)")->option_text("CONFIG.yaml");
+  command.add_option("--set", set_, "Override one key, as in path_planner.max_depth=3; may be repeated")
+      ->option_text("KEY=VALUE")
+      ->take_all()
+      ->allow_extra_args(false);
+}
+
+void ConfigFlags::add_key(CLI::App& command, const std::string& flag, const std::string& key,
+                          const std::string& value_name, const std::string& help) {
+  keys_.push_back({nullptr, flag, key, std::make_unique<std::string>()});
+  keys_.back().option =
+      command.add_option(flag, *keys_.back().value, fmt::format("{} ({})", help, key))->option_text(value_name);
+}
+
+ConfigSource ConfigFlags::source() const {
+  ConfigSource source;
+  if (!file_.empty()) source.file = file_;
+  source.set = set_;
+  for (const Key& key : keys_)
+    if (key.option->count() > 0) source.options.push_back({key.flag, key.key, *key.value});
+  return source;
+}
+
+std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry) {
+  std::vector<std::shared_ptr<Importer>> out;
+  for (const RegisteredType* type : registry.types(PluginKind::importer))
+    out.push_back(registry.create<Importer>(type->type.id));
+  return out;
+}
+
+void warn_of_problems(const Registry& registry, Console& console) {
+  for (const auto& problem : registry.problems())
+    console.warning(fmt::format("plugin not used: {}: {}", problem.file.string(), problem.message));
+}
+
+RunContext context_of(const RunSettings& settings, Console& console) {
+  RunContext context;
+  if (settings.timeout > 0) context.deadline = Deadline::after_seconds(settings.timeout);
+  context.threads = settings.threads > 0 ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+  console.attach(context);
+  cancel_on_signals(context.cancel);
+  return context;
+}
+
+Assembly load_assembly(const std::string& input, const RunConfig& config, const Registry& registry, RunContext& context,
+                       PrepareReport& report) {
+  ReadOptions options;
+  options.max_triangles = config.assembly.max_triangles;
+  return stoppable(context, [&] {
+    InputParts parts = read_input(input, importers_of(registry), options, context);
+    for (const auto& warning : parts.warnings) context.log(LogLevel::warning, warning);
+    return prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+  });
+}
+
+void open_output_folder(const std::filesystem::path& folder) {
+  const auto fail = [&](const std::string& why) {
+    throw Error(fmt::format("{}: cannot be used as output folder: {}", folder.string(), why));
+  };
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) fail(error.message());
+  if (!std::filesystem::is_directory(folder, error)) fail("it is not a folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(std::generic_category().message(errno));
+}
+
+}  // namespace dismantle::app

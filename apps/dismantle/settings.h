@@ -1,0 +1,57 @@
+/// Options that set configuration keys, and what follows from a configuration.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/config.h"
+#include "dismantle/console.h"
+#include "dismantle/importer.h"
+#include "dismantle/model/assembly.h"
+#include "dismantle/prepare/prepare.h"
+#include "dismantle/prepare/read_input.h"
+#include "dismantle/registry.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::app {
+
+/// -c, --set and options that stand for one key each.
+class ConfigFlags {
+ public:
+  void add_file_and_set(CLI::App& command);
+  /// `flag` as in "--seed", its value is taken literally as that of `key`.
+  void add_key(CLI::App& command, const std::string& flag, const std::string& key, const std::string& value_name,
+               const std::string& help);
+  ConfigSource source() const;
+
+ private:
+  struct Key {
+    CLI::Option* option;
+    std::string flag, key;
+    std::unique_ptr<std::string> value;  // the parser keeps its address
+  };
+  std::string file_;
+  std::vector<std::string> set_;
+  std::vector<Key> keys_;
+};
+
+/// All importers that are there, by id.
+std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry);
+
+/// A warning for each plugin file that could not be used.
+void warn_of_problems(const Registry& registry, Console& console);
+
+/// Threads, deadline and cancellation on signals; sinks of `console`.
+RunContext context_of(const RunSettings& settings, Console& console);
+
+/// Reads and prepares `input`. Warnings go to the context's log.
+Assembly load_assembly(const std::string& input, const RunConfig& config, const Registry& registry, RunContext& context,
+                       PrepareReport& report);
+
+/// Makes the folder if need be and makes sure that files can be written there, before any work is done.
+/// @throws Error naming the folder.
+void open_output_folder(const std::filesystem::path& folder);
+
+}  // namespace dismantle::app

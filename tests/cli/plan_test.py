@@ -1,0 +1,125 @@
+"""Whole runs: what is written, what is said, and what an interruption leaves."""
+import json
+import os
+import re
+import signal
+import subprocess
+import threading
+
+from program import HANGING, PROGRAM, CliTest, box
+
+QUICK = ("--path-timeout", "0", "--timeout", "0")
+
+
+class Plan(CliTest):
+    def make(self, name, *set_):
+        arguments = [a for item in set_ for a in ("--set", item)]
+        self.run_program("sample", name, "-o", name, *arguments, status=0)
+        return name
+
+    def test_a_plan_is_complete_written_and_verified(self):
+        self.make("machine", "parts=4")
+        done = self.run_program("plan", "machine", *QUICK, "--format", "json", status=0)
+        result = self.result_of(done)
+        self.assertEqual(result["status"], "complete")
+        self.assertEqual([result[k] for k in ("parts", "steps", "removed", "left", "excluded", "unsolved")], [4, 3, 3, 1, 0, 0])
+        self.assertEqual(result["plan"], "machine.plan/plan.json")
+        self.assertEqual(sorted(os.listdir(self.path("machine.plan"))), ["plan.glb", "plan.json", "precedence.dot", "resolved.yaml"])
+        plan = json.loads(self.read(result["plan"]))
+        self.assertEqual(plan["status"], "complete")
+        self.assertEqual(len(plan["disassembly"]), 3)
+        with open(self.path("machine.plan", "plan.glb"), "rb") as file:
+            self.assertEqual(file.read(4), b"glTF")
+
+        verified = self.run_program("verify", result["plan"], "--format", "json", status=0)
+        self.assertEqual(self.result_of(verified)["status"], "complete")
+        self.assertIn("nothing to explain", self.run_program("explain", result["plan"], status=0).stdout)
+
+    def test_same_seed_same_bytes_and_the_resolved_file_repeats_the_run(self):
+        self.make("machine", "parts=4")
+        self.run_program("plan", "machine", *QUICK, "-o", "a", "--threads", "1", "--seed", "7", "-q", status=0)
+        self.run_program("plan", "machine", *QUICK, "-o", "b", "--threads", "2", "--seed", "7", "-q", status=0)
+        self.run_program("plan", "machine", "-c", "a/resolved.yaml", "-o", "c", "-q", status=0)
+        plans = [re.sub(r'"seconds": [^,]*', "", self.read(name, "plan.json")) for name in "abc"]
+        self.assertEqual(plans[0], plans[1])
+        self.assertEqual(plans[0], plans[2])
+
+    def test_text_output_names_parts_in_order_and_quiet_is_silent(self):
+        self.make("peg_in_hole")
+        done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", status=0)
+        for word in ("2 parts, 1 step, complete", "penetration <=", "stays:", "plan.glb"):
+            self.assertIn(word, done.stdout)
+        done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "out", "-q", status=0)
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_one_part(self):
+        self.make("peg_in_hole")
+        name = json.loads(self.result("peg_in_hole"))["disassembly"][0]["moves"][0]["part"]
+        done = self.run_program("plan", "peg_in_hole", *QUICK, "-o", "one", "--part", name, "--format", "json", status=0)
+        self.assertEqual(self.result_of(done)["steps"], 1)
+
+    def result(self, name):
+        self.run_program("plan", name, *QUICK, "-o", "all", "-q", status=0)
+        return self.read("all", "plan.json")
+
+    def test_what_cannot_come_out_gives_a_partial_plan(self):
+        # A cube in a closed box, and a second one outside of it.
+        self.write("in/cube.obj", box((-1, -1, -1), (1, 1, 1)))
+        walls = box((-3, -3, -3), (3, 3, 3))
+        inner = box((-2, -2, -2), (2, 2, 2)).splitlines()
+        for line in inner:
+            word = line.split()
+            walls += line + "\n" if word[0] == "v" else "f " + " ".join(str(int(i) + 8) for i in reversed(word[1:])) + "\n"
+        self.write("in/box.obj", walls)
+        self.write("in/free.obj", box((3.2, -1, -1), (5, 1, 1)))
+        done = self.run_program("plan", "in", "--path-timeout", "0", "--set", "run.path_steps=2000", "--format", "json", status=1)
+        result = self.result_of(done)
+        self.assertEqual((result["status"], result["removed"], result["left"]), ("partial", 1, 2))
+        self.assertGreater(result["unsolved"], 0)
+        verified = self.run_program("verify", result["plan"], "--format", "json", status=1)
+        self.assertEqual(self.result_of(verified)["status"], "partial")
+        self.assertIn("did not come out", self.run_program("explain", result["plan"], status=0).stdout)
+
+    def test_a_tampered_plan_is_found_out(self):
+        self.make("peg_in_hole")
+        plan = json.loads(self.result("peg_in_hole"))
+        poses = plan["disassembly"][0]["moves"][0]["poses"]
+        poses[1:] = [[x + 1e3 * i for i in (0.7, 0.5, 0.3)] + [1, 0, 0, 0] for x in (0,)]
+        self.write("bad.json", json.dumps(plan))
+        done = self.run_program("verify", "bad.json", "--format", "json", status=1)
+        result = self.result_of(done)
+        self.assertEqual(result["status"], "invalid")
+        self.assertEqual(result["problems"][0]["step"], 1)
+
+
+class Interruption(CliTest):
+    def interrupt(self, sign):
+        """Sends the signal when the first step is reported; returns status and standard output."""
+        self.run_program("sample", "machine", "-o", "machine", "--set", "parts=40", status=0)
+        process = subprocess.Popen([PROGRAM, "plan", "machine", *QUICK, "--threads", "1", "--format", "json"], cwd=self.folder, text=True,
+                                   encoding="utf-8", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.stdout.close)
+        watchdog = threading.Timer(HANGING, process.kill)
+        watchdog.start()
+        try:
+            for line in process.stderr:
+                if line.startswith("step 1:"):
+                    process.send_signal(sign)
+                    break
+            process.stderr.read()
+            return process.wait(), process.stdout.read()
+        finally:
+            watchdog.cancel()
+
+    def test_once_saves_what_is_done(self):
+        for sign in (signal.SIGINT, signal.SIGTERM):
+            status, output = self.interrupt(sign)
+            self.assertEqual(status, 130)
+            result = json.loads(output.splitlines()[-1])
+            self.assertEqual(result["status"], "interrupted")
+            self.assertGreaterEqual(result["steps"], 1)
+            self.assertLess(result["steps"], 39)
+            verified = self.run_program("verify", result["plan"], "--format", "json", status=1)
+            self.assertEqual(self.result_of(verified)["status"], "partial")
+            self.assertTrue(os.path.exists(self.path("machine.plan", "plan.glb")))
