@@ -141,10 +141,11 @@ double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody
                          double tolerance) {
   if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
   using verify::Placement;
-  const Placement a_in_b(pose_b.inverse() * pose_a), b_in_a(pose_a.inverse() * pose_b);
   double deepest = 0;
   for (const auto& x : a.impl().solids)
     for (const auto& y : b.impl().solids) {
+      const Pose place_x = pose_a * x.frame, place_y = pose_b * y.frame;
+      const Placement a_in_b(place_y.inverse() * place_x), b_in_a(place_x.inverse() * place_y);
       const Eigen::Vector3d c = a_in_b * x.box.center(), h = a_in_b.r.cwiseAbs() * (0.5 * x.box.size());
       if (!Aabb{c - h, c + h}.overlaps(y.box)) continue;
       const bool swap = y.mesh.triangles.size() < x.mesh.triangles.size();

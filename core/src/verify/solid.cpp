@@ -153,6 +153,61 @@ std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& n
   return directions;
 }
 
+/// Axes along the two directions, at right angles, that most of the surface faces.
+Pose tight_frame(const Mesh& mesh) {
+  struct Facing {
+    std::array<int, 3> key;  // direction up to sign, rounded
+    double area;
+    Vec3 n;
+  };
+  std::vector<Facing> all;
+  all.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Vec3 n = triangle_normal(mesh, t);
+    if (n.isZero(0)) continue;
+    std::array<int, 3> key;
+    for (std::size_t k = 0; k < 3; ++k) key[k] = static_cast<int>(std::lround(n[static_cast<int>(k)] * 1000));
+    if (key < std::array<int, 3>{}) {
+      n = -n;
+      for (auto& k : key) k = -k;
+    }
+    const Vec3 a = mesh.vertex(t, 0);
+    all.push_back({key, 0.5 * (mesh.vertex(t, 1) - a).cross(mesh.vertex(t, 2) - a).norm(), n});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Facing& a, const Facing& b) { return a.key < b.key; });
+  std::vector<Facing> sums;
+  for (const auto& f : all) {
+    if (sums.empty() || sums.back().key != f.key)
+      sums.push_back(f);
+    else
+      sums.back().area += f.area;
+  }
+  const auto largest = [&](const auto& fits) {
+    const Facing* best = nullptr;
+    for (const auto& f : sums)
+      if (fits(f) && (!best || f.area > best->area)) best = &f;
+    return best;
+  };
+  const Facing* first = largest([](const Facing&) { return true; });
+  if (!first) return {};
+  const Facing* second = largest([&](const Facing& f) { return std::abs(f.n.dot(first->n)) < 0.02; });
+  const Vec3 x = first->n;
+  const Vec3 y = second ? Vec3((second->n - second->n.dot(x) * x).normalized()) : x.unitOrthogonal();
+  Eigen::Matrix3d r;
+  r << x, y, x.cross(y);
+  // Already along the axes: leave the coordinates as they are.
+  if ((r.cwiseAbs().rowwise().maxCoeff().array() > 1 - 1e-9).all()) return {};
+  return {Vec3::Zero(), Eigen::Quaterniond(r).normalized()};
+}
+
+Mesh turned(const Mesh& mesh, const Pose& frame) {
+  Mesh local = mesh;
+  if (frame.is_identity()) return local;
+  const Eigen::Matrix3d back = frame.q.toRotationMatrix().transpose();
+  for (auto& v : local.vertices) v = back * v;
+  return local;
+}
+
 bool share_corner(const Triangle& a, const Triangle& b) {
   for (const auto i : a)
     for (const auto j : b)
@@ -162,7 +217,7 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-Solid::Solid(Mesh m) : mesh(std::move(m)), bvh(mesh), box(mesh.box()) {
+Solid::Solid(const Mesh& m) : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh), box(mesh.box()) {
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
   inward = inward_directions(mesh, normals);
@@ -242,7 +297,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh) {
   }
   std::vector<Solid> solids;
   solids.reserve(groups.size());
-  for (auto& g : groups) solids.emplace_back(std::move(g.mesh));
+  for (const auto& g : groups) solids.emplace_back(g.mesh);
   return solids;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dismantle/geometry/mesh.h"
+#include "dismantle/geometry/pose.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::verify {
@@ -13,8 +14,11 @@ namespace dismantle::verify {
 /// One outer shell and the voids within it. A part whose shells overlap is judged solid by solid: the surface of
 /// one shell inside another must not make a deep penetration look shallow. Immutable.
 struct Solid {
-  explicit Solid(Mesh m);
+  explicit Solid(const Mesh& m);
 
+  /// A rotation: assembled = frame * local. Everything below is in the local frame, whose axes follow the largest flat
+  /// faces, so that boxes fit tightly however the part was turned in the input.
+  Pose frame;
   Mesh mesh;
   TriangleBvh bvh;
   Aabb box;

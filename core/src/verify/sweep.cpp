@@ -32,6 +32,8 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
   if (turning_) add_axis((end[1] - end[0]).cross(end[2] - end[1]));
   const bool moving = motion_.squaredNorm() > kRounding * kRounding;
   for (const auto& e : edges_) add_axis(moving ? e.cross(motion_) : e.cross(normal));
+  // A sliver that moves along itself has sides whose normals are all but that of its face.
+  if (moving) add_axis(normal.cross(motion_));
 }
 
 void Sweep::add_axis(const Vec3& n) {

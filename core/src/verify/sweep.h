@@ -41,7 +41,7 @@ class Sweep {
   Eigen::Vector3d motion_;
   std::array<Eigen::Vector3d, 3> edges_;
   Aabb box_;
-  std::array<Axis, 6> axes_;
+  std::array<Axis, 6> axes_;  // one or two normals, three sides, one across
   int axis_count_ = 0;
 };
 

@@ -9,6 +9,7 @@
 
 #include "dismantle/geometry/hull.h"
 #include "verify/pair_check.h"
+#include "verify/sampling.h"
 
 namespace dismantle {
 namespace {
@@ -22,10 +23,11 @@ constexpr double kStill = 1e-9;
 /// Bounds that max_penetration is reported by, and the one that gets full effort although a wider one will do.
 constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
 constexpr double kWorthwhile = 1e-3;
+/// A rung is tried if the deepest point known takes no more than this share of it.
+constexpr double kRoom = 0.8;
 /// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
-constexpr std::uint64_t kTryTests = 100'000;
-constexpr std::uint64_t kFullTests = 4'000'000;
-constexpr std::uint64_t kPatches = 400'000;
+constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
+constexpr std::uint64_t kFullTests = 4'000'000, kFullPatches = 80'000;
 
 std::vector<double> rungs_up_to(double most) {
   std::vector<double> rungs;
@@ -33,6 +35,13 @@ std::vector<double> rungs_up_to(double most) {
     if (r < most * (1 - 1e-12)) rungs.push_back(r);
   rungs.push_back(most);
   return rungs;
+}
+
+std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
+  std::vector<Pose> result;
+  result.reserve(poses.size());
+  for (const auto& p : poses) result.push_back(p * frame);
+  return result;
 }
 
 Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
@@ -103,17 +112,23 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     box.inflate(allowed + options.max_penetration);
     return box;
   };
-  const verify::RelativeMotion forward(a.poses, b.poses, grown(x.box));
+  const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
+  const verify::RelativeMotion forward(poses_a, poses_b, grown(x.box));
   if (!forward.swept_box().overlaps(y.box)) return true;
-  const verify::RelativeMotion backward(b.poses, a.poses, grown(y.box));
+  const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
 
   const std::size_t last = rungs.size() - 1;
-  for (;;) {
+  for (bool first_try = true;; first_try = false) {
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
-    verify::Budget budget{decides ? kFullTests : kTryTests, kPatches, 0};
-    const Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    verify::Budget budget{decides ? kFullTests : kTryTests, decides ? kFullPatches : kTryPatches, 0};
+    Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
+    if (first_try) {  // before more effort: how deep is it at least?
+      const Finding seen = verify::deepest_sample(x, y, forward, backward);
+      if (seen.depth > f.depth || f.answer != Answer::violated)
+        if (seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness)) f = seen;
+    }
 
     const bool beyond_all =
         f.answer == Answer::violated && f.depth > verify::Limits{allowed, options.max_penetration}.at(f.thickness);
@@ -121,7 +136,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       Violation v;
       v.part = f.of_second ? b.part : a.part;
       v.other = f.of_second ? a.part : b.part;
-      v.point = f.point;
+      v.point = (f.of_second ? y.frame : x.frame) * f.point;
       v.depth = std::max(0.0, f.depth);
       v.allowed = allowed;
       const double end = static_cast<double>(forward.segments());
@@ -132,8 +147,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       return false;
     }
     ++rung;
-    if (f.answer == Answer::violated)
-      while (rung < last && f.depth > verify::Limits{allowed, rungs[rung]}.at(f.thickness)) ++rung;
+    if (f.answer == Answer::violated)  // a rung that is just wide enough takes long to prove
+      while (rung < last &&
+             f.depth > allowed + kRoom * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
+        ++rung;
     if (f.answer == Answer::exhausted)
       while (rung < last && rungs[rung] != kWorthwhile) ++rung;
   }

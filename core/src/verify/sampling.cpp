@@ -1,0 +1,40 @@
+#include "verify/sampling.h"
+
+#include <algorithm>
+
+namespace dismantle::verify {
+namespace {
+
+constexpr std::size_t kTimes = 48, kVertices = 96;
+
+void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, bool of_second, Finding& best) {
+  const std::size_t segments = motion.segments();
+  const std::size_t times = std::min(kTimes, 2 * segments);
+  const std::size_t triangles = a.mesh.triangles.size();
+  for (std::size_t i = 0; i < times; ++i) {
+    const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
+    const Placement place(motion.at(time));
+    // Another selection each time, so that together they cover more.
+    const std::size_t count = std::min(kVertices, triangles);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t t = (k * triangles / count + i * 7919) % triangles;
+      const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));
+      const Eigen::Vector3d x = place * p;
+      if (!b.box.contains(x) || !b.bvh.inside(x)) continue;
+      const double depth = b.bvh.closest(x).distance;
+      if (depth > best.depth) best = {Answer::violated, p, of_second, depth, a.thickness[t], time};
+    }
+  }
+}
+
+}  // namespace
+
+Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward) {
+  Finding best;
+  best.answer = Answer::violated;
+  sample(a, b, forward, false, best);
+  sample(b, a, backward, true, best);
+  return best;
+}
+
+}  // namespace dismantle::verify

@@ -1,0 +1,11 @@
+/// A quick look for penetrations, which proves nothing but spares proofs that must fail.
+#pragma once
+
+#include "verify/directed_check.h"
+
+namespace dismantle::verify {
+
+/// The deepest of some vertices of both solids at some times: `violated`, with its depth (0: none lies inside).
+Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward);
+
+}  // namespace dismantle::verify
