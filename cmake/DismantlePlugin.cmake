@@ -13,6 +13,7 @@ function(dismantle_add_plugin name)
   target_link_options(${name} PRIVATE "LINKER:--version-script=${exports}")
   set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${exports}")
   if(DEFINED DISMANTLE_PLUGIN_OUTPUT_DIRECTORY)  # in tree
+    set_property(GLOBAL APPEND PROPERTY DISMANTLE_BUILT_IN_PLUGINS ${name})
     target_link_libraries(${name} PRIVATE dismantle_settings)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")
     dismantle_precompile(${name})
