@@ -15,7 +15,7 @@ ParamSpec rotate_seed_spec() {
   ParamSpec spec;
   spec.name = "rotate_seed";
   spec.type = ParamType::integer;
-  spec.unit = "1";
+  spec.unit = std::string("1");
   spec.fallback = std::int64_t{0};
   spec.min = 0;
   spec.doc = "0: as built; otherwise the whole assembly is turned by the random rotation of this seed.";

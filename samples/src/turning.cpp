@@ -59,13 +59,12 @@ Model bolt_and_nut(const BoltParams& p) {
   // and straight faces between the points of the helix cut into the nut's bore.
   const double lead = std::atan2(p.pitch, 2 * kPi * external.root_radius);
   const double shift = 2.02 * p.clearance / std::cos(lead) + 0.002 * p.pitch;
-  const double half_gap = 1.3 * kPi / p.segments;
+  const double nut_bottom = shank + gap, nut_top = nut_bottom + nut_height;
+  const double half_gap = thread_wall(external, nut_bottom, nut_top, p.segments).half_gap;
   ThreadProfile internal = external;
   internal.crest_radius = (external.crest_radius + shift) / std::cos(half_gap);
   internal.root_radius = (external.root_radius + shift) / std::cos(half_gap);
-  const double nut_bottom = shank + gap, nut_top = nut_bottom + nut_height;
   const ThreadWall nut_wall = thread_wall(internal, nut_bottom, nut_top, p.segments);
-  if (nut_wall.half_gap > half_gap) throw std::logic_error("bolt_and_nut: thread points too far apart");
   Loft nut;
   nut.to(hexagon(1.6 * d, nut_bottom)).to(hexagon(1.6 * d, nut_top));
   add_part(model, "nut", nut.strip(reversed(nut_wall.mesh), nut_wall.top, nut_wall.bottom).ring());
