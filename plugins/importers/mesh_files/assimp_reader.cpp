@@ -1,15 +1,15 @@
-// PLY, glTF, 3MF and DAE through assimp.
+// glTF, 3MF and DAE through assimp.
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <cmath>
 
 #include "dismantle/errors.h"
+#include "names_3mf.h"
 #include "readers.h"
 
 namespace dismantle::mesh_files {
@@ -44,8 +44,7 @@ class SceneReader {
       add(*visit.node, to_world);
       for (unsigned i = visit.node->mNumChildren; i-- > 0;) todo.push_back({visit.node->mChildren[i], to_world});
     }
-    if (parts_.empty())
-      fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
+    if (parts_.empty()) fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
     return std::move(parts_);
   }
 
@@ -122,8 +121,13 @@ std::vector<RawPart> read_with_assimp(const std::filesystem::path& file) {
     }
     // What assimp puts into the root node of a DAE scene is a conversion to metres: parts keep the units of their file.
     std::vector<RawPart> parts = SceneReader(file, *scene).read(ending == ".dae");
-    if (ending == ".ply")
-      for (auto& part : parts) part.name.clear();  // assimp's own invention
+    if (ending == ".3mf") {
+      // assimp calls them "Object_" and their id.
+      const auto names = object_names_3mf(file);
+      for (auto& part : parts)
+        if (const auto found = names.find(part.name.substr(part.name.find('_') + 1)); found != names.end())
+          part.name = found->second;
+    }
     return parts;
   } catch (const Error&) {
     throw;

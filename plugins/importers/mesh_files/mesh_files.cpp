@@ -28,6 +28,7 @@ std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::p
   const std::string e = ending(file);
   if (e == "obj") return count_obj_triangles(file);
   if (e == "stl") return count_stl_triangles(file);
+  if (e == "ply") return count_ply_triangles(file);
   return std::nullopt;
 }
 
@@ -37,6 +38,7 @@ std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file) {
     if (e == "obj") return read_obj(file);
     if (e == "stl") return read_stl(file);
     if (e == "off") return read_off(file);
+    if (e == "ply") return read_ply(file);
     return read_with_assimp(file);
   } catch (const std::bad_alloc&) {
     throw InputError(file.string(), "too large for the memory of this machine");

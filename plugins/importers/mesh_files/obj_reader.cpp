@@ -93,7 +93,8 @@ class ObjReader {
 
   void face(std::string_view rest) {
     corners_.clear();
-    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) corners_.push_back(index(word));
+    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
+      corners_.push_back(index(word));
     if (corners_.size() < 3) lines_.fail(fmt::format("a face needs three corners, this one has {}", corners_.size()));
     auto& out = section().triangles;
     if (corners_.size() == 3) {

@@ -62,7 +62,8 @@ std::vector<RawPart> read_off(const std::filesystem::path& file) {
     for (std::int64_t k = 0; k < *n; ++k) {
       const auto v = to_integer(take_word(line));
       if (!v || *v < 0 || static_cast<std::uint64_t>(*v) >= vertices)
-        lines.fail(fmt::format("corner {} of the face names no vertex (there are {}, counted from 0)", k + 1, vertices));
+        lines.fail(
+            fmt::format("corner {} of the face names no vertex (there are {}, counted from 0)", k + 1, vertices));
       corners.push_back(static_cast<std::uint32_t>(*v));
       points.push_back(part.mesh.vertices[corners.back()]);
     }

@@ -1,8 +1,10 @@
 #include "dismantle/plugin.h"
+
 #include "mesh_files.h"
 
 DISMANTLE_PLUGIN("dismantle.mesh_files", "0.1.0", "MIT", "https://github.com/dismantle") {
   r.add<dismantle::Importer, dismantle::mesh_files::MeshFiles>(
-      "mesh_files", "Triangle and polygon meshes: OBJ, STL, OFF in double precision; PLY, glTF, 3MF, DAE through assimp.",
+      "mesh_files",
+      "Triangle and polygon meshes: OBJ, STL, PLY, OFF in double precision; glTF, 3MF, DAE through assimp.",
       {.source = "appendix B.1, step 1"});
 }

@@ -22,7 +22,12 @@ std::optional<std::uint64_t> count_stl_triangles(const std::filesystem::path& fi
 /// Text only; OFF, with or without counts on the first line, COFF and NOFF (colours and normals are left out).
 std::vector<RawPart> read_off(const std::filesystem::path& file);
 
-/// PLY, GLB/glTF, 3MF, DAE: one part per mesh node, node transforms applied, units of the file.
+/// Text and binary of both byte orders.
+std::vector<RawPart> read_ply(const std::filesystem::path& file);
+/// As the header states; polygons count as one.
+std::optional<std::uint64_t> count_ply_triangles(const std::filesystem::path& file);
+
+/// GLB/glTF, 3MF, DAE: one part per mesh node, node transforms applied, units of the file.
 std::vector<RawPart> read_with_assimp(const std::filesystem::path& file);
 
 }  // namespace dismantle::mesh_files

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

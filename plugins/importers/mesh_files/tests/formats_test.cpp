@@ -1,9 +1,8 @@
 // Round trips through every format, and the known traps of assimp.
+#include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include <assimp/Exporter.hpp>
-#include <assimp/scene.h>
-
 #include <map>
 
 #include "dismantle/geometry/mesh_measure.h"
@@ -38,11 +37,11 @@ void fill(aiMesh& to, const Mesh& from) {
 /// One mesh (a box of volume 6) under a root, with a node for each transform.
 void make_scene(aiScene& scene, const std::vector<std::pair<std::string, aiMatrix4x4>>& nodes) {
   scene.mNumMeshes = 1;
-  scene.mMeshes = new aiMesh*[1]{new aiMesh};
+  scene.mMeshes = new aiMesh* [1] { new aiMesh };
   scene.mMeshes[0]->mName = "box";
   fill(*scene.mMeshes[0], testing::box({0, 0, 0}, {1, 2, 3}));
   scene.mNumMaterials = 1;
-  scene.mMaterials = new aiMaterial*[1]{new aiMaterial};
+  scene.mMaterials = new aiMaterial* [1] { new aiMaterial };
   scene.mRootNode = new aiNode("root");
   scene.mRootNode->mNumChildren = static_cast<unsigned>(nodes.size());
   scene.mRootNode->mChildren = new aiNode*[nodes.size()];

@@ -94,7 +94,8 @@ TEST(AllReaders, RandomDamageGivesAMeshOrAnInputError) {
   const std::string off = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
   const std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n"
-      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 "
+      "3 2\n";
   const std::vector<std::pair<std::string, std::string>> good = {
       {"off", off}, {"ply", ply}, {"stl", testing::text_stl(kBox, "x")}, {"stl", testing::binary_stl(kBox)}};
   for (int round = 0; round < 1200; ++round) {
