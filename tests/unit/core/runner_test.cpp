@@ -251,13 +251,16 @@ TEST(Run, CancelledBeforeItBegan) {
   EXPECT_EQ(run_in_turn(fake::tube_with_blocks(2), context).outcome, Outcome::timeout);
 }
 
-TEST(Run, AClosedBoxIsNeverSolved) {
-  const RunResult r = run_in_turn(fake::closed_box());
+TEST(Run, APlateNeverLeavesAClosedBox) {
+  RunOptions options;
+  options.only_part = "plate";
+  RunContext context;
+  const RunResult r = run(fake::closed_box(), fake::ingredients(fake::push), options, context);
   EXPECT_EQ(r.outcome, Outcome::exhausted);
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   EXPECT_TRUE(r.plan.disassembly.empty());
-  ASSERT_EQ(r.plan.unsolved.size(), 2u);
-  EXPECT_EQ(r.plan.unsolved[1].blocked_by, (std::vector<std::string>{"box"}));
+  ASSERT_EQ(r.plan.unsolved.size(), 1u);
+  EXPECT_EQ(r.plan.unsolved[0].blocked_by, (std::vector<std::string>{"box"}));
 }
 
 TEST(Run, OnePartOnly) {
