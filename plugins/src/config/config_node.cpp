@@ -130,6 +130,8 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (!parent.has_key) {
       take_key(parent, node);
     } else {
+      // An empty value has the place of whatever comes next: its key says more.
+      if (node.kind == ConfigNode::Kind::null) node.mark = parent.key_mark;
       if (!parent.skip) parent.node.members.push_back({parent.key, parent.key_mark, std::move(node)});
       parent.has_key = false;
     }

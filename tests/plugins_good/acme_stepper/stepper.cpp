@@ -1,0 +1,164 @@
+// A simulator in one file: no inertia; a body takes small steps along the force until its surface points touch.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/plugin.h"
+
+namespace {
+
+using Eigen::Vector3d;
+
+struct StepperParams {
+  double speed = 1.0;
+  double time_step = 0.01;
+  double tolerance = 0.005;
+
+  static void describe(dismantle::Schema<StepperParams>& s) {
+    s.add("speed", &StepperParams::speed,
+          {.unit = "assembly units / s", .min = 0, .min_open = true, .doc = "Speed of a body that is pushed."});
+    s.add("time_step", &StepperParams::time_step,
+          {.unit = "s", .min = 0, .min_open = true, .doc = "Length of a step."});
+    s.add("tolerance", &StepperParams::tolerance,
+          {.unit = "assembly units", .min = 0, .doc = "Depth at which a body counts as stopped."});
+  }
+};
+
+constexpr dismantle::Capabilities kProvides{.dynamics = true, .contacts = true, .distance = true, .max_moving = 1};
+
+/// Once per assembly, shared by all worlds: a hierarchy of triangles per part.
+struct Trees final : dismantle::Prepared {
+  std::vector<dismantle::TriangleBvh> parts;
+};
+
+class StepperWorld final : public dismantle::World {
+ public:
+  StepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Cast cast,
+               dismantle::MotionSpace space, const StepperParams& params)
+      : assembly_(assembly), trees_(trees), cast_(std::move(cast)), space_(space), params_(params) {
+    if (cast_.moving.size() != 1) throw std::invalid_argument("acme.stepper moves exactly one part at a time");
+    const auto box = surface().box();
+    center_ = box.center();
+    for (const auto& v : surface().vertices) radius_ = std::max(radius_, (v - center_).norm());
+    for (const auto& still : cast_.still)
+      for (const auto& v : assembly_.parts[still.part].mesh->vertices) still_points_.push_back(still.pose * v);
+  }
+
+  const dismantle::Cast& cast() const override { return cast_; }
+  dismantle::MotionSpace space() const override { return space_; }
+  dismantle::State initial_state() const override { return {{dismantle::BodyState{.pose = cast_.moving[0].pose}}}; }
+  Vector3d center(std::size_t) const override { return center_; }
+  double radius(std::size_t) const override { return radius_; }
+  double torque_arm(std::size_t) const override { return radius_; }
+
+  dismantle::StepReport advance(dismantle::State& state, const dismantle::Action& action, double duration,
+                                dismantle::Trace* trace) override {
+    dismantle::StepReport report;
+    dismantle::Pose& pose = state.bodies.at(0).pose;
+    const dismantle::Pose begin = pose;
+    const auto count = static_cast<std::uint64_t>(std::ceil(duration / params_.time_step));
+    for (std::uint64_t n = 0; n < count && !report.stalled; ++n) {
+      dismantle::State next = state;
+      move(next.bodies[0].pose, action.wrenches.at(0));
+      ++report.steps;
+      report.stalled = penetration(next) > params_.tolerance;
+      if (report.stalled) break;
+      state = next;
+      if (trace != nullptr) trace->push_back({pose});
+    }
+    report.travel = dismantle::screw_travel(begin, pose, center_, radius_);
+    return report;
+  }
+
+  double penetration(const dismantle::State& state) override {
+    contacts(state, scratch_);
+    double deepest = 0;
+    for (const auto& contact : scratch_) deepest = std::max(deepest, contact.depth);
+    return deepest;
+  }
+
+  void contacts(const dismantle::State& state, std::vector<dismantle::Contact>& out) override {
+    out.clear();
+    const dismantle::PartId part = cast_.moving[0].part;
+    for (const auto& still : cast_.still) {
+      const double allowed = assembly_.initial_overlap(part, still.part);
+      const dismantle::Pose to_still = still.pose.inverse() * state.bodies.at(0).pose;
+      const auto& tree = trees_.parts[still.part];
+      for (const auto& v : surface().vertices) {
+        const Vector3d local = to_still * v;
+        const double depth = -tree.signed_distance(local) - allowed;
+        if (depth <= 0) continue;
+        const Vector3d way_out = tree.closest(local).point - local;
+        const Vector3d normal = way_out.norm() > 0 ? Vector3d(way_out.normalized()) : Vector3d::UnitZ();
+        out.push_back({part, still.part, still.pose * local, still.pose.q * normal, depth});
+      }
+    }
+  }
+
+  bool separated(const dismantle::State& state) override {
+    if (cast_.still.empty()) return true;
+    std::vector<Vector3d> points;
+    for (const auto& v : assembly_.parts[cast_.moving[0].part].mesh->vertices)
+      points.push_back(state.bodies.at(0).pose * v);
+    return dismantle::separate(points, still_points_).has_value();
+  }
+
+  void learn(dismantle::PartId, dismantle::PartId, const Vector3d&) override {}  // its sample points are fixed
+
+ private:
+  const dismantle::Mesh& surface() const { return *assembly_.parts[cast_.moving[0].part].surface; }
+
+  void move(dismantle::Pose& pose, const dismantle::Wrench& wrench) const {
+    const double way = params_.speed * params_.time_step;
+    if (wrench.force.norm() > 0) pose.t += way * wrench.force.normalized();
+    if (space_ == dismantle::MotionSpace::translation || wrench.torque.norm() == 0) return;
+    const Vector3d turn = way / std::max(radius_, 1e-9) * wrench.torque.normalized();
+    const Eigen::Quaterniond q = dismantle::rotation_from_vector(turn);
+    const Vector3d c = pose * center_;
+    pose = dismantle::Pose{c - q * c, q} * pose;  // about the body's centre
+  }
+
+  const dismantle::Assembly& assembly_;
+  const Trees& trees_;
+  dismantle::Cast cast_;
+  dismantle::MotionSpace space_;
+  StepperParams params_;
+  Vector3d center_ = Vector3d::Zero();
+  double radius_ = 0;
+  std::vector<Vector3d> still_points_;
+  std::vector<dismantle::Contact> scratch_;
+};
+
+class Stepper final : public dismantle::Simulator {
+ public:
+  explicit Stepper(const StepperParams& params) : params_(params) {}
+
+  dismantle::Capabilities capabilities() const noexcept override { return kProvides; }
+
+  std::shared_ptr<const dismantle::Prepared> prepare(const dismantle::Assembly& assembly,
+                                                     dismantle::RunContext& context) override {
+    auto trees = std::make_shared<Trees>();
+    for (const auto& part : assembly.parts) {
+      context.progress("trees", trees->parts.size(), assembly.parts.size(), part.name);
+      trees->parts.emplace_back(*part.mesh);
+    }
+    return trees;
+  }
+
+  std::unique_ptr<dismantle::World> world(const dismantle::Assembly& assembly, const dismantle::Prepared& prepared,
+                                          const dismantle::Cast& cast, dismantle::MotionSpace space) const override {
+    return std::make_unique<StepperWorld>(assembly, static_cast<const Trees&>(prepared), cast, space, params_);
+  }
+
+ private:
+  StepperParams params_;
+};
+
+}  // namespace
+
+DISMANTLE_PLUGIN("acme.stepper", "1.0.0", "MIT", "https://example.org/stepper") {
+  r.add<dismantle::Simulator, Stepper, StepperParams>("acme.stepper", "Quasi-static steps, sampled contact.",
+                                                      {.source = "none", .provides = kProvides});
+}

@@ -1,0 +1,90 @@
+// A path planner in one file: pushes the part along each axis until it is out.
+#include <array>
+
+#include "dismantle/plugin.h"
+
+namespace {
+
+struct StraightParams {
+  double force = 100;
+  double push_time = 0.1;
+  std::int64_t max_pushes = 200;
+
+  static void describe(dismantle::Schema<StraightParams>& s) {
+    s.add("force", &StraightParams::force,
+          {.unit = "mass * assembly units / s^2", .min = 0, .min_open = true, .doc = "Force of a push."});
+    s.add("push_time", &StraightParams::push_time,
+          {.unit = "s", .min = 0, .min_open = true, .doc = "Length of a push."});
+    s.add("max_pushes", &StraightParams::max_pushes, {.unit = "1", .min = 1, .doc = "Pushes per direction."});
+  }
+};
+
+constexpr dismantle::Capabilities kNeeds{.dynamics = true};
+
+class Straight final : public dismantle::PathPlanner {
+ public:
+  explicit Straight(const StraightParams& params) : params_(params) {}
+
+  dismantle::Capabilities needs() const noexcept override { return kNeeds; }
+
+  dismantle::PathResult plan(const dismantle::PathQuery& query, dismantle::RunContext& context) override {
+    dismantle::PathResult result;
+    const auto world =
+        query.simulator.world(query.assembly, query.prepared, query.cast, dismantle::MotionSpace::translation);
+    const dismantle::State start = world->initial_state();
+    if (world->separated(start)) {
+      result.outcome = dismantle::Outcome::start_is_goal;
+      result.path = {poses(start)};
+      return result;
+    }
+    const auto deadline = query.effort.timeout > 0
+                              ? context.deadline.earlier(dismantle::Deadline::after_seconds(query.effort.timeout))
+                              : context.deadline;
+    std::uint64_t steps = 0;
+    result.outcome = dismantle::Outcome::exhausted;
+    for (int direction = 0; direction < 6; ++direction) {
+      Eigen::Vector3d force = Eigen::Vector3d::Zero();
+      force[direction / 2] = direction % 2 == 0 ? params_.force : -params_.force;
+      const dismantle::Action push{
+          std::vector<dismantle::Wrench>(start.bodies.size(), {force, Eigen::Vector3d::Zero()})};
+
+      dismantle::State state = start;
+      dismantle::Path path = {poses(start)};
+      for (std::int64_t n = 0; n < params_.max_pushes; ++n) {
+        const bool spent = query.effort.max_steps > 0 && steps >= query.effort.max_steps;
+        if (context.cancel.cancelled() || deadline.passed() || spent) {
+          result.outcome = context.cancel.cancelled() ? dismantle::Outcome::cancelled : dismantle::Outcome::timeout;
+          return result;
+        }
+        const dismantle::StepReport report = world->advance(state, push, params_.push_time, &path);
+        steps += report.steps;
+        result.counts["steps"] = static_cast<double>(steps);
+        if (world->separated(state)) {
+          if (!query.judge(path).accepted) break;  // the judge saw a collision: not this way
+          result.outcome = dismantle::Outcome::solved;
+          result.path = std::move(path);
+          result.depth = 1;
+          return result;
+        }
+        if (report.stalled || !report.finite) break;
+      }
+    }
+    return result;
+  }
+
+ private:
+  static std::vector<dismantle::Pose> poses(const dismantle::State& state) {
+    std::vector<dismantle::Pose> all;
+    for (const auto& body : state.bodies) all.push_back(body.pose);
+    return all;
+  }
+
+  StraightParams params_;
+};
+
+}  // namespace
+
+DISMANTLE_PLUGIN("acme.straight", "1.0.0", "MIT", "https://example.org/straight") {
+  r.add<dismantle::PathPlanner, Straight, StraightParams>("acme.straight", "Straight pushes along the six axes.",
+                                                          {.source = "the simplest thing that works", .needs = kNeeds});
+}

@@ -1,0 +1,95 @@
+// Stand-ins for the built-in types: they do nothing, but declare parameters of every kind.
+#include <limits>
+
+#include "dismantle/plugin.h"
+
+namespace {
+
+using namespace dismantle;  // NOLINT: a file of its own
+
+class NoSimulator : public Simulator {
+ public:
+  Capabilities capabilities() const noexcept override { return {}; }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override { return nullptr; }
+  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast&, MotionSpace) const override {
+    return nullptr;
+  }
+};
+
+class NoPath : public PathPlanner {
+ public:
+  Capabilities needs() const noexcept override { return {}; }
+  PathResult plan(const PathQuery&, RunContext&) override { return {}; }
+};
+
+class NoSequence : public SequencePlanner {
+ public:
+  SequenceResult plan(const Assembly&, PathOracle&, SequenceObserver&, RunContext&) override { return {}; }
+};
+
+struct SimulatorParams {
+  double contact_stiffness = 1e6;
+  double time_step = 1e-3;
+  static void describe(Schema<SimulatorParams>& s) {
+    s.add("contact_stiffness", &SimulatorParams::contact_stiffness,
+          {.unit = "1/s^2", .min = 0, .min_open = true, .doc = "Stiffness of contact."});
+    s.add("time_step", &SimulatorParams::time_step,
+          {.unit = "s", .min = 0, .max = 1, .min_open = true, .doc = "Length of one time step."});
+  }
+};
+
+enum class Motion { translation, rotation, automatic };
+
+struct BfsParams {
+  Motion motion = Motion::automatic;
+  double similarity_translation = 0.05;
+  static void describe(Schema<BfsParams>& s) {
+    s.add_choice<Motion>("motion", &BfsParams::motion,
+                         {{"translation", Motion::translation, "Six actions."},
+                          {"rotation", Motion::rotation, "Twelve actions."},
+                          {"auto", Motion::automatic, "Translation first."}},
+                         "Which motions are tried.");
+    s.add("similarity_translation", &BfsParams::similarity_translation,
+          {.unit = "assembly units", .min = 0, .doc = "States closer than this are the same."});
+  }
+};
+
+struct TRrtParams {
+  double goal_bias = 0.05;
+  double range = 0.5;
+  std::int64_t max_nodes = 10000;
+  bool greedy = false;
+  std::string note = "none";
+  float weight = 1;
+  static void describe(Schema<TRrtParams>& s) {
+    s.add("goal_bias", &TRrtParams::goal_bias,
+          {.unit = "1", .min = 0, .max = 1, .doc = "Probability of drawing the goal."});
+    s.add("range", &TRrtParams::range,
+          {.unit = "assembly units", .min = 0, .min_open = true, .doc = "Longest extension."});
+    s.add("max_nodes", &TRrtParams::max_nodes, {.unit = "1", .min = 1, .max = 1e15, .doc = "Size of the tree."});
+    s.add("greedy", &TRrtParams::greedy, {.doc = "Extend as far as it goes."});
+    s.add("note", &TRrtParams::note, {.doc = "Free text | with a bar."});
+    s.add("weight", &TRrtParams::weight, {.unit = "1", .doc = "Any number."});
+  }
+};
+
+struct RandomParams {
+  std::int64_t attempts = 3;
+  static void describe(Schema<RandomParams>& s) {
+    s.add("attempts", &RandomParams::attempts, {.unit = "1", .min = 1, .doc = "Attempts per part."});
+  }
+};
+
+}  // namespace
+
+DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
+  const Capabilities all{.dynamics = true, .contacts = true, .distance = true, .max_moving = 8};
+  r.add<Simulator, NoSimulator, SimulatorParams>("sdf_penalty", "Penalty contact.", {.provides = all});
+  r.add<Simulator, NoSimulator>("geometry_only", "No dynamics.", {.provides = {.distance = true}});
+  r.add<PathPlanner, NoPath, BfsParams>("bfs", "Breadth first.",
+                                        {.source = "Algorithm 1", .needs = {.dynamics = true}});
+  r.add<PathPlanner, NoPath, TRrtParams>("t_rrt", "Targetless RRT.", {.needs = {.distance = true}});
+  r.add<PathPlanner, NoPath>("pairs", "Moves two parts.", {.needs = {.distance = true, .max_moving = 2}});
+  r.add<SequencePlanner, NoSequence>("progressive", "Deepens by and by.", {.source = "Algorithm 2"});
+  r.add<SequencePlanner, NoSequence, RandomParams>("random", "Any order.");
+}

@@ -1,0 +1,181 @@
+// Binding: defaults, all errors at once with their places, kinds and capabilities.
+#include "dismantle/config.h"
+
+#include <gtest/gtest.h>
+
+#include "dismantle/run_context.h"
+#include "scratch.h"
+
+namespace dismantle {
+namespace {
+
+class Config : public testing_support::Scratch {};
+
+TEST_F(Config, DefaultsWithoutAnyFile) {
+  const RunConfig config = load_config({}, registry_);
+  EXPECT_EQ(config.simulator.type, "sdf_penalty");
+  EXPECT_EQ(config.path_planner.type, "bfs");
+  EXPECT_EQ(config.sequence_planner.type, "progressive");
+  EXPECT_EQ(config.run.seed, 1);
+  EXPECT_EQ(config.run.threads, 0u);
+  EXPECT_EQ(config.run.path_timeout, 120);
+  EXPECT_EQ(config.run.path_steps, 0);
+  EXPECT_EQ(config.run.timeout, 7200);
+  EXPECT_EQ(config.verify.max_penetration, 0.01);
+  EXPECT_EQ(config.assembly.subdivide, PrepareOptions{}.subdivide);
+  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("motion")), "auto");
+  EXPECT_EQ(config.origins.at("run.seed"), "default");
+}
+
+TEST_F(Config, ReadsEverySection) {
+  const RunConfig config = load_text(R"(schema: 1
+assembly: {subdivide: 0.25, drop_duplicates: false}
+simulator: {type: sdf_penalty, contact_stiffness: 2.0e6, time_step: 1.0e-3}
+path_planner: {type: t_rrt, goal_bias: 0.2, max_nodes: 77, greedy: true, note: "a: b # c"}
+sequence_planner: {type: random, attempts: 9}
+run: {seed: 5, threads: 2, path_timeout: 1, path_steps: 1000, timeout: 2.5}
+verify: {max_penetration: 0.001}
+)");
+  EXPECT_EQ(config.assembly.subdivide, 0.25);
+  EXPECT_FALSE(config.assembly.drop_duplicates);
+  EXPECT_EQ(std::get<double>(config.simulator.params.at("contact_stiffness")), 2e6);
+  EXPECT_EQ(std::get<double>(config.path_planner.params.at("goal_bias")), 0.2);
+  EXPECT_EQ(std::get<std::int64_t>(config.path_planner.params.at("max_nodes")), 77);
+  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("note")), "a: b # c");
+  EXPECT_EQ(std::get<std::int64_t>(config.sequence_planner.params.at("attempts")), 9);
+  EXPECT_EQ(config.run.seed, 5);
+  EXPECT_EQ(config.run.threads, 2u);
+  EXPECT_EQ(config.run.path_steps, 1000);
+  EXPECT_EQ(config.run.timeout, 2.5);
+  EXPECT_EQ(config.verify.max_penetration, 0.001);
+  EXPECT_EQ(config.origins.at("run.seed"), "run.yaml:6");
+}
+
+TEST_F(Config, AllErrorsAtOnce) {
+  const std::string text = R"(schema: 1
+simulater: {type: sdf_penalty}
+assembly: {subdivide: big, normalise: true}
+simulator: {type: sdf_penalty, contact_stiffness: -1, time_step: "0.1"}
+path_planner: {type: t_rrt, goal_bais: 0.1, range: 0.5, range: 0.6, max_nodes: 1.5, greedy: yes, timeout: 3}
+sequence_planner: {type: progresive}
+run:
+  seed: -4
+  threads: 99999999999999999999
+  path_timeout: [1, 2]
+  timeout:
+verify: 0.01
+)";
+  EXPECT_EQ(errors_of(text),
+            R"(run.yaml:2:1: error: unknown key 'simulater'; did you mean 'simulator'?
+run.yaml:3:23: error: assembly.subdivide must be a number, got 'big'
+run.yaml:3:28: error: unknown key 'normalise' in assembly; did you mean 'normalize'?
+run.yaml:4:51: error: simulator.contact_stiffness must be > 0, got -1 1/s^2 [sdf_penalty 0.1.0, libfixture.so]
+run.yaml:4:66: error: simulator.time_step must be a number, got the text "0.1" [sdf_penalty 0.1.0, libfixture.so]
+run.yaml:5:29: error: unknown key 'goal_bais' in path_planner (t_rrt); did you mean 'goal_bias'?
+run.yaml:5:57: error: key 'range' is repeated; it stands at line 5 already
+run.yaml:5:80: error: path_planner.max_nodes must be an integer, got '1.5' [t_rrt 0.1.0, libfixture.so]
+run.yaml:5:93: error: path_planner.greedy must be true or false, got 'yes' [t_rrt 0.1.0, libfixture.so]
+run.yaml:5:98: error: unknown key 'timeout' in path_planner (t_rrt); it belongs to run
+run.yaml:6:26: error: unknown sequence_planner 'progresive'; did you mean 'progressive'?
+run.yaml:8:9: error: run.seed must be >= 0, got -4
+run.yaml:9:12: error: run.threads = 99999999999999999999 is too large for an integer of 64 bits
+run.yaml:10:17: error: run.path_timeout must be a number, got a list
+run.yaml:11:3: error: run.timeout must be a number, got nothing
+run.yaml:12:9: error: verify must be a map of keys, not a value
+)");
+}
+
+TEST_F(Config, IdsOfTheWrongKind) {
+  EXPECT_EQ(errors_of("schema: 1\npath_planner: {type: progressive}\nsimulator: {type: bfs}\n"),
+            "run.yaml:2:22: error: 'progressive' is a sequence_planner, not a path_planner\n"
+            "run.yaml:3:19: error: 'bfs' is a path_planner, not a simulator\n");
+  EXPECT_EQ(errors_of("schema: 1\npath_planner: {type: [bfs]}\n"),
+            "run.yaml:2:22: error: path_planner.type must be the id of a path_planner, got a list\n");
+}
+
+TEST_F(Config, Schema) {
+  EXPECT_EQ(errors_of("run: {seed: 1}\n"), "run.yaml:1:1: error: missing key 'schema'; write 'schema: 1'\n");
+  EXPECT_EQ(errors_of("schema: 2\n"),
+            "run.yaml:1:9: error: schema 2 is not supported; this version of Dismantle reads 1: update Dismantle\n");
+  EXPECT_EQ(errors_of("schema: one\n"), "run.yaml:1:9: error: schema must be the number 1\n");
+  EXPECT_EQ(errors_of("schema: \"1\"\n"), "run.yaml:1:9: error: schema must be the number 1\n");
+  EXPECT_NE(errors_of("- a\n- b\n").find("must be a map of keys, not a list"), std::string::npos);
+}
+
+TEST_F(Config, Capabilities) {
+  EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: bfs}\n"),
+            "run.yaml:3:22: error: path_planner 'bfs' needs a simulator with dynamics, which 'geometry_only' does not "
+            "have\n");
+  EXPECT_EQ(
+      errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: pairs}\n"),
+      "run.yaml:3:22: error: path_planner 'pairs' needs a simulator with 2 parts moving at once, which 'geometry_only' "
+      "does not have\n");
+  EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
+}
+
+TEST_F(Config, Choices) {
+  EXPECT_EQ(errors_of("schema: 1\npath_planner: {motion: rotaton}\n"),
+            "run.yaml:2:24: error: path_planner.motion must be one of translation, rotation, auto; got 'rotaton'; did "
+            "you mean "
+            "'rotation'? [bfs 0.1.0, libfixture.so]\n");
+}
+
+TEST_F(Config, SearchPathsAreRelativeToTheFile) {
+  write("sub/run.yaml", "schema: 1\nplugins: {search_paths: [more]}\npath_planner: {type: acme.straight, force: 7}\n");
+  std::filesystem::create_directory_symlink(std::filesystem::path(GOOD_FOLDER) / "acme", "sub/more");
+  const RunConfig config = load("sub/run.yaml");
+  EXPECT_EQ(config.path_planner.type, "acme.straight");
+  ASSERT_EQ(config.plugin_search_paths.size(), 1u);
+  EXPECT_EQ(config.plugin_search_paths[0], "sub/more");
+  EXPECT_EQ(errors_of("schema: 1\nplugins: {search_paths: [nowhere], serch_paths: []}\n"),
+            "run.yaml:2:26: error: plugin folder 'nowhere' does not exist\n"
+            "run.yaml:2:36: error: unknown key 'serch_paths' in plugins; did you mean 'search_paths'?\n");
+}
+
+TEST_F(Config, UnreadableFiles) {
+  EXPECT_EQ(errors({"absent.yaml", {}, {}}), "error: cannot read 'absent.yaml'\n");
+  std::filesystem::create_directory("folder.yaml");
+  EXPECT_EQ(errors({"folder.yaml", {}, {}}), "error: 'folder.yaml' is a folder, not a YAML file\n");
+}
+
+// Law: whatever stands in the file, a configuration or a ConfigError with places comes back.
+TEST_F(Config, RandomMutations) {
+  const std::string text =
+      "schema: 1\nassembly: {subdivide: 0.25}\nsimulator: {type: sdf_penalty, contact_stiffness: 2.0e6}\n"
+      "path_planner: {type: t_rrt, goal_bias: 0.2, note: \"x\"}\nrun:\n  seed: 5\n  timeout: 2.5\nverify: "
+      "{max_penetration: 0.001}\n";
+  const std::string spice = ":-?[]{}&*!|>'\"%#,\n\t ~0e.";
+  Rng rng(17);
+  int good = 0, bad = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::string mutated = text;
+    for (std::uint64_t n = 1 + rng.below(4); n > 0; --n) {
+      const std::size_t at = rng.below(mutated.size());
+      switch (rng.below(4)) {
+        case 0:
+          mutated.erase(at, 1 + rng.below(4));
+          break;
+        case 1:
+          mutated.insert(at, 1, spice[rng.below(spice.size())]);
+          break;
+        case 2:
+          mutated[at] = static_cast<char>(rng.below(256));
+          break;
+        default:
+          mutated.insert(at, text.substr(rng.below(text.size()), rng.below(20)));
+      }
+    }
+    try {
+      load_text(mutated);
+      ++good;
+    } catch (const ConfigError& e) {
+      ++bad;
+      for (const auto& d : e.diagnostics()) EXPECT_FALSE(d.message.empty()) << mutated;
+    }
+  }
+  EXPECT_GT(good, 0);
+  EXPECT_GT(bad, good);
+}
+
+}  // namespace
+}  // namespace dismantle
