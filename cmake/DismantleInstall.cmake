@@ -1,0 +1,32 @@
+# Install rules and the exported package. In a project of your own:
+#   find_package(dismantle REQUIRED)   # dismantle::core, dismantle::plugin_api, dismantle::plugins, dismantle::samples
+#   dismantle_add_plugin(my_planner SOURCES my_planner.cpp)
+include(CMakePackageConfigHelpers)
+
+set(DISMANTLE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/dismantle")
+
+install(TARGETS dismantle_core dismantle_plugin_api dismantle_plugins dismantle_samples EXPORT dismantleTargets
+  RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
+  LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(DIRECTORY core/include/ plugins/include/ samples/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING PATTERN "*.h")
+install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION "${DISMANTLE_PACKAGE_DIR}")
+
+configure_package_config_file(cmake/dismantleConfig.cmake.in "${CMAKE_BINARY_DIR}/package/dismantleConfig.cmake"
+  INSTALL_DESTINATION "${DISMANTLE_PACKAGE_DIR}")
+# Before 1.0 every minor version may break its callers.
+write_basic_package_version_file("${CMAKE_BINARY_DIR}/package/dismantleConfigVersion.cmake"
+  VERSION "${PROJECT_VERSION}" COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_BINARY_DIR}/package/dismantleConfig.cmake" "${CMAKE_BINARY_DIR}/package/dismantleConfigVersion.cmake"
+  cmake/DismantlePlugin.cmake cmake/dismantle_plugin.map
+  DESTINATION "${DISMANTLE_PACKAGE_DIR}")
+
+install(DIRECTORY configs DESTINATION "${CMAKE_INSTALL_DATADIR}/dismantle" FILES_MATCHING PATTERN "*.yaml")
+install(FILES README.md LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+# What there is to run, without the tests: the program and the built-in plugins.
+get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
+add_custom_target(programs DEPENDS dismantle ${built_in})

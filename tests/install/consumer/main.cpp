@@ -1,0 +1,18 @@
+/// Uses the installed libraries: samples, core and the plugin registry.
+#include <dismantle/prepare/prepare.h>
+#include <dismantle/registry.h>
+#include <dismantle/samples.h>
+
+#include <iostream>
+
+int main() {
+  dismantle::RunContext context;
+  dismantle::PrepareReport report;
+  for (const auto& sample : dismantle::samples::list()) {
+    const auto assembly =
+        dismantle::prepare_assembly(dismantle::samples::make(sample.name), sample.name, "", {}, context, report);
+    std::cout << sample.name << " has " << assembly.parts.size() << " parts\n";
+  }
+  dismantle::Registry registry;
+  registry.scan();
+}

@@ -1,0 +1,28 @@
+/// A path planner that gives up at once: the smallest plugin there can be.
+#include <dismantle/plugin.h>
+
+namespace {
+
+struct NeverParams {
+  double patience = 1;
+  static void describe(dismantle::Schema<NeverParams>& s) {
+    s.add("patience", &NeverParams::patience, {.unit = "s", .min = 0, .doc = "Not used up."});
+  }
+};
+
+class Never : public dismantle::PathPlanner {
+ public:
+  explicit Never(const NeverParams&) {}
+  dismantle::Capabilities needs() const noexcept override { return {}; }
+  dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext&) override {
+    dismantle::PathResult result;
+    result.outcome = dismantle::Outcome::exhausted;
+    return result;
+  }
+};
+
+}  // namespace
+
+DISMANTLE_PLUGIN("consumer", "1.0.0", "MIT", "https://example.org") {
+  r.add<dismantle::PathPlanner, Never, NeverParams>("consumer.never", "Gives up at once.", {.source = "none"});
+}

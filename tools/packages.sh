@@ -1,0 +1,41 @@
+# shellcheck shell=bash
+# Sourced by quickstart and check. Needs $root, the root of the repository.
+
+# shellcheck disable=SC2154  # root is set by the script that sources this
+missing_packages() {
+  local package
+  while read -r package; do
+    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
+      echo "$package"
+    fi
+  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/packages.txt")
+}
+
+# Installs what is missing of tools/packages.txt; silent, and without network, when nothing is.
+install_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    echo "This is not Debian: the packages of tools/packages.txt (or their like) must be there already." >&2
+    return 0
+  fi
+  local missing
+  mapfile -t missing < <(missing_packages)
+  if [ "${#missing[@]}" -eq 0 ]; then
+    return 0
+  fi
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "Packages are missing and there is no sudo. As root: apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  local install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends
+    "${missing[@]}")
+  # Package lists may be absent or out of date: fetch them only when the first try fails.
+  if ! "${install[@]}" </dev/null >/dev/null 2>&1; then
+    "${as_root[@]}" apt-get update -q </dev/null
+    "${install[@]}" </dev/null
+  fi
+}
