@@ -35,10 +35,12 @@ Corners moved_by_vertices(const Patch& patch, double depth) {
 }
 
 Corners moved_by_normal(const Patch& patch, const Solid& solid, double depth) {
-  constexpr double kSide = 0.05;  // a little to the inside as well: faces around may touch
-  const Vec3 way = -(1 - kSide) * depth * solid.normals[patch.triangle];
-  Corners moved = moved_by_vertices(patch, kSide * depth);
-  for (auto& p : moved) p += way;
+  constexpr double kAcross = 0.02;
+  static const double along = std::sqrt(1 - kAcross * kAcross);
+  const Vec3& n = solid.normals[patch.triangle];
+  Corners moved = patch.p;
+  for (std::size_t i = 0; i < 3; ++i)
+    moved[i] += depth * (kAcross * (patch.inward[i] - patch.inward[i].dot(n) * n) - along * n);
   return moved;
 }
 
@@ -68,10 +70,15 @@ Probe probe(const Patch& patch, const Placement& place, const Solid& other) {
 
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth) {
   const double worst = std::max(0.0, probe.depth[static_cast<std::size_t>(probe.deepest)]);
+  constexpr double kMostAcross = 0.25;
   const double slack = std::max(0.0, depth - worst);
-  Corners moved = moved_by_vertices(patch, 0.5 * slack);
-  for (std::size_t i = 0; i < 3; ++i)
-    moved[i] += std::clamp(probe.depth[i] + 0.5 * slack, 0.0, depth - 0.5 * slack) * probe.out[i];
+  Corners moved = patch.p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& out = probe.out[i];
+    const double push = std::clamp(probe.depth[i] + 0.5 * slack, 0.0, depth);
+    const double across = std::min(std::sqrt(depth * depth - push * push), kMostAcross * depth);
+    moved[i] += push * out + across * (patch.inward[i] - patch.inward[i].dot(out) * out);
+  }
   return moved;
 }
 

@@ -28,7 +28,8 @@ struct Patch {
 
 /// Corners moved by `depth` times the patch's own inward directions: the vertex rule. Neighbours stay joined.
 Corners moved_by_vertices(const Patch& patch, double depth);
-/// Corners moved back along the normal of the face, and a twentieth of the way by the vertex rule.
+/// Corners moved back along the normal of the face, and a little across it by the vertex rule: faces that adjoin the
+/// edge may touch something.
 Corners moved_by_normal(const Patch& patch, const Solid& solid, double depth);
 
 /// Where the corners of a patch are with respect to a solid.
@@ -38,8 +39,8 @@ struct Probe {
   int deepest = 0;
 };
 Probe probe(const Patch& patch, const Placement& place, const Solid& other);
-/// Corners moved the shortest way out, so far that half of what `depth` leaves over puts them off the surface, and by
-/// the vertex rule for the other half; none by more than `depth`.
+/// Corners moved the shortest way out and half of what `depth` leaves over beyond the surface, and across that by the
+/// vertex rule; none by more than `depth`.
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth);
 
 /// > 0 inside, < 0 outside; distance to the surface.

@@ -27,7 +27,7 @@ constexpr double kWorthwhile = 1e-3;
 constexpr double kRoom = 0.8;
 /// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
-constexpr std::uint64_t kFullTests = 4'000'000, kFullPatches = 80'000;
+constexpr std::uint64_t kFullTests = 4'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
 
 std::vector<double> rungs_up_to(double most) {
   std::vector<double> rungs;
@@ -120,7 +120,8 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const std::size_t last = rungs.size() - 1;
   for (bool first_try = true;; first_try = false) {
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
-    verify::Budget budget{decides ? kFullTests : kTryTests, decides ? kFullPatches : kTryPatches, 0};
+    verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
+                          decides ? kFullPatches : kTryPatches, 0};
     Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
