@@ -10,7 +10,7 @@ void add_explain(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("explain", "Say why parts did not come out: what was tried, what blocked it, where");
   auto file = std::make_shared<std::string>();
-  command->add_option("plan", *file, "Plan file")->required()->option_text("PLAN.json");
+  command->add_option("PLAN.json", *file, "Plan file")->required()->option_text(" ");
   command->footer("Example:\n  dismantle explain out/plan.json");
   command->callback([&action, file] {
     action = [file] {

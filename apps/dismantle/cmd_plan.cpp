@@ -154,9 +154,9 @@ int plan(const PlanOptions& options) {
 void add_plan(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("plan", "Find an order in which the parts come out, and a way for each");
   auto options = std::make_shared<PlanOptions>();
-  command->add_option("input", options->input, "Folder of mesh files (one part each), or one file with several parts")
+  command->add_option("INPUT", options->input, "Folder of mesh files (one part each), or one file with several parts")
       ->required()
-      ->option_text("INPUT");
+      ->option_text(" ");
   command
       ->add_option("-o,--output", options->folder, "Folder for the results; default: NAME.plan here, for an input NAME")
       ->option_text("DIR");

@@ -86,7 +86,7 @@ void add_plugins(CLI::App& app, Action& action) {
 
   auto described = std::make_shared<Plugins>();
   auto* describe_command = command->add_subcommand("describe", "What a plugin does, and its parameters");
-  describe_command->add_option("id", described->id, "Id as in 'plugins list'")->required()->option_text("ID");
+  describe_command->add_option("ID", described->id, "Id as in 'plugins list'")->required()->option_text(" ");
   describe_command->add_option("--format", described->format, "text, markdown or json")
       ->check(CLI::IsMember({"text", "markdown", "json"}).description(""))
       ->option_text("text|markdown|json");

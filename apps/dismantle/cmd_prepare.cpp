@@ -40,9 +40,9 @@ int prepare(const Prepare& options) {
 void add_prepare(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("prepare", "Clean an assembly's meshes and say what was done to each part");
   auto options = std::make_shared<Prepare>();
-  command->add_option("input", options->input, "Folder of mesh files, or one file with several parts")
+  command->add_option("INPUT", options->input, "Folder of mesh files, or one file with several parts")
       ->required()
-      ->option_text("INPUT");
+      ->option_text(" ");
   command->add_option("-o,--output", options->folder, "Where the cleaned meshes and prepare.json go")
       ->required()
       ->option_text("DIR");

@@ -128,7 +128,7 @@ int sample(const SampleOptions& options) {
 void add_sample(CLI::App& app, Action& action) {
   auto* command = app.add_subcommand("sample", "Make one of the parametric example assemblies");
   auto options = std::make_shared<SampleOptions>();
-  command->add_option("name", options->name, "'list', or the name of a sample")->required()->option_text("NAME|list");
+  command->add_option("NAME", options->name, "'list', or the name of a sample")->required()->option_text(" ");
   command->add_option("-o,--output", options->folder, "Folder for the parts, one OBJ file each")->option_text("DIR");
   command->add_option("--set", options->set, "A parameter of the sample; may be repeated")
       ->option_text("KEY=VALUE")

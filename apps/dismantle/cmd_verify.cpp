@@ -93,7 +93,7 @@ void add_verify(CLI::App& app, Action& action) {
   auto* command =
       app.add_subcommand("verify", "Check a plan against the original triangles, independently of its planner");
   auto options = std::make_shared<Verify>();
-  command->add_option("plan", options->plan, "Plan file")->required()->option_text("PLAN.json");
+  command->add_option("PLAN.json", options->plan, "Plan file")->required()->option_text(" ");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
   add_format(*command, options->console);

@@ -12,7 +12,8 @@ namespace {
 const auto g_begin = std::chrono::steady_clock::now();  // when the program was loaded
 
 double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
-double rounded(double x, double unit) { return std::round(x / unit) * unit; }
+/// To a multiple of 1 / `steps`.
+double rounded(double x, double steps) { return std::round(x * steps) / steps; }
 
 }  // namespace
 
@@ -24,8 +25,8 @@ void add_format(CLI::App& command, ConsoleOptions& options) {
 }
 
 void add_verbosity(CLI::App& command, ConsoleOptions& options) {
-  auto* quiet = command.add_flag("-q,--quiet", options.quiet, "Print errors only");
-  command.add_flag("-v,--verbose", options.verbose, "Print more")->excludes(quiet);
+  auto* quiet = command.add_flag("-q,--quiet", options.quiet, "Print errors only")->option_text(" ");
+  command.add_flag("-v,--verbose", options.verbose, "Print more")->option_text(" ")->excludes(quiet);
 }
 
 Console::Console(const ConsoleOptions& options)
@@ -68,9 +69,9 @@ std::string result_line(nlohmann::ordered_json result) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - g_begin).count();
   const auto plan = result.contains("plan") ? result["plan"] : nlohmann::ordered_json(nullptr);
   result.erase("plan");
-  result["wall_seconds"] = rounded(wall, 1e-3);
-  result["cpu_seconds"] = rounded(seconds(usage.ru_utime) + seconds(usage.ru_stime), 1e-3);
-  result["peak_rss_mb"] = rounded(double(usage.ru_maxrss) / 1024, 0.1);
+  result["wall_seconds"] = rounded(wall, 1000);
+  result["cpu_seconds"] = rounded(seconds(usage.ru_utime) + seconds(usage.ru_stime), 1000);
+  result["peak_rss_mb"] = rounded(double(usage.ru_maxrss) / 1024, 10);
   result["plan"] = plan;
   return result.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

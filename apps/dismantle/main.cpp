@@ -4,12 +4,15 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/stopped.h"
+#include "dismantle/suggest.h"
 
 namespace dismantle::app {
 namespace {
@@ -40,8 +43,33 @@ int report_diagnostics(bool json, const ConfigError& e) {
   return kUsage;
 }
 
+/// What is wrong with the names of the command and its sub-command, or nothing: the parser would only say that one
+/// is missing.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* at = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const auto commands = at->get_subcommands([](const CLI::App*) { return true; });
+    if (commands.empty()) break;
+    std::vector<std::string> names;
+    const CLI::App* next = nullptr;
+    for (const CLI::App* command : commands) {
+      names.push_back(command->get_name());
+      if (names.back() == argv[i]) next = command;
+    }
+    if (next == nullptr) {
+      const auto near = nearest(argv[i], names);
+      return fmt::format("{} has no command '{}'{}; its commands are {}", at->get_name(), argv[i],
+                         near ? fmt::format(", did you mean '{}'", *near) : "", fmt::join(names, ", "));
+    }
+    at = next;
+  }
+  return "";
+}
+
 int run(CLI::App& app, Action& action, int argc, char** argv) {
   const bool json = asks_for_json(argc, argv);
+  if (const auto problem = unknown_command(app, argc, argv); !problem.empty())
+    return report_failure(json, kUsage, problem);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {  // --help and --version

@@ -10,10 +10,12 @@ class Usage(CliTest):
         self.assert_fails(2, "subcommand")
 
     def test_unknown_command_and_option(self):
-        self.assert_fails(2, "dissemble", "dissemble")
+        self.assert_fails(2, "'dissemble'", "dissemble")
+        self.assert_fails(2, "did you mean 'verify'", "verifi", "plan.json")
+        self.assert_fails(2, "its commands are list, describe", "plugins", "check", "x.so")
         self.assert_fails(2, "--fast", "plan", "x", "--fast")
         self.assert_fails(2, "--format", "plan", "x", "--format", "xml")
-        self.assert_fails(2, "input", "plan")
+        self.assert_fails(2, "INPUT", "plan")
         self.run_program("plan", "x", "-q", "-v", status=2)
 
     def test_commands_that_do_not_exist_are_not_pretended(self):
@@ -24,7 +26,7 @@ class Usage(CliTest):
         done = self.run_program("plan", "--format", "json", status=2)
         result = self.result_of(done)
         self.assertEqual(result["status"], "error")
-        self.assertIn("input", result["message"])
+        self.assertIn("INPUT", result["message"])
         self.result_of(self.run_program("plan", "x", "--nonsense", "--format=json", status=2))
 
     def test_help_shows_options_and_an_example(self):
@@ -64,7 +66,7 @@ class Configuration(CliTest):
         self.assert_fails(2, "bsf", "plan", "in", "--path-planner", "bsf")
         self.assert_fails(2, "progressive", "plan", "in", "--simulator", "progressive")
         self.assert_fails(2, "--seed", "plan", "in", "--seed", "soon")
-        self.assert_fails(2, "run.sed", "plan", "in", "--set", "run.sed=1")
+        self.assert_fails(2, "unknown key 'sed' in run", "plan", "in", "--set", "run.sed=1")
         self.assert_fails(2, "--timeout", "plan", "in", "--timeout", "-1")
 
     def test_output_that_cannot_be_written(self):

@@ -41,7 +41,7 @@ std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, st
     const auto step = left_in.find(part.name);
     const bool leaves = step != left_in.end();
     const std::string label = leaves ? fmt::format("{}. {}", step->second, part.name) : part.name;
-    out += fmt::format("  {} [label={}{}];\n", quoted(part.name), quoted(label), leaves ? "" : ", style=filled");
+    out += fmt::format("  {} [label={}{}];\n", quoted(part.name), quoted(label), leaves ? "" : ", style=\"rounded,filled\"");
   }
   for (const auto& [before, after] : precedence) out += fmt::format("  {} -> {};\n", quoted(before), quoted(after));
   return out + "}\n";
