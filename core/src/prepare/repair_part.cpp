@@ -38,14 +38,13 @@ class PartRepair {
     const bool trusted = use.inconsistent == 0;
     if (!use.closed() && !mesh_.empty()) use = close(use);
     drop_flat_shells();
-    if (mesh_.empty()) {
-      reject("no volume: its triangles are all flat on each other or degenerate");
+    if (flat_ || mesh_.empty()) {
+      reject("no volume: its triangles lie flat on each other or have no area");
     } else if (!use.closed()) {
       reject(open_text(use));
     } else {
       turn_shells(trusted);
-      const double volume = signed_volume(mesh_);
-      if (!(volume > 1e-12 * std::pow(surface_area(mesh_), 1.5)))
+      if (!has_volume() || signed_volume(mesh_) < 0)
         reject("no volume");
       else
         look_for_crossings();
@@ -83,6 +82,9 @@ class PartRepair {
     return true;
   }
 
+  /// More than rounding can make of a flat surface.
+  bool has_volume() const { return std::abs(signed_volume(mesh_)) > 1e-12 * std::pow(surface_area(mesh_), 1.5); }
+
   double tolerance() const { return options_.weld * diagonal_; }
 
   void weld_part() {
@@ -91,6 +93,7 @@ class PartRepair {
     if (r.merged) did("welded {} to {}", counted(before, "vertex"), mesh_.vertices.size());
     if (r.unused) did("dropped {} that no triangle uses", counted(r.unused, "vertex"));
     if (r.degenerate) did("dropped {} without area", counted(r.degenerate, "triangle"));
+    flat_ = edge_use(mesh_).closed() && !has_volume();
     const DuplicateFaces d = drop_duplicate_faces(mesh_);
     if (d.double_sided)
       did("every face came with both senses: kept one of each, dropped {}", counted(d.repeated, "triangle"));
@@ -211,6 +214,7 @@ class PartRepair {
   const PrepareOptions& options_;
   PartReport& report_;
   double diagonal_ = 0;
+  bool flat_ = false;  // closed in the file, but without volume
 };
 
 }  // namespace

@@ -60,20 +60,18 @@ std::uint32_t outer_side(const Mesh& mesh, const std::vector<std::uint32_t>& mem
       const Vector3d n = mesh_detail::area_vector(mesh, t);
       const double slope = n.dot(d), area = n.norm();
       if (std::abs(slope) < 1e-9 * area || area == 0) continue;
-      const double s = n.dot(mesh.vertex(t, 0) - through) / slope;
-      if (t != largest && s <= far) continue;
+      const double s = t == largest ? 0 : n.dot(mesh.vertex(t, 0) - through) / slope;
+      if (s < 0 || s <= far) continue;
       const Vector3d p = through + s * d;
       double margin = std::numeric_limits<double>::infinity();
       for (int c = 0; c < 3; ++c) {
         const Vector3d &a = mesh.vertex(t, c), &b = mesh.vertex(t, (c + 1) % 3);
         margin = std::min(margin, (b - a).cross(p - a).dot(n) / (area * area));
       }
-      if (margin < -1e-9 && t != largest) continue;
-      if (std::max(s, 0.0) > far) {
-        far = std::max(s, 0.0);
-        far_margin = margin;
-        side = slope > 0 ? front(t) : back(t);
-      }
+      if (margin < -1e-9) continue;
+      far = s;
+      far_margin = margin;
+      side = slope > 0 ? front(t) : back(t);
     }
     if (far_margin > 1e-6) break;
   }
