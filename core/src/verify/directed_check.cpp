@@ -132,14 +132,25 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   }
   const double s = 0.5 * (i.s0 + i.s1);
   const Placement mid(motion_.at(s));
-  const Probe seen = probe(patch, mid, b_);
-  const auto deepest = static_cast<std::size_t>(seen.deepest);
-  if (seen.depth[deepest] > most)
-    return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
-  const Corners by_probe = moved_by_probe(patch, seen, e);
-  if (clear(i, by_probe, far) && (far || outside(i.at0, by_probe))) {
-    by_shrunken_copy_ = false;
-    return true;
+  // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
+  Probe seen = probe(patch, mid, b_);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto deepest = static_cast<std::size_t>(seen.deepest);
+    if (seen.depth[deepest] > most)
+      return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
+    const Corners by_probe = moved_by_probe(patch, seen, e);
+    if (clear(i, by_probe, far) && (far || outside(i.at0, by_probe))) {
+      by_shrunken_copy_ = false;
+      return true;
+    }
+    if (attempt > 0) break;
+    for (const auto& [place, time] : {std::pair(i.at0, i.s0), std::pair(i.at1, i.s1)}) {
+      const Probe end = probe(patch, place, b_);
+      const auto corner = static_cast<std::size_t>(end.deepest);
+      if (end.depth[corner] > most)
+        return fail(Answer::violated, patch.p[corner], end.depth[corner], patch.triangle, time);
+      seen.deepen(end);
+    }
   }
   const double depth = depth_at(mid * patch.center(), b_);
   if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
@@ -152,7 +163,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     return true;
   }
   if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  if (i.s1 - i.s0 > 1 || travel + 2 * i.margin > patch.longest_edge()) {
+  if (i.s1 - i.s0 > 1 || travel + 2 * i.margin > 0.3 * patch.longest_edge()) {
     later.push_back(id);
     return true;
   }

@@ -49,6 +49,15 @@ double depth_at(const Vec3& point, const Solid& solid) {
   return solid.bvh.inside(point) ? distance : -distance;
 }
 
+void Probe::deepen(const Probe& other) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (other.depth[i] <= depth[i]) continue;
+    depth[i] = other.depth[i];
+    out[i] = other.out[i];
+  }
+  deepest = static_cast<int>(std::max_element(depth.begin(), depth.end()) - depth.begin());
+}
+
 Probe probe(const Patch& patch, const Placement& place, const Solid& other) {
   constexpr double kOnSurface = 1e-9;
   Probe result;

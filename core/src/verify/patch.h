@@ -37,6 +37,9 @@ struct Probe {
   std::array<double, 3> depth;  ///< > 0 inside, < 0 outside; distance to the surface
   Corners out;                  ///< unit, frame of the patch's part: the shortest way out
   int deepest = 0;
+
+  /// Takes over every corner that is deeper in `other`.
+  void deepen(const Probe& other);
 };
 Probe probe(const Patch& patch, const Placement& place, const Solid& other);
 /// Corners moved the shortest way out and half of what `depth` leaves over beyond the surface, and across that by the

@@ -5,11 +5,11 @@
 namespace dismantle::verify {
 namespace {
 
-constexpr std::size_t kTimes = 48, kVertices = 96;
+constexpr std::size_t kLeastTimes = 24, kMostTimes = 48, kVertices = 96;
 
 void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, bool of_second, Finding& best) {
   const std::size_t segments = motion.segments();
-  const std::size_t times = std::min(kTimes, 2 * segments);
+  const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
   const std::size_t triangles = a.mesh.triangles.size();
   for (std::size_t i = 0; i < times; ++i) {
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);

@@ -152,7 +152,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       while (rung < last &&
              f.depth > allowed + kRoom * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
         ++rung;
-    if (f.answer == Answer::exhausted)
+    if (f.answer == Answer::exhausted && rungs[rung] < kWorthwhile)
       while (rung < last && rungs[rung] != kWorthwhile) ++rung;
   }
 }
