@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "dismantle/geometry/mesh_measure.h"
@@ -38,7 +40,7 @@ class PartRepair {
     const bool trusted = use.inconsistent == 0;
     if (!use.closed() && !mesh_.empty()) use = close(use);
     drop_flat_shells();
-    if (flat_ || mesh_.empty()) {
+    if (mesh_.empty() || coplanar()) {
       reject("no volume: its triangles lie flat on each other or have no area");
     } else if (!use.closed()) {
       reject(open_text(use));
@@ -87,13 +89,29 @@ class PartRepair {
 
   double tolerance() const { return options_.weld * diagonal_; }
 
+  /// All vertices lie in the plane of the largest triangle.
+  bool coplanar() const {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const Eigen::Vector3d& a = mesh_.vertex(t, 0);
+      const Eigen::Vector3d n = (mesh_.vertex(t, 1) - a).cross(mesh_.vertex(t, 2) - a);
+      if (n.squaredNorm() > normal.squaredNorm()) {
+        normal = n;
+        origin = a;
+      }
+    }
+    normal.normalize();
+    return std::all_of(mesh_.vertices.begin(), mesh_.vertices.end(),
+                       [&](const auto& v) { return std::abs(normal.dot(v - origin)) <= 1e-12 * diagonal_; });
+  }
+
   void weld_part() {
     const std::size_t before = mesh_.vertices.size();
     const WeldResult r = weld(mesh_, tolerance());
     if (r.merged) did("welded {} to {}", counted(before, "vertex"), mesh_.vertices.size());
     if (r.unused) did("dropped {} that no triangle uses", counted(r.unused, "vertex"));
     if (r.degenerate) did("dropped {} without area", counted(r.degenerate, "triangle"));
-    flat_ = edge_use(mesh_).closed() && !has_volume();
     const DuplicateFaces d = drop_duplicate_faces(mesh_);
     if (d.double_sided)
       did("every face came with both senses: kept one of each, dropped {}", counted(d.repeated, "triangle"));
@@ -127,7 +145,8 @@ class PartRepair {
       limits.max_area_share = options_.max_hole;
       for (const Hole& h : fill_holes(mesh_, limits)) {
         if (h.filled)
-          did("closed a hole of {} near {}, area {:.4g}", counted(h.edges, "edge"), text(h.center), h.area);
+          did("closed a hole of {} near {}, area {:.4g}{}", counted(h.edges, "edge"), text(h.center), h.area,
+              h.flat ? "" : ", with the smallest surface on its rim, which is not flat");
         else
           did("left a hole of {} near {}, area {:.4g}, open: {}", counted(h.edges, "edge"), text(h.center), h.area,
               h.why_not);
@@ -214,7 +233,6 @@ class PartRepair {
   const PrepareOptions& options_;
   PartReport& report_;
   double diagonal_ = 0;
-  bool flat_ = false;  // closed in the file, but without volume
 };
 
 }  // namespace

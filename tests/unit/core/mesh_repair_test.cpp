@@ -245,6 +245,25 @@ TEST(FillHoles, SmallFlatHolesAreClosed) {
   }
 }
 
+TEST(FillHoles, RimsThatAreNotFlatGetTheSmallestSurface) {
+  Mesh m = refine(box({0, 0, 0}, {1, 1, 1}), 3);
+  // Cut a corner off: the rim lies in three planes.
+  std::erase_if(m.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](auto v) { return m.vertices[v].minCoeff() > 0.7; });
+  });
+  weld(m, 0);
+  const Mesh open = m;
+  HoleLimits limits;
+  limits.max_unevenness = 0;
+  const auto holes = fill_holes(m, limits);
+  ASSERT_EQ(holes.size(), 1u);
+  EXPECT_TRUE(holes[0].filled) << holes[0].why_not;
+  EXPECT_FALSE(holes[0].flat);
+  EXPECT_TRUE(edge_use(m).closed());
+  EXPECT_NEAR(surface_area(m), surface_area(open) + holes[0].area, 1e-12);
+  EXPECT_LT(holes[0].area, 3 * 0.25 * 0.25);
+}
+
 TEST(FillHoles, LargeHolesStayOpen) {
   Mesh m = box({0, 0, 0}, {1, 1, 1});
   m.triangles.resize(10);

@@ -103,6 +103,18 @@ TEST(Prepare, PartsThatCannotBeUsedAreNamedWithTheReason) {
   for (const auto& e : a.excluded) EXPECT_TRUE(any_contains(report.warnings, "part '" + e.name + "' is left out"));
 }
 
+TEST(Prepare, DoubleSidedPartsAreUsed) {
+  Mesh m = box_at(2);
+  for (std::size_t t = 0; t < 12; ++t) {
+    m.triangles.push_back(m.triangles[t]);
+    flip(m, 12 + t);
+  }
+  const auto [a, report] = prepare({raw("a", box_at(0)), raw("both", split_vertices(m))});
+  EXPECT_EQ(a.parts.size(), 2u);
+  EXPECT_TRUE(any_contains(report.parts[1].actions, "every face came with both senses"));
+  EXPECT_NEAR(report.parts[1].volume, 1, 1e-12);
+}
+
 TEST(Prepare, FewerThanTwoPartsIsAnErrorThatListsThem) {
   Mesh open = kUnit;
   open.triangles.resize(10);

@@ -37,18 +37,21 @@ DISMANTLE_API DuplicateFaces drop_duplicate_faces(Mesh& mesh);
 DISMANTLE_API std::size_t close_t_junctions(Mesh& mesh, double tolerance);
 
 struct HoleLimits {
-  double max_area_share = 0.1;   ///< of the mesh's surface area
-  double max_unevenness = 0.05;  ///< distance of corners from the best plane, share of the hole's extent
+  double max_area_share = 0.1;  ///< of the mesh's surface area
   std::size_t max_edges = 1000;
+  double max_unevenness = 0.05;  ///< distance of the rim from its best plane, share of its extent, to count as flat
+  std::size_t max_uneven_edges = 200;  ///< of rims that are not flat
 };
 struct Hole {
   bool filled = false;
   std::size_t edges = 0;
-  double area = 0;
+  double area = 0;  ///< of the filling when there is one, else of the rim seen from its best direction
+  bool flat = true;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   std::string why_not;  ///< when not filled
 };
-/// Closes the loops of open edges that are small and nearly planar. Neighbouring triangles must be oriented alike.
+/// Closes the small loops of open edges: flat ones by a flat polygon, others by the surface of smallest area that is
+/// made of triangles of rim vertices. Neighbouring triangles must be oriented alike.
 DISMANTLE_API std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits);
 
 struct OrientResult {

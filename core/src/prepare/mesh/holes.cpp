@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "dismantle/geometry/mesh_measure.h"
@@ -96,6 +97,44 @@ std::vector<std::vector<std::uint32_t>> hole_loops(const Mesh& mesh) {
   return loops;
 }
 
+/// The triangulation of a closed polygon in space with the smallest area (Barequet and Sharir 1995), O(n^3).
+std::vector<Triangle> smallest_surface(const std::vector<Vector3d>& p) {
+  const std::size_t n = p.size();
+  std::vector<double> area(n * n, 0);
+  std::vector<std::uint32_t> apex(n * n, 0);
+  for (std::size_t span = 2; span < n; ++span)
+    for (std::size_t i = 0; i + span < n; ++i) {
+      const std::size_t k = i + span;
+      double best = std::numeric_limits<double>::infinity();
+      for (std::size_t m = i + 1; m < k; ++m) {
+        const double a = area[i * n + m] + area[m * n + k] + (p[m] - p[i]).cross(p[k] - p[i]).norm() / 2;
+        if (a < best) {
+          best = a;
+          apex[i * n + k] = static_cast<std::uint32_t>(m);
+        }
+      }
+      area[i * n + k] = best;
+    }
+  std::vector<Triangle> out;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> todo{{0, static_cast<std::uint32_t>(n - 1)}};
+  while (!todo.empty()) {
+    const auto [i, k] = todo.back();
+    todo.pop_back();
+    if (k - i < 2) continue;
+    const std::uint32_t m = apex[i * n + k];
+    out.push_back({i, m, k});
+    todo.emplace_back(i, m);
+    todo.emplace_back(m, k);
+  }
+  return out;
+}
+
+double area_of(const std::vector<Vector3d>& p, const std::vector<Triangle>& triangles) {
+  double twice = 0;
+  for (const auto& t : triangles) twice += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+  return twice / 2;
+}
+
 }  // namespace
 
 std::size_t close_t_junctions(Mesh& mesh, double tolerance) {
@@ -151,19 +190,24 @@ std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits) {
     double uneven = 0;
     if (hole.area > 0)
       for (const auto& p : corners) uneven = std::max(uneven, std::abs(normal.normalized().dot(p - hole.center)));
-    const double extent = box.size().norm();
+    hole.flat = loop.size() <= 3 || uneven <= limits.max_unevenness * box.size().norm();
     std::vector<Triangle> filling;
     if (loop.size() < 3) {
       hole.why_not = "two triangles overlap there";
-    } else if (loop.size() > limits.max_edges) {
-      hole.why_not = fmt::format("more than {} edges", limits.max_edges);
-    } else if (hole.area > area_limit) {
-      hole.why_not = fmt::format("larger than {:g} % of the surface", 100 * limits.max_area_share);
-    } else if (loop.size() > 3 && uneven > limits.max_unevenness * extent) {
-      hole.why_not = fmt::format("not flat: {:.1f} % of its extent off the best plane", 100 * uneven / extent);
+    } else if (loop.size() > (hole.flat ? limits.max_edges : limits.max_uneven_edges)) {
+      hole.why_not = fmt::format("more than {} edges{}", hole.flat ? limits.max_edges : limits.max_uneven_edges,
+                                 hole.flat ? "" : " that do not lie in a plane");
     } else {
-      filling = triangulate_polygon(corners);
-      if (filling.empty()) hole.why_not = "its rim crosses itself";
+      filling = hole.flat ? triangulate_polygon(corners) : smallest_surface(corners);
+      if (filling.empty()) {
+        hole.why_not = "its rim crosses itself";
+      } else {
+        hole.area = area_of(corners, filling);
+        if (hole.area > area_limit) {
+          hole.why_not = fmt::format("larger than {:g} % of the surface", 100 * limits.max_area_share);
+          filling.clear();
+        }
+      }
     }
     for (const auto& t : filling) mesh.triangles.push_back({loop[t[0]], loop[t[1]], loop[t[2]]});
     hole.filled = !filling.empty();
