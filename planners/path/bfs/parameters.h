@@ -18,8 +18,8 @@ struct Parameters {
   bool diagonals = true;
   bool intermediate = true;
   double thinning = 1e-4;
-  std::int64_t max_refusals = 20;
-  std::int64_t rotation_nodes = 60;
+  std::int64_t max_refusals = 8;
+  std::int64_t rotation_nodes = 8;
 
   static void describe(Schema<Parameters>& s) {
     s.add_choice<Motion>("motion", &Parameters::motion,

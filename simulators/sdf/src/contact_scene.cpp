@@ -8,6 +8,8 @@ namespace {
 
 /// Beyond this distance a query gives up and the block sleeps for that long.
 constexpr double kReach = 0.5;
+/// Beyond this a bound on the distance is as good as the distance; well above any margin.
+constexpr double kFarEnough = 0.1;
 /// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
 /// below what the verifier lets pass.
 constexpr double kOnEdge = 2e-4;
@@ -54,7 +56,13 @@ double ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   ++queries_;
   sample.triangle = kNoTriangle;
   if (model_ == DistanceModel::grid) return sample.value = field.grid->value(p, sample.normal);
-  const Sample s = field.surface->sample(p, limit, hint);
+  // Clearly too far to matter: the grid's bound will do. Else the grid tells how far to search.
+  const double bound = field.grid->lower_bound(p);
+  if (bound > kFarEnough) return std::min(bound, limit);
+  const double first =
+      hint == kNoTriangle ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
+  Sample s = field.surface->sample(p, first, hint);
+  if (s.triangle == kNoTriangle && first < limit) s = field.surface->sample(p, limit, hint);
   if (s.triangle != kNoTriangle) {
     hint = s.triangle;
     sample = s;
