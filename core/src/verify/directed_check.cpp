@@ -125,7 +125,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     later.push_back(id);
     return true;
   }
-  const Corners by_normal = moved_by_normal(patch, a_, e);
+  const Corners by_normal = moved_along(patch, -a_.normals[patch.triangle], e);
   if (clear(i, by_normal, far) && (far || outside(i.at0, by_normal))) {
     by_shrunken_copy_ = false;
     return true;
@@ -152,8 +152,14 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
       seen.deepen(end);
     }
   }
-  const double depth = depth_at(mid * patch.center(), b_);
+  const Escape center = escape_at(mid * patch.center(), b_);
+  const double depth = center.depth;
   if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
+  const Corners by_center = moved_along(patch, mid.r.transpose() * center.out, e);
+  if (depth > 0 && clear(i, by_center, far) && (far || outside(i.at0, by_center))) {
+    by_shrunken_copy_ = false;
+    return true;
+  }
   const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
   double travel = 0;
   for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
@@ -169,7 +175,11 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   }
   if (budget_.patches_left < 4) return fail(Answer::exhausted, patch.center(), depth, patch.triangle, s);
   budget_.patches_left -= 4;
-  for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  if (const auto ridge = ridge_on(patch, seen)) {
+    for (const Patch& half : patch.halves(ridge->edge, ridge->t)) same.push_back(add(half));
+  } else {
+    for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  }
   return true;
 }
 

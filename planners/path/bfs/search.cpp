@@ -243,6 +243,11 @@ PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool
     }
     waiting = false;
     for (unsigned d = 0; d < ends_.size(); ++d) waiting |= waiting_at(d);
+    if (end == RunEnd::blocked && (waiting || stage + 1 == actions_.size()) && world_->relax()) {
+      reset();  // once more, with all the overlap that the judge allows
+      stage = 0;
+      continue;
+    }
     if (end != RunEnd::blocked || waiting || ++stage == actions_.size()) break;
     // The axes are exhausted: push every state found so far along the further directions.
     for (std::size_t i = 0; i < nodes_.size(); ++i) ends_[nodes_[i].depth].push_back(static_cast<std::int32_t>(i));
