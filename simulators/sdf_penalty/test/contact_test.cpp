@@ -75,8 +75,10 @@ TEST(Contact, AtRestTheSinkIsForceOverStiffnessAndPoints) {
         State s = world->initial_state();
         world->advance(s, push(Vector3d(0, 0, -force)), 0.5, nullptr);
         const double sink = force / (4 * stiffness);
-        EXPECT_NEAR(-way(*world, s).z(), sink, 1e-3 * sink) << name << " " << stiffness << " " << force;
-        EXPECT_NEAR(world->penetration(s), sink, 1e-3 * sink);
+        // Where a step no longer moves it ends: up to (drag / dt) / (drag / dt + k n) of the sink may be missing.
+        const double left = 6e-3 * sink;
+        EXPECT_NEAR(-way(*world, s).z(), sink, left) << name << " " << stiffness << " " << force;
+        EXPECT_NEAR(world->penetration(s), sink, left);
         EXPECT_LT(s.bodies[0].velocity.norm(), 1e-3);
       }
 }
