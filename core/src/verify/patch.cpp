@@ -32,8 +32,8 @@ std::array<Patch, 4> Patch::quarters() const {
 std::array<Patch, 2> Patch::halves(std::size_t edge, double t) const {
   const std::size_t i = edge, j = (edge + 1) % 3, k = (edge + 2) % 3;
   const Vec3 m = (1 - t) * p[i] + t * p[j], d = (1 - t) * inward[i] + t * inward[j];
-  return {Patch{{p[i], m, p[k]}, {inward[i], d, inward[k]}, triangle},
-          Patch{{m, p[j], p[k]}, {d, inward[j], inward[k]}, triangle}};
+  return {Patch{{p[i], m, p[k]}, {inward[i], d, inward[k]}, triangle, halved + 1},
+          Patch{{m, p[j], p[k]}, {d, inward[j], inward[k]}, triangle, halved + 1}};
 }
 
 Corners moved_by_vertices(const Patch& patch, double depth) {
@@ -62,6 +62,7 @@ Escape escape_at(const Vec3& point, const Solid& solid) {
 
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
   constexpr double kSameWay = 0.7, kNearEnd = 0.02;
+  if (patch.halved >= 2) return std::nullopt;
   std::optional<Ridge> best;
   double least = kSameWay;
   for (std::size_t i = 0; i < 3; ++i) {

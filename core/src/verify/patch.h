@@ -20,6 +20,7 @@ struct Patch {
   Corners p;       ///< frame of its part
   Corners inward;  ///< displacement of the vertex rule for a unit of depth, lengths <= 1
   std::uint32_t triangle = 0;
+  std::uint32_t halved = 0;  ///< times in a row
 
   Eigen::Vector3d center() const { return (p[0] + p[1] + p[2]) / 3; }
   double longest_edge() const;
@@ -58,7 +59,8 @@ struct Escape {
 Escape escape_at(const Eigen::Vector3d& point, const Solid& solid);
 
 /// An edge of the patch whose ends have different ways out, and the place on it where both ways are equally long: there
-/// the depth has a ridge, and pieces on either side of it are easier to judge.
+/// the depth has a ridge, and pieces on either side of it are easier to judge. None after two halvings in a row: where
+/// ridges meet, cutting along one would never come to an end.
 struct Ridge {
   std::size_t edge;
   double t;
