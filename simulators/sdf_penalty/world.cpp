@@ -40,7 +40,8 @@ sdf::ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, c
   for (const auto& m : cast.moving) moving.push_back(member(m));
   for (const auto& s : cast.still) still.push_back(member(s));
   return {std::move(moving), std::move(still), p.distance, kMarginFactor * p.max_travel,
-          [&](PartId a, PartId b) { return prepared.allowed(a, b) + p.contact_threshold; }, kFacetAllowance, &prepared.rest};
+          [&](PartId a, PartId b) { return prepared.allowed(a, b); }, p.contact_threshold, kFacetAllowance,
+          &prepared.rest};
 }
 
 }  // namespace
@@ -196,13 +197,13 @@ double PenaltyWorld::displace(State& state, const typename StepSolver<Dof>::Vect
 
 /// Pushes the state out of surfaces that it sank into further than the action's force explains.
 template <int Dof>
-void PenaltyWorld::settle(State& state) {
+void PenaltyWorld::settle(State& state, double explained) {
   using Solver = StepSolver<Dof>;
   const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
   for (int round = 0; round < kSettleRounds; ++round) {
     double deepest = 0;
     for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
-    if (deepest <= kSettleDepth) return;
+    if (deepest <= kSettleDepth + explained) return;
     build_rows(state, 0);
     typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -244,13 +245,14 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
   const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
   typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
   typename Solver::Vector target = Solver::Vector::Zero(n);
-  double free_travel = 0;
+  double free_travel = 0, largest_force = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i) * per_body_;
     const Body& body = bodies_[i];
     const BodyState& s = state.bodies[i];
     const Wrench& wrench = action.wrenches[i];
     const double r2 = body.radius * body.radius;
+    largest_force = std::max(largest_force, wrench.force.norm() + wrench.torque.norm() / body.radius);
     Eigen::Vector3d shift, turn = Eigen::Vector3d::Zero();
     if (still_water) {
       weight.template block<3, 3>(at, at).diagonal().setConstant(parameters_.drag / dt);
@@ -292,7 +294,7 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     }
   follow_contacts<Dof>(state, x, *travel);
   if (*travel < kStuckShare * free_travel) return Moved::not_at_all;
-  if (still_water) settle<Dof>(state);
+  if (still_water) settle<Dof>(state, largest_force / parameters_.contact_stiffness);
   return *travel < kStallShare * free_travel ? Moved::stalled : Moved::freely;
 }
 

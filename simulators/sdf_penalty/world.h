@@ -57,7 +57,7 @@ class PenaltyWorld final : public World {
   template <int Dof>
   Moved step(State& state, const Action& action, double dt, double* travel);
   template <int Dof>
-  void settle(State& state);
+  void settle(State& state, double explained);
   void update_contacts(const State& state);
   template <int Dof>
   void follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel);

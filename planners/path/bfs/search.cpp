@@ -101,8 +101,12 @@ void Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
   std::vector<PartId> parts;
+  const auto moves = [&](PartId part) {
+    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+                       [part](const PlacedPart& m) { return m.part == part; });
+  };
   for (const auto& c : contacts)
-    if (c.depth > -1e-3) parts.push_back(c.other);
+    if (c.depth > -1e-3 && !moves(c.other)) parts.push_back(c.other);
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (PartId p : parts) ++touched_[p];

@@ -88,6 +88,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   const std::size_t solids = target.solids.size();
   if (!set.ready) {
     set.wake.assign(points.points.blocks.size(), -1.0);
+    set.point_wake.assign(points.points.points.size(), -1.0);
     set.hint.assign(points.points.points.size() * solids, kNoTriangle);
     if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
     set.ready = true;
@@ -147,14 +148,21 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       }
       lower = std::max(lower, free - block.radius);
     }
-    double slack = lower + pair.everywhere - margin;
+    // A bound of zero may be inside, at any depth.
+    double slack = lower > 0 ? lower + pair.everywhere - margin : -1.0;
     if (slack <= 0) {
       slack = kReach;
       for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+        if (set.point_wake[i] > odometer) {
+          slack = std::min(slack, set.point_wake[i] - odometer);
+          continue;
+        }
         const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
         const Touch touch = nearest(p, &set.hint[i * solids]);
         const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
-        slack = std::min(slack, touch.distance + allowed - margin);
+        const double beyond = touch.distance + allowed - margin;
+        set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
+        slack = std::min(slack, beyond);
         if (touch.distance + allowed < margin) emit(p, touch, allowed);
       }
     }
@@ -172,8 +180,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
 void ContactScene::update_pair(ContactPair& pair, std::vector<ContactPoint>& out) {
   const double odometer = odometer_[pair.a] + (pair.b < moving_ ? odometer_[pair.b] : 0.0);
   if (pair.wake > odometer) return;
-  const double slack = box_gap(boxes_[pair.a], boxes_[pair.b]) + pair.everywhere - margin_;
-  if (slack > 0) {
+  const double gap = box_gap(boxes_[pair.a], boxes_[pair.b]), slack = gap + pair.everywhere - margin_;
+  if (gap > 0 && slack > 0) {  // boxes that overlap tell nothing
     pair.wake = odometer + slack;
     return;
   }
@@ -187,7 +195,7 @@ void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
   for (auto& pair : pairs_) {
     const Member &a = members_[pair.a], &b = members_[pair.b];
     const auto& known = rest_->of(a.part, b.part, [&](RestContacts::Entry& entry) {
-      ContactScene alone({a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed; }, slack_);
+      ContactScene alone({a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
       alone.update({a.pose}, entry.points);
       entry.pair = std::move(alone.pairs_.front());
     });
@@ -233,7 +241,7 @@ float ContactScene::assembled_depth(const ContactPair& pair, const Member& owner
   double depth = 0;
   for (const SolidField& s : surface.placed->shape->solids)
     if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
-  depth += std::min(0.5 * depth, slack_);
+  depth += std::min(0.5 * depth, slack_) + threshold_;
   return depth > pair.everywhere ? static_cast<float>(std::min(depth, pair.allowed)) : 0.0F;
 }
 

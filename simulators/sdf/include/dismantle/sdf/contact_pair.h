@@ -33,6 +33,7 @@ struct ContactPoint {
 struct DirectedContacts {
   bool ready = false;
   std::vector<double> wake;             ///< per block: odometer reading at which it may matter
+  std::vector<double> point_wake;       ///< per point: likewise
   std::vector<std::uint32_t> hint;      ///< per point and solid: last closest triangle
   std::vector<Eigen::Vector3d> extra;   ///< learned points, owner's shape frame
   std::vector<std::uint32_t> extra_hint;

@@ -27,7 +27,8 @@ class ContactScene {
     const Placed* placed = nullptr;
     Pose pose;  ///< of a still part; start pose of a moving one
   };
-  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap.
+  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap; `threshold` is
+  /// granted on top of it, to all pairs everywhere.
   ///
   /// A depth above kTight is not granted everywhere at once, since it would let a part through walls that are
   /// thinner than twice that: at first each point may be as deep as it was when assembled (with `slack`
@@ -36,12 +37,13 @@ class ContactScene {
   /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
   ContactScene(std::vector<Member> moving, std::vector<Member> still, DistanceModel model, double margin,
-               const Allowed& allowed, double slack = 0, RestContacts* rest = nullptr)
-      : model_(model), margin_(margin), slack_(slack), rest_(rest) {
+               const Allowed& allowed, double threshold = 0, double slack = 0, RestContacts* rest = nullptr)
+      : model_(model), margin_(margin), threshold_(threshold), slack_(slack), rest_(rest) {
     set_members(std::move(moving), std::move(still));
     for (auto& pair : pairs_) {
-      pair.allowed = allowed(members_[pair.a].part, members_[pair.b].part);
-      pair.everywhere = std::min(pair.allowed, kTight);
+      const double overlap = allowed(members_[pair.a].part, members_[pair.b].part);
+      pair.allowed = overlap + threshold;
+      pair.everywhere = std::min(overlap, kTight) + threshold;
     }
   }
   static constexpr double kTight = 0.01;
@@ -73,7 +75,7 @@ class ContactScene {
                          Sample& sample);
 
   DistanceModel model_;
-  double margin_, slack_;
+  double margin_, threshold_, slack_;
   std::size_t moving_ = 0;
   std::vector<Member> members_;  ///< moving first
   std::vector<Pose> world_;      ///< shape frame -> world, now
