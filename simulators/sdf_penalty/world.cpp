@@ -133,9 +133,9 @@ void PenaltyWorld::learn(PartId part, PartId other, const Eigen::Vector3d& point
   forget_contacts();
 }
 
-bool PenaltyWorld::relax() {
+void PenaltyWorld::relax() {
   forget_contacts();
-  return scene_.relax();
+  scene_.relax();
 }
 
 void PenaltyWorld::build_rows(const State& state, double dt) {
@@ -358,6 +358,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     report.travel = std::max(report.travel, screw_travel(begin.bodies[i].pose, state.bodies[i].pose, bodies_[i].center,
                                                          per_body_ == 3 ? 0.0 : bodies_[i].radius));
+  // To and fro in place is standing still, too.
+  if (quasi_static && report.travel < kStallShare * parameters_.max_travel * duration / natural) report.stalled = true;
   return report;
 }
 
@@ -373,12 +375,17 @@ void PenaltyWorld::contacts(const State& state, std::vector<Contact>& out) {
   out.clear();
   for (const auto& c : touching_) {
     Contact contact;
+    Eigen::Vector3d normal = c.normal;
+    double gap = c.gap;
+    for (int k = 0; k < c.plane_count; ++k)  // as the solver sees it
+      if (c.planes[k].gap > gap) gap = c.planes[k].gap, normal = c.planes[k].normal;
+    contact.on_edge = c.plane_count > 0;
     contact.point = c.point;
-    contact.depth = -c.gap;
+    contact.depth = -gap;
     const bool owner_moves = c.owner >= 0;
     contact.moving = owner_moves ? c.owner_part : c.surface_part;
     contact.other = owner_moves ? c.surface_part : c.owner_part;
-    contact.normal = owner_moves ? c.normal : Eigen::Vector3d(-c.normal);
+    contact.normal = owner_moves ? normal : Eigen::Vector3d(-normal);
     out.push_back(contact);
   }
 }

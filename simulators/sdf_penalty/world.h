@@ -42,7 +42,8 @@ class PenaltyWorld final : public World {
   void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
   void learn(PartId part, PartId other, const Eigen::Vector3d& point) override;
-  bool relax() override;
+  bool strict() const override { return scene_.strict(); }
+  void relax() override;
 
  private:
   struct Body {

@@ -40,7 +40,8 @@ class CountingWorld final : public World {
   void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
   bool separated(const State& state) override { return inner_->separated(state); }
   void learn(PartId part, PartId other, const Vector3d& point) override { inner_->learn(part, other, point); }
-  bool relax() override { return inner_->relax(); }
+  bool strict() const override { return inner_->strict(); }
+  void relax() override { inner_->relax(); }
 
  private:
   void count(std::uint64_t n) {

@@ -70,6 +70,7 @@ struct Contact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< world
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, pushes `moving` away from `other`
   double depth = 0;                                  ///< > 0 = penetrating beyond what was there when assembled
+  bool on_edge = false;  ///< at a convex edge or corner: the point is free as soon as it is outside one of the faces there
 };
 
 /// Poses along an advance, dense enough that the motion between two of them is a screw motion to
@@ -116,8 +117,9 @@ class DISMANTLE_API World {
   /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
   virtual void learn(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
   /// A world may at first be stricter than the judge: where parts overlap when assembled, it may want them to
-  /// overlap only there. This grants all that the judge does. False when nothing was held back.
-  virtual bool relax() { return false; }
+  /// overlap only there. relax() grants all that the judge does, from then on.
+  virtual bool strict() const { return false; }
+  virtual void relax() {}
 };
 
 /// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.

@@ -20,8 +20,7 @@ class Bfs final : public PathPlanner {
       result.message = "bfs needs a simulator with dynamics and contacts for all moving parts";
       return result;
     }
-    const Deadline deadline =
-        query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
+    const Deadline deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
     std::uint64_t steps_left = query.effort.max_steps;
     const bool limited = query.effort.max_steps > 0;
 
@@ -39,7 +38,8 @@ class Bfs final : public PathPlanner {
     }
     const std::uint64_t nodes =
         translate && depth > 0 ? static_cast<std::uint64_t>(parameters_.rotation_nodes) * depth : 0;
-    PathResult second = Search(query, MotionSpace::rigid, parameters_, context).run(deadline, steps_left, limited, nodes);
+    PathResult second =
+        Search(query, MotionSpace::rigid, parameters_, context).run(deadline, steps_left, limited, nodes);
     for (const auto& [name, value] : first.counts) second.counts[name] += value;
     if (second.message.empty()) second.message = first.message;
     return second;

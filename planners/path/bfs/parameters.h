@@ -15,8 +15,10 @@ struct Parameters {
   double similarity_translation = 0.05;
   double similarity_rotation = 0.5;
   // Where we go beyond Algorithm 1; see README.md.
+  bool proposals = true;
+  bool novelty = true;
   bool diagonals = true;
-  bool intermediate = true;
+  std::int64_t intermediate = 256;
   double thinning = 1e-4;
   std::int64_t max_refusals = 8;
   std::int64_t rotation_nodes = 8;
@@ -28,24 +30,51 @@ struct Parameters {
                           {"auto", Motion::automatic, "translation first; rotation once that is exhausted"}},
                          "State space of the search (section 4.2).");
     s.add("time_step", &Parameters::time_step,
-          {.unit = "s", .min = 1e-3, .max = 10, .doc = "Planning time step: an action runs so long between two looks (table 6)."});
+          {.unit = "s",
+           .min = 1e-3,
+           .max = 10,
+           .doc = "Planning time step: an action runs so long between two looks (table 6)."});
     s.add("force", &Parameters::force,
-          {.unit = "N", .min = 0, .min_open = true,
+          {.unit = "N",
+           .min = 0,
+           .min_open = true,
            .doc = "Force of each action; torques are this times the part's radius (table 6)."});
     s.add("similarity_translation", &Parameters::similarity_translation,
           {.unit = "unit", .min = 0, .min_open = true, .doc = "States nearer than this are similar (table 6)."});
     s.add("similarity_rotation", &Parameters::similarity_rotation,
-          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "... if turned by less than this, too (table 6)."});
+          {.unit = "rad",
+           .min = 0,
+           .max = 3.2,
+           .min_open = true,
+           .doc = "... if turned by less than this, too (table 6)."});
+    s.add(
+        "proposals", &Parameters::proposals,
+        {.doc =
+             "Translating, push first along directions that the contacts leave free, then along those while leaning on "
+             "a wall, then along the axes."});
+    s.add(
+        "novelty", &Parameters::novelty,
+        {.doc =
+             "Search first from states in places that were not searched from before; off: first come, first served."});
     s.add("diagonals", &Parameters::diagonals,
           {.doc = "When the six directions are exhausted, also push along the 20 diagonals."});
     s.add("intermediate", &Parameters::intermediate,
-          {.doc = "Search from states in the middle of a run, too, after those at its end."});
+          {.unit = "1",
+           .min = 0,
+           .max = 1e6,
+           .doc =
+               "States in the middle of runs to search from when their ends are exhausted (turning: any number above 0 "
+               "means all of them, after the ends of the same depth)."});
     s.add("thinning", &Parameters::thinning,
-          {.unit = "unit", .min = 0, .max = 0.01, .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+          {.unit = "unit",
+           .min = 0,
+           .max = 0.01,
+           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
     s.add("max_refusals", &Parameters::max_refusals,
           {.unit = "1", .min = 0, .doc = "Paths that the verifier may refuse before the search gives up."});
     s.add("rotation_nodes", &Parameters::rotation_nodes,
-          {.unit = "1", .min = 1,
+          {.unit = "1",
+           .min = 1,
            .doc = "Under `motion: auto` and a depth limit: states searched with rotation per level of depth."});
   }
 };

@@ -1,10 +1,19 @@
 #include "search.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace dismantle::bfs {
 namespace {
+
+/// An end state that differs from a known one by less than this share of the similarity thresholds is the same.
+constexpr double kSameShare = 0.2;
+/// States nearer to each other than so many times the similarity thresholds are in the same place.
+constexpr double kPlaceShare = 5;
+/// Beyond this rank one state waits no longer than another.
+constexpr unsigned kMostRank = 4;
+/// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
+constexpr std::uint64_t kStrictNodes = 24;
 
 std::vector<path::Ball> balls(const World& world) {
   std::vector<path::Ball> result;
@@ -13,68 +22,69 @@ std::vector<path::Ball> balls(const World& world) {
   return result;
 }
 
-/// Stage 0: the paper's unit actions, the same for all moving parts. Stage 1: the diagonals.
-std::vector<std::vector<Action>> action_stages(const World& world, const Parameters& p) {
-  const std::size_t bodies = world.cast().moving.size();
-  const auto push = [&](const Eigen::Vector3d& direction) {
-    Action a;
-    for (std::size_t i = 0; i < bodies; ++i) a.wrenches.push_back({p.force * direction.normalized(), Eigen::Vector3d::Zero()});
-    return a;
-  };
-  std::vector<std::vector<Action>> stages(1);
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) stages[0].push_back(push(sign * Eigen::Vector3d::Unit(axis)));
-  if (world.space() == MotionSpace::rigid) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double sign : {1.0, -1.0}) {
-        Action a;
-        for (std::size_t i = 0; i < bodies; ++i)
-          a.wrenches.push_back({Eigen::Vector3d::Zero(), sign * p.force * world.torque_arm(i) * Eigen::Vector3d::Unit(axis)});
-        stages[0].push_back(std::move(a));
-      }
-  } else if (p.diagonals) {
-    stages.emplace_back();
-    for (int weight = 3; weight >= 2; --weight)  // space diagonals first: they reach all three axes
-      for (int x = 1; x >= -1; --x)
-        for (int y = 1; y >= -1; --y)
-          for (int z = 1; z >= -1; --z)
-            if (std::abs(x) + std::abs(y) + std::abs(z) == weight) stages[1].push_back(push(Eigen::Vector3d(x, y, z)));
+Aabb box_of(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
+  Aabb box;
+  for (const PlacedPart& p : parts) {
+    if (p.part >= assembly.parts.size()) continue;  // a world may move what has no mesh
+    for (const auto& v : assembly.parts[p.part].mesh->vertices) box.extend(p.pose * v);
   }
-  return stages;
+  return box;
 }
 
-/// An end state that differs from a known one by less than this share of the similarity thresholds is the same.
-constexpr double kSameShare = 0.2;
+bool same_path(const Path& a, const Path& b) {
+  constexpr double kSame = 1e-6;
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].size(); ++i)
+      if ((a[k][i].t - b[k][i].t).norm() > kSame || angle_between(a[k][i].q, b[k][i].q) > kSame) return false;
+  return true;
+}
 
 }  // namespace
 
 Search::Search(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context)
-    : query_(query), parameters_(parameters), context_(context),
+    : query_(query),
+      parameters_(parameters),
+      context_(context),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, space)),
-      bodies_(balls(*world_)), actions_(action_stages(*world_, parameters)),
+      bodies_(balls(*world_)),
+      moving_box_(box_of(query.assembly, query.cast.moving)),
+      still_box_(box_of(query.assembly, query.cast.still)),
       seen_(bodies_, parameters.similarity_translation, parameters.similarity_rotation),
-      fine_(bodies_, kSameShare * parameters.similarity_translation, kSameShare * parameters.similarity_rotation) {}
+      fine_(bodies_, kSameShare * parameters.similarity_translation, kSameShare * parameters.similarity_rotation),
+      places_(bodies_, kPlaceShare * parameters.similarity_translation, parameters.similarity_rotation) {
+  const bool translating = space == MotionSpace::translation;
+  if (translating && parameters.proposals) stages_ = {Stage::free, Stage::leaning};
+  stages_.push_back(Stage::axes);
+  if (translating && parameters.diagonals) stages_.push_back(Stage::diagonals);
+}
 
 void Search::reset() {
   seen_ = path::StateSet(bodies_, parameters_.similarity_translation, parameters_.similarity_rotation);
   fine_ = path::StateSet(bodies_, kSameShare * parameters_.similarity_translation,
                          kSameShare * parameters_.similarity_rotation);
+  places_ = path::StateSet(bodies_, kPlaceShare * parameters_.similarity_translation, parameters_.similarity_rotation);
   nodes_.clear();
-  ends_.assign(1, {});
-  middles_.assign(1, {});
-  ends_[0].push_back(add_node(-1, 0, world_->initial_state(), {}));
+  waiting_.clear();
+  beyond_limit_ = 0;
+  passed_.clear();
+  passed_before_ = 0;
+  expanded_before_ += expanded_;
+  expanded_ = 0;
+  enqueue(add_node(-1, 0, world_->initial_state(), {}, false));
 }
 
-std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& state, Path way) {
-  Node node{state, parent, depth, std::move(way), 0};
+std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& state, Path way, bool middle) {
+  Node node{state, parent, depth, std::move(way), 0, middle};
   for (auto& b : node.state.bodies) b.velocity.setZero(), b.angular_velocity.setZero();
   const auto id = static_cast<std::int32_t>(nodes_.size());
   seen_.add(node.state, static_cast<std::uint32_t>(id));
   fine_.add(node.state, static_cast<std::uint32_t>(id));
   double way_from_start = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    way_from_start = std::max(way_from_start, (state.bodies[i].pose * bodies_[i].center -
-                                               query_.cast.moving[i].pose * bodies_[i].center).norm());
+    way_from_start =
+        std::max(way_from_start,
+                 (state.bodies[i].pose * bodies_[i].center - query_.cast.moving[i].pose * bodies_[i].center).norm());
   if (way_from_start > farthest_) {
     farthest_ = way_from_start;
     best_.clear();
@@ -82,6 +92,22 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   }
   nodes_.push_back(std::move(node));
   return id;
+}
+
+unsigned Search::rank(const Node& node) const {
+  if (!parameters_.novelty) return 0;
+  const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
+  // A state is in its own place once it has been searched from.
+  return near - (node.stage > 0 && near > 0 ? 1 : 0);
+}
+
+void Search::enqueue(std::int32_t id) {
+  const Node& node = nodes_[static_cast<std::size_t>(id)];
+  if (query_.effort.max_depth > 0 && node.depth >= query_.effort.max_depth) {
+    ++beyond_limit_;
+    return;
+  }
+  waiting_.insert({rank(node) + static_cast<unsigned>(node.stage) + (node.middle ? 1 : 0), node.depth, id});
 }
 
 Path Search::path_to(std::int32_t node) const {
@@ -116,114 +142,149 @@ bool Search::out_of_budget() const {
   return (limited_steps_ && *steps_left_ == 0) || context_.should_stop() || deadline_.passed();
 }
 
-/// Applies one action from a node until the state is out, similar to a past one, or moves no more.
-Search::RunEnd Search::follow(std::int32_t from, const Action& action, PathResult& result) {
+/// The state of node `last` is out: is the way there valid?
+Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
+  const Path path = path::thin(path_to(last), bodies_, parameters_.thinning);
+  for (const Path& refused : refusals_)
+    if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
+  const Verdict verdict = query_.judge(path);
+  if (verdict.accepted) {
+    note_contacts(start);
+    result.outcome = Outcome::solved;
+    result.path = path;
+    result.depth = nodes_[static_cast<std::size_t>(last)].depth;
+    return RunEnd::solved;
+  }
+  ++refused_;
+  refusals_.push_back(path);
+  result.message = verdict.reason;
+  if (!verdict.has_witness) return RunEnd::refused;
+  world_->learn(verdict.part, verdict.other, verdict.point);
+  return RunEnd::refused_learned;
+}
+
+/// Applies one action from a node until the state is out, moves no more, or (turning) is similar to a past one.
+Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, PathResult& result) {
   const auto first_of_run = static_cast<std::uint32_t>(nodes_.size());
   const unsigned depth = nodes_[static_cast<std::size_t>(from)].depth + 1;
   State state = nodes_[static_cast<std::size_t>(from)].state;
   const State start = state;
   std::int32_t last = from;
   bool left_start = false;
+  Path way;  // since `last`
   while (true) {
     if (out_of_budget()) return RunEnd::stop;
-    Path way;
+    const std::size_t before = way.size();
     const StepReport report = world_->advance(state, action, parameters_.time_step, &way);
     steps_ += report.steps;
     if (limited_steps_) *steps_left_ -= std::min(*steps_left_, report.steps);
     if (!report.finite) return RunEnd::blocked;
-    const bool out = !way.empty() && world_->separated(state);
-    left_start = left_start || !seen_.similar(state, start);
-    // The start of the run is a past state too, but only once the run has left it.
-    const bool known = left_start && seen_.has_similar(state, first_of_run, static_cast<std::uint32_t>(nodes_.size()));
-    const bool ended = report.stalled || known;
-    if (ended) note_contacts(state);
-    if (!out && ended) {
-      if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
-        // Nothing gained since the last recorded state: that one is the end of the run.
-        if (last == from) return RunEnd::blocked;
-        auto& queue = middles_[depth];
-        if (!queue.empty() && queue.back() == last) {
-          queue.pop_back();
-          ends_[depth].push_back(last);
-        } else if (!parameters_.intermediate) {
-          ends_[depth].push_back(last);
-        }
-        return RunEnd::blocked;
-      }
-      if (fine_.has_similar(state)) return RunEnd::blocked;
-      if (ends_.size() <= depth) ends_.resize(depth + 1), middles_.resize(depth + 1);
-      ends_[depth].push_back(add_node(last, depth, state, std::move(way)));
-      return RunEnd::blocked;
+    if (way.size() > before && world_->separated(state))
+      return judge(add_node(last, depth, state, std::move(way), false), start, result);
+    bool ended = report.stalled;
+    if (turning()) {
+      // The start of the run is a past state too, but only once the run has left it.
+      left_start = left_start || !seen_.similar(state, start);
+      ended =
+          ended || (left_start && seen_.has_similar(state, first_of_run, static_cast<std::uint32_t>(nodes_.size())));
     }
-    if (ends_.size() <= depth) ends_.resize(depth + 1), middles_.resize(depth + 1);
-    last = add_node(last, depth, state, std::move(way));
-    if (out) {
-      const Path path = path::thin(path_to(last), bodies_, parameters_.thinning);
-      const Verdict verdict = query_.judge(path);
-      if (verdict.accepted) {
-        note_contacts(start);
-        result.outcome = Outcome::solved;
-        result.path = path;
-        result.depth = depth;
-        return RunEnd::solved;
-      }
-      ++refused_;
-      result.message = verdict.reason;
-      if (verdict.has_witness) {
-        world_->learn(verdict.part, verdict.other, verdict.point);
-          return RunEnd::refused_learned;
-      }
-      return RunEnd::refused;
+    if (ended) break;
+    if (turning()) {
+      last = add_node(last, depth, state, std::move(way), parameters_.intermediate > 0);
+      way.clear();
+      if (parameters_.intermediate > 0) enqueue(last);
+    } else if (passed_before_ + passed_.size() < static_cast<std::size_t>(parameters_.intermediate)) {
+      passed_.push_back({from, depth, state, way});
     }
-    if (parameters_.intermediate) middles_[depth].push_back(last);
   }
+  note_contacts(state);
+  if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
+    // Nothing gained since the last recorded state: that one is the end of the run.
+    if (last == from) return RunEnd::blocked;
+    Node& end = nodes_[static_cast<std::size_t>(last)];
+    if (end.middle) std::erase_if(waiting_, [last](const Waiting& w) { return w.node == last; });
+    end.middle = false;
+    enqueue(last);
+    return RunEnd::blocked;
+  }
+  const bool known = stage == Stage::diagonals ? seen_.has_similar(state) : fine_.has_similar(state);
+  if (!known) enqueue(add_node(last, depth, state, std::move(way), false));
+  return RunEnd::blocked;
 }
 
 void Search::finish(PathResult& result) const {
-  result.counts = {{"nodes", static_cast<double>(nodes_.size())}, {"expanded", static_cast<double>(expanded_)},
-                   {"steps", static_cast<double>(steps_)},       {"refused", static_cast<double>(refused_)}};
+  result.counts = {{"nodes", static_cast<double>(nodes_.size())},
+                   {"expanded", static_cast<double>(expanded_before_ + expanded_)},
+                   {"steps", static_cast<double>(steps_)},
+                   {"refused", static_cast<double>(refused_)}};
   std::vector<std::pair<std::uint64_t, PartId>> order;
   for (const auto& [part, times] : touched_) order.emplace_back(times, part);
-  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first > b.first : a.second < b.second;
-  });
+  std::sort(order.begin(), order.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   for (const auto& o : order) result.blocked_by.push_back(o.second);
   result.best_pose = best_;
 }
 
-bool Search::waiting_at(unsigned depth) const {
-  return depth < ends_.size() && (!ends_[depth].empty() || !middles_[depth].empty());
+std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
+  std::vector<Action> actions;
+  switch (stage) {
+    case Stage::axes:
+      return unit_actions(*world_, parameters_.force, turning());
+    case Stage::diagonals:
+      return diagonal_actions(*world_, parameters_.force);
+    case Stage::free:
+    case Stage::leaning:
+      break;
+  }
+  std::vector<Contact> contacts;
+  world_->contacts(node.state, contacts);
+  const Freedom freedom = freedom_of(contacts, query_.cast.moving, moving_box_, still_box_);
+  for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom))
+    actions.push_back(push(*world_, parameters_.force, d));
+  return actions;
 }
 
-/// All actions that this state has not been given yet, up to `stage`.
-Search::RunEnd Search::expand(std::int32_t node, std::size_t stage, PathResult& result) {
+/// Gives a state its next stage of actions.
+Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   ++expanded_;
-  for (std::size_t s = nodes_[static_cast<std::size_t>(node)].stages_done; s <= stage; ++s)
-    for (const Action& action : actions_[s]) {
-      const RunEnd end = follow(node, action, result);
-      if (end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned) return end;
-      if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) return RunEnd::refused;
-    }
-  nodes_[static_cast<std::size_t>(node)].stages_done = static_cast<unsigned>(stage + 1);
+  const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
+  if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
+  for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage])) {
+    const RunEnd end = follow(id, action, stages_[stage], result);
+    if (end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned) return end;
+    if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) return RunEnd::refused;
+  }
+  if (stage + 1 < stages_.size()) enqueue(id);
   return RunEnd::blocked;
 }
 
-/// Breadth first: by depth, ends of runs before states in their middle, first come first served.
-Search::RunEnd Search::sweep(std::size_t stage, std::uint64_t max_nodes, PathResult& result) {
-  const unsigned limit = query_.effort.max_depth;
-  for (unsigned depth = 0; depth < ends_.size() && (limit == 0 || depth < limit); ++depth)
-    while (waiting_at(depth)) {
-      if (max_nodes > 0 && expanded_ >= max_nodes) return RunEnd::blocked;
-      auto& queue = ends_[depth].empty() ? middles_[depth] : ends_[depth];
-      const std::int32_t node = queue.front();
-      queue.pop_front();
-      const RunEnd end = expand(node, stage, result);
-      if (end != RunEnd::blocked) return end;
+Search::RunEnd Search::sweep(std::uint64_t max_nodes, PathResult& result) {
+  while (!waiting_.empty() || take_up_middles()) {
+    if (max_nodes > 0 && expanded_ >= max_nodes) return RunEnd::blocked;
+    const Waiting next = *waiting_.begin();
+    waiting_.erase(waiting_.begin());
+    const Node& node = nodes_[static_cast<std::size_t>(next.node)];
+    const unsigned now = rank(node) + static_cast<unsigned>(node.stage) + (node.middle ? 1 : 0);
+    if (now > next.rank) {  // its place has been searched from since
+      waiting_.insert({now, next.depth, next.node});
+      continue;
     }
+    const RunEnd end = expand(next.node, result);
+    if (end != RunEnd::blocked) return end;
+  }
   return RunEnd::blocked;
 }
 
-PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool limited_steps, std::uint64_t max_nodes) {
+/// Nothing waits any more: search from the middle of the runs so far. False when nothing is new there.
+bool Search::take_up_middles() {
+  passed_before_ += passed_.size();
+  for (Middle& m : std::exchange(passed_, {}))
+    if (!seen_.has_similar(m.state)) enqueue(add_node(m.from, m.depth, m.state, std::move(m.way), true));
+  return !waiting_.empty();
+}
+
+PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool limited_steps,
+                       std::uint64_t max_nodes) {
   deadline_ = deadline;
   steps_left_ = &steps_left;
   limited_steps_ = limited_steps;
@@ -237,24 +298,19 @@ PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool
     return result;
   }
   RunEnd end = RunEnd::blocked;
-  bool waiting = false;
-  for (std::size_t stage = 0; stage < actions_.size();) {
-    end = sweep(stage, max_nodes, result);
+  bool may_relax = true;
+  while (true) {
+    const std::uint64_t strict = max_nodes > 0 ? std::min(max_nodes, kStrictNodes) : kStrictNodes;
+    const bool overlapping = may_relax && world_->strict();
+    end = sweep(overlapping ? strict : max_nodes, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(parameters_.max_refusals)) {
       reset();  // what was found so far may have leaked through the same place
-      stage = 0;
       continue;
     }
-    waiting = false;
-    for (unsigned d = 0; d < ends_.size(); ++d) waiting |= waiting_at(d);
-    if (end == RunEnd::blocked && (waiting || stage + 1 == actions_.size()) && world_->relax()) {
-      reset();  // once more, with all the overlap that the judge allows
-      stage = 0;
-      continue;
-    }
-    if (end != RunEnd::blocked || waiting || ++stage == actions_.size()) break;
-    // The axes are exhausted: push every state found so far along the further directions.
-    for (std::size_t i = 0; i < nodes_.size(); ++i) ends_[nodes_[i].depth].push_back(static_cast<std::int32_t>(i));
+    if (end != RunEnd::blocked || !overlapping) break;
+    world_->relax();
+    may_relax = false;
+    reset();  // once more, with all the overlap that the judge allows
   }
   if (end == RunEnd::solved) {
     result.message.clear();
@@ -263,7 +319,7 @@ PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool
   } else if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) {
     result.outcome = Outcome::exhausted;
   } else {
-    result.outcome = waiting ? Outcome::depth_limit : Outcome::exhausted;
+    result.outcome = !waiting_.empty() || beyond_limit_ > 0 ? Outcome::depth_limit : Outcome::exhausted;
   }
   finish(result);
   return result;

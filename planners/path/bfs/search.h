@@ -1,10 +1,12 @@
 /// Breadth-first search over a simulator (Algorithm 1).
 #pragma once
 
-#include <deque>
+#include <compare>
 #include <map>
+#include <set>
 #include <vector>
 
+#include "actions.h"
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
 #include "parameters.h"
@@ -12,6 +14,13 @@
 namespace dismantle::bfs {
 
 /// One search in one motion space. States form a tree; each knows the instants that lead to it.
+///
+/// Translating, a run ends where the part stands still: under a constant push it cannot go round in circles. States
+/// in the middle of runs are looked at last. Turning, it can, and often must be stopped half-way: there every look is
+/// a state, and a run ends at states that are known.
+///
+/// Breadth first, with what costs little and promises much before the rest: a state waits the longer, the more was
+/// searched from near it already, and the further-fetched the actions are that it is to be given next.
 class Search {
  public:
   Search(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context);
@@ -24,39 +33,64 @@ class Search {
   struct Node {
     State state;
     std::int32_t parent = -1;
-    unsigned depth = 0;   ///< actions from the start
-    Path way;             ///< instants after the parent's, this one's last
-    unsigned stages_done = 0;  ///< stages of actions applied so far
+    unsigned depth = 0;     ///< actions from the start
+    Path way;               ///< instants after the parent's, this one's last
+    std::size_t stage = 0;  ///< the next to come
+    bool middle = false;    ///< of a run
   };
+  /// What to push with, from stage to stage.
+  enum class Stage { free, leaning, axes, diagonals };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
+  struct Middle {
+    std::int32_t from;
+    unsigned depth;
+    State state;
+    Path way;
+  };
 
   void reset();
-  bool waiting_at(unsigned depth) const;
-  RunEnd sweep(std::size_t stage, std::uint64_t max_nodes, PathResult& result);
-  RunEnd expand(std::int32_t node, std::size_t stage, PathResult& result);
-  RunEnd follow(std::int32_t from, const Action& action, PathResult& result);
+  unsigned rank(const Node& node) const;
+  bool take_up_middles();
+  RunEnd sweep(std::uint64_t max_nodes, PathResult& result);
+  RunEnd expand(std::int32_t node, PathResult& result);
+  std::vector<Action> actions_at(const Node& node, Stage stage);
+  RunEnd follow(std::int32_t from, const Action& action, Stage stage, PathResult& result);
+  RunEnd judge(std::int32_t last, const State& start, PathResult& result);
   void note_contacts(const State& state);
   Path path_to(std::int32_t node) const;
-  std::int32_t add_node(std::int32_t parent, unsigned depth, const State& state, Path way);
+  std::int32_t add_node(std::int32_t parent, unsigned depth, const State& state, Path way, bool middle);
+  void enqueue(std::int32_t node);
   void finish(PathResult& result) const;
   bool out_of_budget() const;
+  bool turning() const { return world_->space() == MotionSpace::rigid; }
 
   const PathQuery& query_;
   const Parameters& parameters_;
   RunContext& context_;
   std::unique_ptr<World> world_;
   std::vector<path::Ball> bodies_;
-  std::vector<std::vector<Action>> actions_;  ///< by stage: axes, then diagonals
+  Aabb moving_box_, still_box_;  ///< where the query begins
+  std::vector<Stage> stages_;
   path::StateSet seen_, fine_;  ///< every recorded state, at the paper's and at a finer resolution
   std::vector<Node> nodes_;
-  std::vector<std::deque<std::int32_t>> ends_, middles_;  ///< by depth
+  path::StateSet places_;  ///< states searched from, at a coarser resolution
+  struct Waiting {
+    unsigned rank, depth;
+    std::int32_t node;
+    auto operator<=>(const Waiting&) const = default;
+  };
+  std::set<Waiting> waiting_;
+  std::size_t beyond_limit_ = 0;   ///< states too deep to search from
+  std::vector<Middle> passed_;     ///< states in the middle of runs that are not nodes yet
+  std::size_t passed_before_ = 0;  ///< ... and how many became nodes or were dropped
+  std::vector<Path> refusals_;
   Deadline deadline_;
   std::uint64_t* steps_left_ = nullptr;
   bool limited_steps_ = false;
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;
-  std::uint64_t steps_ = 0, refused_ = 0, expanded_ = 0;
+  std::uint64_t steps_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
 };
 
 }  // namespace dismantle::bfs

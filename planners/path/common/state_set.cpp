@@ -39,20 +39,31 @@ void StateSet::add(const State& state, std::uint32_t label) {
 
 bool StateSet::similar(const State& a, const State& b) const { return close(entry(a, 0), entry(b, 0)); }
 
-bool StateSet::has_similar(const State& state, std::uint32_t ignore_first, std::uint32_t ignore_last) const {
-  const Entry probe = entry(state, 0);
+template <class F>
+void StateSet::near(const Entry& probe, const F& f) const {
   for (int dx = -1; dx <= 1; ++dx)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dz = -1; dz <= 1; ++dz) {
         const auto cell = cells_.find(key(probe.centers.front(), dx, dy, dz));
         if (cell == cells_.end()) continue;
-        for (const std::uint32_t i : cell->second) {
-          const Entry& e = entries_[i];
-          if (e.label >= ignore_first && e.label < ignore_last) continue;
-          if (close(e, probe)) return true;
-        }
+        for (const std::uint32_t i : cell->second)
+          if (close(entries_[i], probe) && !f(entries_[i])) return;
       }
-  return false;
+}
+
+bool StateSet::has_similar(const State& state, std::uint32_t ignore_first, std::uint32_t ignore_last) const {
+  bool found = false;
+  near(entry(state, 0), [&](const Entry& e) {
+    found = e.label < ignore_first || e.label >= ignore_last;
+    return !found;
+  });
+  return found;
+}
+
+std::size_t StateSet::count_similar(const State& state, std::size_t most) const {
+  std::size_t count = 0;
+  if (most > 0) near(entry(state, 0), [&](const Entry&) { return ++count < most; });
+  return count;
 }
 
 }  // namespace dismantle::path

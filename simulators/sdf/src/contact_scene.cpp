@@ -257,15 +257,13 @@ void ContactScene::measure_own_depths(const ContactPair& pair, DirectedContacts&
   }
 }
 
-bool ContactScene::relax() {
+bool ContactScene::strict() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const ContactPair& p) { return p.everywhere < p.allowed; });
+}
+
+void ContactScene::relax() {
   rest_ = nullptr;
-  bool changed = false;
-  for (auto& pair : pairs_) {
-    if (pair.everywhere >= pair.allowed) continue;
-    pair.everywhere = pair.allowed;
-    changed = true;
-  }
-  return changed;
+  for (auto& pair : pairs_) pair.everywhere = pair.allowed;
 }
 
 }  // namespace dismantle::sdf

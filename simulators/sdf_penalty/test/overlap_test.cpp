@@ -43,7 +43,7 @@ TEST(Overlap, HoldsNothingBackOnceRelaxed) {
     const Scene scene = overlapping(overlap);
     auto world = scene.world({0});
     world->relax();
-    EXPECT_FALSE(world->relax()) << "nothing is left to relax";
+    EXPECT_FALSE(world->strict()) << "nothing is left to relax";
     for (const Vector3d& way_out : {Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(-1, 0, 0)}) {
       State s = world->initial_state();
       world->advance(s, push(100 * way_out), 0.2, nullptr);

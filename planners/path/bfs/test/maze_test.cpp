@@ -7,6 +7,8 @@ namespace {
 using namespace test;
 
 const ParamSet kTranslation{{"motion", std::string("translation")}};
+/// One action along one axis at a time, as in section 4.2.
+const ParamSet kAxesOnly{{"motion", std::string("translation")}, {"proposals", false}, {"diagonals", false}};
 
 Maze straight() { return {.free = {tunnel(Vector3d::Zero(), Vector3d(7, 0, 0))}}; }
 
@@ -56,7 +58,9 @@ TEST(BfsMaze, DepthLimitIsTheNumberOfActions) {
     for (unsigned limit = 1; limit <= 4; ++limit) {
       MazeRun run;
       const Maze maze = winding(2);
-      search(run, maze, {{"motion", std::string(motion)}}, {.max_depth = limit});
+      ParamSet axes = kAxesOnly;
+      axes["motion"] = std::string(motion);
+      search(run, maze, axes, {.max_depth = limit});
       EXPECT_EQ(run.result.outcome, limit < 3 ? Outcome::depth_limit : Outcome::solved) << motion << limit;
       EXPECT_LE(run.result.depth, limit);
       expect_lawful(run, maze);
@@ -108,7 +112,7 @@ TEST(BfsMaze, StatesInTheMiddleOfARunAreSearchedToo) {
   Maze maze{
       .free = {tunnel(Vector3d::Zero(), Vector3d(3, 0, 0)), tunnel(Vector3d(1.5, 0, 0), Vector3d(1.5, 9, 0), 0.2)}};
   MazeRun run;
-  search(run, maze, kTranslation);
+  search(run, maze, kAxesOnly);
   EXPECT_EQ(run.result.outcome, Outcome::solved);
   EXPECT_EQ(run.result.depth, 2u);
   expect_lawful(run, maze);

@@ -100,8 +100,9 @@ TEST(BfsPhysics, SolvesAnLSlotInTwoMoves) {
 
 TEST(BfsPhysics, DepthOneIsNotEnoughForAnLSlot) {
   Bench bench(l_slot());
-  EXPECT_EQ(bench.plan({0}, {}, {.max_depth = 1}).outcome, Outcome::depth_limit);
-  EXPECT_EQ(bench.plan({0}, {}, {.max_depth = 2}).outcome, Outcome::solved);
+  const ParamSet axes{{"proposals", false}, {"diagonals", false}};
+  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 1}).outcome, Outcome::depth_limit);
+  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 2}).outcome, Outcome::solved);
 }
 
 /// A room of 1.2 x 1 x 0.8 with walls of 0.03, and a block in it with `play` on all six sides.

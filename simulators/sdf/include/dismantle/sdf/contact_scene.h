@@ -47,8 +47,8 @@ class ContactScene {
     }
   }
   static constexpr double kTight = 0.01;
-  /// False when there was nothing to relax.
-  bool relax();
+  bool strict() const;  ///< relax() would grant something
+  void relax();
 
   /// Moves the moving bodies to `poses` and lists all points whose gap is below the margin.
   void update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out);

@@ -19,6 +19,8 @@ class StateSet {
   void add(const State& state, std::uint32_t label);
   /// True when a state is similar whose label lies outside [first, last) (own run: labels are given in order).
   bool has_similar(const State& state, std::uint32_t ignore_first = 0, std::uint32_t ignore_last = 0) const;
+  /// How many states are similar, counted up to `most`.
+  std::size_t count_similar(const State& state, std::size_t most) const;
   bool similar(const State& a, const State& b) const;
   std::size_t size() const { return entries_.size(); }
 
@@ -32,6 +34,9 @@ class StateSet {
   Key key(const Eigen::Vector3d& center, int dx, int dy, int dz) const;
   Entry entry(const State& state, std::uint32_t label) const;
   bool close(const Entry& a, const Entry& b) const;
+  /// Calls f(entry) for similar entries until it returns false.
+  template <class F>
+  void near(const Entry& probe, const F& f) const;
 
   std::vector<Ball> bodies_;
   double translation_, rotation_;

@@ -1,0 +1,129 @@
+#include "actions.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace dismantle::bfs {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+/// Contacts further away than this (assembly units) do not constrain: about what is visible of a contact's
+/// surroundings.
+constexpr double kTouching = 0.02;
+/// Normals closer than this (cosine) count as one.
+constexpr double kSameNormal = 0.9994;  // 2 degrees
+constexpr double kSameDirection = 0.999;
+constexpr std::size_t kMostNormals = 16, kMostDirections = 8;
+/// A direction may lead into a contact by this much (sine): facets of round fits.
+constexpr double kInto = 0.02;
+/// Leaning: sideways share of the push, and how square to the way a wall has to be.
+constexpr double kLean = 0.5, kBeside = 0.3;
+
+bool moves(const std::vector<PlacedPart>& moving, PartId part) {
+  return std::any_of(moving.begin(), moving.end(), [part](const PlacedPart& m) { return m.part == part; });
+}
+
+/// How far `moving` has to go along d until the boxes are apart.
+double way_out(const Vec3& d, const Aabb& moving, const Aabb& still) {
+  double way = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if (d[k] > 1e-9) way = std::min(way, (still.hi[k] - moving.lo[k]) / d[k]);
+    if (d[k] < -1e-9) way = std::min(way, (still.lo[k] - moving.hi[k]) / d[k]);
+  }
+  return way;
+}
+
+}  // namespace
+
+Action push(const World& world, double force, const Vec3& direction) {
+  Action a;
+  const Wrench wrench{force * direction.normalized(), Vec3::Zero()};
+  a.wrenches.assign(world.cast().moving.size(), wrench);
+  return a;
+}
+
+std::vector<Action> unit_actions(const World& world, double force, bool turns) {
+  std::vector<Action> actions;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) actions.push_back(push(world, force, sign * Vec3::Unit(axis)));
+  if (!turns) return actions;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) {
+      Action a;
+      for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+        a.wrenches.push_back({Vec3::Zero(), sign * force * world.torque_arm(i) * Vec3::Unit(axis)});
+      actions.push_back(std::move(a));
+    }
+  return actions;
+}
+
+std::vector<Action> diagonal_actions(const World& world, double force) {
+  std::vector<Action> actions;
+  for (int weight = 3; weight >= 2; --weight)  // space diagonals first: they reach all three axes
+    for (int x = 1; x >= -1; --x)
+      for (int y = 1; y >= -1; --y)
+        for (int z = 1; z >= -1; --z)
+          if (std::abs(x) + std::abs(y) + std::abs(z) == weight) actions.push_back(push(world, force, Vec3(x, y, z)));
+  return actions;
+}
+
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Aabb& moving_box,
+                   const Aabb& still_box) {
+  struct Cluster {
+    Vec3 normal;
+    std::size_t count;
+  };
+  std::vector<Cluster> clusters;
+  for (const Contact& c : contacts) {
+    if (c.depth < -kTouching || c.on_edge || moves(moving, c.other)) continue;
+    const auto same = std::find_if(clusters.begin(), clusters.end(),
+                                   [&](const Cluster& k) { return k.normal.dot(c.normal) > kSameNormal; });
+    if (same != clusters.end())
+      ++same->count;
+    else
+      clusters.push_back({c.normal, 1});
+  }
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const Cluster& a, const Cluster& b) { return a.count > b.count; });
+  if (clusters.size() > kMostNormals) clusters.resize(kMostNormals);
+  Freedom freedom;
+  for (const Cluster& c : clusters) freedom.normals.push_back(c.normal);
+
+  const auto& n = freedom.normals;
+  const auto propose = [&](const Vec3& direction) {
+    const double length = direction.norm();
+    if (length < 0.05) return;  // all but parallel: says nothing
+    const Vec3 d = direction / length;
+    for (const Vec3& normal : n)
+      if (normal.dot(d) < -kInto) return;
+    for (const Vec3& known : freedom.directions)
+      if (known.dot(d) > kSameDirection) return;
+    freedom.directions.push_back(d);
+  };
+  for (std::size_t i = 0; i < n.size(); ++i)
+    for (std::size_t j = i + 1; j < n.size(); ++j) {
+      const Vec3 along = n[i].cross(n[j]);
+      propose(along);
+      propose(-along);
+    }
+  for (const Vec3& normal : n) propose(normal);
+  std::stable_sort(freedom.directions.begin(), freedom.directions.end(), [&](const Vec3& a, const Vec3& b) {
+    return way_out(a, moving_box, still_box) < way_out(b, moving_box, still_box) - 1e-9;
+  });
+  if (freedom.directions.size() > kMostDirections) freedom.directions.resize(kMostDirections);
+  return freedom;
+}
+
+std::vector<Vec3> leaning(const Freedom& freedom) {
+  std::vector<Vec3> directions;
+  for (const Vec3& d : freedom.directions)
+    for (const Vec3& n : freedom.normals)
+      if (std::abs(d.dot(n)) < kBeside) directions.push_back((d - kLean * n).normalized());
+  return directions;
+}
+
+}  // namespace dismantle::bfs

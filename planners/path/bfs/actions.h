@@ -1,0 +1,32 @@
+/// What the search pushes and turns with: the paper's unit actions, and directions that the contacts propose.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dismantle/simulator.h"
+
+namespace dismantle::bfs {
+
+/// Section 4.2: a force along each axis, both ways; with `turns` also a torque about each. The same for all bodies.
+std::vector<Action> unit_actions(const World& world, double force, bool turns);
+/// Forces along the 8 space and 12 plane diagonals.
+std::vector<Action> diagonal_actions(const World& world, double force);
+/// A force along `direction` (need not be unit) on every moving part.
+Action push(const World& world, double force, const Eigen::Vector3d& direction);
+
+/// How the moving parts, taken as one, can slide away from where they touch: first order, translations only.
+struct Freedom {
+  std::vector<Eigen::Vector3d> normals;     ///< distinct normals of the contacts, the most frequent first
+  std::vector<Eigen::Vector3d> directions;  ///< unit; lead into no contact. The shortest way out first
+};
+
+/// Directions are the normals themselves and the lines along which two contacts slide, as far as all other contacts
+/// let them: extreme rays of the cone of feasible translations. Few, and they turn with the assembly. `moving` and
+/// `still`: bounding boxes in world axes, for the order.
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Aabb& moving_box,
+                   const Aabb& still_box);
+/// Slide along a free direction and lean on a wall: the way to find an opening in it.
+std::vector<Eigen::Vector3d> leaning(const Freedom& freedom);
+
+}  // namespace dismantle::bfs
