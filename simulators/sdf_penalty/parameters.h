@@ -32,15 +32,22 @@ struct Parameters {
 
   static void describe(Schema<Parameters>& s) {
     s.add("contact_stiffness", &Parameters::contact_stiffness,
-          {.unit = "N/unit", .min = 0, .min_open = true, .doc = "Penalty stiffness k_n of each contact point (table 5)."});
+          {.unit = "N/unit",
+           .min = 0,
+           .min_open = true,
+           .doc = "Penalty stiffness k_n of each contact point (table 5)."});
     s.add("contact_damping", &Parameters::contact_damping,
           {.unit = "N s/unit^2", .min = 0, .doc = "Contact damping k_d of equation (1) (table 5)."});
-    s.add("time_step", &Parameters::time_step,
-          {.unit = "s", .min = 1e-6, .max = 0.1, .doc = "Simulation time step (table 5) of the second-order dynamics."});
-    s.add("contact_threshold", &Parameters::contact_threshold,
-          {.unit = "unit", .min = 0, .max = 0.1,
-           .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap (table 6 has 0.01; what "
-                  "it allows, the verifier has to allow too)."});
+    s.add(
+        "time_step", &Parameters::time_step,
+        {.unit = "s", .min = 1e-6, .max = 0.1, .doc = "Simulation time step (table 5) of the second-order dynamics."});
+    s.add(
+        "contact_threshold", &Parameters::contact_threshold,
+        {.unit = "unit",
+         .min = 0,
+         .max = 0.1,
+         .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap (table 6 has 0.01; what "
+                "it allows, the verifier has to allow too)."});
     s.add_choice<Dynamics>("dynamics", &Parameters::dynamics,
                            {{"quasi_static", Dynamics::quasi_static,
                              "no inertia, viscous drag: speed does not depend on the part's mass or history"},
@@ -50,10 +57,14 @@ struct Parameters {
     s.add("density", &Parameters::density,
           {.unit = "kg/unit^3", .min = 0, .min_open = true, .doc = "Density of all parts under `dynamics: density`."});
     s.add("drag", &Parameters::drag,
-          {.unit = "N s/unit", .min = 0, .min_open = true,
+          {.unit = "N s/unit",
+           .min = 0,
+           .min_open = true,
            .doc = "Drag under `dynamics: quasi_static`: a free part moves at force / drag."});
     s.add("max_travel", &Parameters::max_travel,
-          {.unit = "unit", .min = 1e-4, .max = 0.1,
+          {.unit = "unit",
+           .min = 1e-4,
+           .max = 0.1,
            .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
     s.add_choice<sdf::DistanceModel>(
         "distance", &Parameters::distance,
@@ -63,9 +74,14 @@ struct Parameters {
     s.add("cell", &Parameters::cell,
           {.unit = "unit", .min = 1e-3, .max = 1, .doc = "Largest cell of the distance field (appendix A)."});
     s.add("cells_per_edge", &Parameters::cells_per_edge,
-          {.unit = "1", .min = 1, .max = 1000, .doc = "At least so many cells along each edge of the part's box (appendix A)."});
+          {.unit = "1",
+           .min = 1,
+           .max = 1000,
+           .doc = "At least so many cells along each edge of the part's box (appendix A)."});
     s.add("contact_spacing", &Parameters::contact_spacing,
-          {.unit = "unit", .min = 1e-3, .max = 10,
+          {.unit = "unit",
+           .min = 1e-3,
+           .max = 10,
            .doc = "Distance of contact points along edges; halved or doubled at most, after the thinnest part."});
   }
 };

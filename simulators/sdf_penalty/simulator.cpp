@@ -5,9 +5,7 @@
 namespace dismantle::sdf_penalty {
 namespace {
 
-Capabilities offered() {
-  return {.dynamics = true, .contacts = true, .distance = true, .max_moving = kMaxBodies};
-}
+Capabilities offered() { return {.dynamics = true, .contacts = true, .distance = true, .max_moving = kMaxBodies}; }
 
 class PenaltySimulator final : public Simulator {
  public:
@@ -36,8 +34,9 @@ class PenaltySimulator final : public Simulator {
     for (const auto* group : {&cast.moving, &cast.still})
       for (const PlacedPart& p : *group)
         if (p.part >= shapes.placed.size() || !shapes.placed[p.part].shape)
-          throw InputError(p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
-                           "was not prepared (the preparation was interrupted)");
+          throw InputError(
+              p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
+              "was not prepared (the preparation was interrupted)");
     return std::make_unique<PenaltyWorld>(shapes, cast, space, parameters_);
   }
 

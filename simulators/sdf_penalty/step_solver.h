@@ -29,8 +29,8 @@ template <int Dof>
 class StepSolver {
  public:
   using Vector = Eigen::Matrix<double, Dof, 1, 0, Dof == Eigen::Dynamic ? kMaxDof : Dof, 1>;
-  using Matrix = Eigen::Matrix<double, Dof, Dof, 0, Dof == Eigen::Dynamic ? kMaxDof : Dof,
-                               Dof == Eigen::Dynamic ? kMaxDof : Dof>;
+  using Matrix =
+      Eigen::Matrix<double, Dof, Dof, 0, Dof == Eigen::Dynamic ? kMaxDof : Dof, Dof == Eigen::Dynamic ? kMaxDof : Dof>;
 
   /// `per_body` is 3 or 6. Returns the number of Newton iterations.
   int solve(const Matrix& weight, const Vector& target, const std::vector<ContactRow>& rows, int per_body, Vector& x) {

@@ -17,8 +17,8 @@ constexpr int kSettleRounds = 3;
 /// A step that covers less than this share of a free one counts as standing still.
 constexpr double kStallShare = 0.1;
 /// Way over which contacts are followed by their own linear model before distances are asked for again. The error is
-/// of second order: below a ten-thousandth of this over anything smooth, and edges carry the planes that meet there.
-constexpr double kFollow = 5e-5;
+/// of second order: at a corner a thousandth away 1e-4, over anything smoother far less.
+constexpr double kFollow = 5e-4;
 constexpr int kStallSteps = 3;
 /// ... and less than this share is standing still for good: there is no inertia that could change it.
 constexpr double kStuckShare = 2e-3;
@@ -39,8 +39,13 @@ sdf::ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, c
   std::vector<sdf::ContactScene::Member> moving, still;
   for (const auto& m : cast.moving) moving.push_back(member(m));
   for (const auto& s : cast.still) still.push_back(member(s));
-  return {std::move(moving), std::move(still), p.distance, kMarginFactor * p.max_travel,
-          [&](PartId a, PartId b) { return prepared.allowed(a, b); }, p.contact_threshold, kFacetAllowance,
+  return {std::move(moving),
+          std::move(still),
+          p.distance,
+          kMarginFactor * p.max_travel,
+          [&](PartId a, PartId b) { return prepared.allowed(a, b); },
+          p.contact_threshold,
+          kFacetAllowance,
           &prepared.rest};
 }
 

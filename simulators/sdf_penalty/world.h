@@ -47,10 +47,10 @@ class PenaltyWorld final : public World {
 
  private:
   struct Body {
-    Eigen::Vector3d center;        ///< mass centre, assembled frame
+    Eigen::Vector3d center;  ///< mass centre, assembled frame
     double radius = 0;
-    double mass = 1;               ///< second order
-    Eigen::Matrix3d inertia;       ///< about the centre, assembled frame
+    double mass = 1;                    ///< second order
+    Eigen::Matrix3d inertia;            ///< about the centre, assembled frame
     std::vector<Eigen::Vector3d> hull;  ///< assembled frame
   };
   enum class Moved { freely, stalled, not_at_all };
@@ -76,16 +76,16 @@ class PenaltyWorld final : public World {
   int per_body_ = 3;
   std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all still parts, world
   Aabb rest_box_;
-  std::vector<Pose> poses_;                 // scratch
-  std::vector<sdf::ContactPoint> touching_; // at the state of the last update or follow
-  std::vector<Pose> touching_at_;           // poses that touching_ belongs to; empty: to none
-  double since_update_ = 0;                 // way since distances were asked for
+  std::vector<Pose> poses_;                        // scratch
+  std::vector<sdf::ContactPoint> touching_;        // at the state of the last update or follow
+  std::vector<Pose> touching_at_;                  // poses that touching_ belongs to; empty: to none
+  double since_update_ = 0;                        // way since distances were asked for
   std::vector<sdf::ContactPoint> begin_touching_;  // where the last advance() began: the next often begins there too
   std::vector<Pose> begin_at_;
   std::vector<ContactRow> begin_rows_;
-  bool rows_current_ = false;               // rows_ were built from touching_ as it is
-  std::vector<ContactRow> rows_;            // scratch
-  RowMerger merger_;                        // scratch
+  bool rows_current_ = false;     // rows_ were built from touching_ as it is
+  std::vector<ContactRow> rows_;  // scratch
+  RowMerger merger_;              // scratch
 };
 
 }  // namespace dismantle::sdf_penalty

@@ -37,6 +37,14 @@ double way_out(const Vec3& d, const Aabb& moving, const Aabb& still) {
   return way;
 }
 
+/// `torque` for a body of unit torque arm.
+Action turn(const World& world, const Vec3& torque, const Vec3& force) {
+  Action a;
+  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+    a.wrenches.push_back({force, world.torque_arm(i) * torque});
+  return a;
+}
+
 }  // namespace
 
 Action push(const World& world, double force, const Vec3& direction) {
@@ -52,12 +60,16 @@ std::vector<Action> unit_actions(const World& world, double force, bool turns) {
     for (const double sign : {1.0, -1.0}) actions.push_back(push(world, force, sign * Vec3::Unit(axis)));
   if (!turns) return actions;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) {
-      Action a;
-      for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
-        a.wrenches.push_back({Vec3::Zero(), sign * force * world.torque_arm(i) * Vec3::Unit(axis)});
-      actions.push_back(std::move(a));
-    }
+    for (const double sign : {1.0, -1.0}) actions.push_back(turn(world, sign * force * Vec3::Unit(axis), Vec3::Zero()));
+  return actions;
+}
+
+std::vector<Action> screw_actions(const World& world, double force) {
+  std::vector<Action> actions;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      for (const double pull : {1.0, -1.0})
+        actions.push_back(turn(world, sign * force * Vec3::Unit(axis), pull * force * Vec3::Unit(axis)));
   return actions;
 }
 

@@ -12,6 +12,8 @@ namespace dismantle::bfs {
 std::vector<Action> unit_actions(const World& world, double force, bool turns);
 /// Forces along the 8 space and 12 plane diagonals.
 std::vector<Action> diagonal_actions(const World& world, double force);
+/// A torque about each axis, both ways, together with a force along the same axis, both ways: turn and pull.
+std::vector<Action> screw_actions(const World& world, double force);
 /// A force along `direction` (need not be unit) on every moving part.
 Action push(const World& world, double force, const Eigen::Vector3d& direction);
 

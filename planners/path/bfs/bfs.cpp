@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <optional>
+
 #include "dismantle/plugin.h"
 #include "search.h"
 
@@ -20,32 +23,63 @@ class Bfs final : public PathPlanner {
       result.message = "bfs needs a simulator with dynamics and contacts for all moving parts";
       return result;
     }
-    const Deadline deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
     std::uint64_t steps_left = query.effort.max_steps;
-    const bool limited = query.effort.max_steps > 0;
-
-    PathResult first;
-    const bool translate = parameters_.motion != Motion::rotation;
-    if (translate) {
-      first = Search(query, MotionSpace::translation, parameters_, context).run(deadline, steps_left, limited, 0);
-      if (parameters_.motion == Motion::translation || first.outcome != Outcome::exhausted) return first;
-    }
-    // Under a depth limit the first level stays cheap: most parts that do not move at all are simply blocked.
+    Search::Limits limits;
+    limits.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
+    limits.steps_left = query.effort.max_steps > 0 ? &steps_left : nullptr;
     const unsigned depth = query.effort.max_depth;
-    if (translate && depth == 1) {
-      first.outcome = Outcome::depth_limit;
-      return first;
+    if (parameters_.motion != Motion::automatic) {
+      const auto space = parameters_.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid;
+      return Search(query, space, parameters_, context).run(limits);
     }
-    const std::uint64_t nodes =
-        translate && depth > 0 ? static_cast<std::uint64_t>(parameters_.rotation_nodes) * depth : 0;
-    PathResult second =
-        Search(query, MotionSpace::rigid, parameters_, context).run(deadline, steps_left, limited, nodes);
-    for (const auto& [name, value] : first.counts) second.counts[name] += value;
-    if (second.message.empty()) second.message = first.message;
-    return second;
+    return depth > 0 ? up_to_depth(query, depth, limits, context) : without_end(query, limits, context);
   }
 
  private:
+  /// Under a depth limit somebody asks for all parts in turn: most of them are blocked, and have to be found so soon.
+  PathResult up_to_depth(const PathQuery& query, unsigned depth, Search::Limits limits, RunContext& context) const {
+    Search translation(query, MotionSpace::translation, parameters_, context);
+    const auto level = static_cast<std::uint64_t>(depth);
+    limits.expansions = static_cast<std::uint64_t>(parameters_.translation_nodes) * level;
+    limits.rank = Search::kFirstRank + depth - 1;
+    PathResult first = translation.run(limits);
+    if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
+    if (depth == 1) {
+      first.outcome = Outcome::depth_limit;  // what cannot move may still be turned
+      return first;
+    }
+    limits.expansions = static_cast<std::uint64_t>(parameters_.rotation_nodes) * level;
+    Search rotation(query, MotionSpace::rigid, parameters_, context);
+    return merged(first, rotation.run(limits));
+  }
+
+  /// By turns, until both are exhausted: what is new to each kind of motion comes before the rest of the other.
+  PathResult without_end(const PathQuery& query, Search::Limits limits, RunContext& context) const {
+    Search translation(query, MotionSpace::translation, parameters_, context);
+    std::optional<Search> rotation;
+    PathResult first, second;
+    first.outcome = second.outcome = Outcome::depth_limit;
+    const auto goes_on = [](const PathResult& r) { return r.outcome == Outcome::depth_limit; };
+    for (limits.rank = Search::kFirstRank; goes_on(first) || goes_on(second); ++limits.rank) {
+      if (goes_on(first)) first = translation.run(limits);
+      if (!goes_on(first) && first.outcome != Outcome::exhausted) return rotation ? merged(second, first) : first;
+      if (!rotation) rotation.emplace(query, MotionSpace::rigid, parameters_, context);
+      if (goes_on(second)) second = rotation->run(limits);
+      if (!goes_on(second) && second.outcome != Outcome::exhausted) break;
+    }
+    return merged(first, second);
+  }
+
+  /// The result of the later search, with what the earlier one has counted and touched.
+  static PathResult merged(const PathResult& earlier, PathResult later) {
+    for (const auto& [name, value] : earlier.counts) later.counts[name] += value;
+    for (const PartId part : earlier.blocked_by)
+      if (std::find(later.blocked_by.begin(), later.blocked_by.end(), part) == later.blocked_by.end())
+        later.blocked_by.push_back(part);
+    if (later.message.empty() && later.outcome != Outcome::solved) later.message = earlier.message;
+    return later;
+  }
+
   Parameters parameters_;
 };
 

@@ -21,6 +21,7 @@ struct Parameters {
   std::int64_t intermediate = 256;
   double thinning = 1e-4;
   std::int64_t max_refusals = 8;
+  std::int64_t translation_nodes = 24;
   std::int64_t rotation_nodes = 8;
 
   static void describe(Schema<Parameters>& s) {
@@ -56,8 +57,10 @@ struct Parameters {
         "novelty", &Parameters::novelty,
         {.doc =
              "Search first from states in places that were not searched from before; off: first come, first served."});
-    s.add("diagonals", &Parameters::diagonals,
-          {.doc = "When the six directions are exhausted, also push along the 20 diagonals."});
+    s.add(
+        "diagonals", &Parameters::diagonals,
+        {.doc =
+             "When the unit actions are exhausted, also push along the 20 diagonals; turning, turn and pull at once."});
     s.add("intermediate", &Parameters::intermediate,
           {.unit = "1",
            .min = 0,
@@ -72,6 +75,10 @@ struct Parameters {
            .doc = "Poses that the rest of the path reproduces this closely are dropped."});
     s.add("max_refusals", &Parameters::max_refusals,
           {.unit = "1", .min = 0, .doc = "Paths that the verifier may refuse before the search gives up."});
+    s.add("translation_nodes", &Parameters::translation_nodes,
+          {.unit = "1",
+           .min = 1,
+           .doc = "Under `motion: auto` and a depth limit: states searched by translations per level of depth."});
     s.add("rotation_nodes", &Parameters::rotation_nodes,
           {.unit = "1",
            .min = 1,

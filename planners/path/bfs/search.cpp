@@ -56,7 +56,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Parameters& para
   const bool translating = space == MotionSpace::translation;
   if (translating && parameters.proposals) stages_ = {Stage::free, Stage::leaning};
   stages_.push_back(Stage::axes);
-  if (translating && parameters.diagonals) stages_.push_back(Stage::diagonals);
+  if (parameters.diagonals) stages_.push_back(translating ? Stage::diagonals : Stage::screws);
 }
 
 void Search::reset() {
@@ -139,7 +139,8 @@ void Search::note_contacts(const State& state) {
 }
 
 bool Search::out_of_budget() const {
-  return (limited_steps_ && *steps_left_ == 0) || context_.should_stop() || deadline_.passed();
+  return (limits_.steps_left != nullptr && *limits_.steps_left == 0) || context_.should_stop() ||
+         limits_.deadline.passed();
 }
 
 /// The state of node `last` is out: is the way there valid?
@@ -171,22 +172,25 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
   const State start = state;
   std::int32_t last = from;
   bool left_start = false;
-  Path way;  // since `last`
+  std::uint32_t left_behind = first_of_run;  // states of this run before that one are not near any more
+  Path way;                                  // since `last`
   while (true) {
     if (out_of_budget()) return RunEnd::stop;
     const std::size_t before = way.size();
     const StepReport report = world_->advance(state, action, parameters_.time_step, &way);
     steps_ += report.steps;
-    if (limited_steps_) *steps_left_ -= std::min(*steps_left_, report.steps);
+    if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
     if (way.size() > before && world_->separated(state))
       return judge(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
       // The start of the run is a past state too, but only once the run has left it.
+      // So are its own: else a part that spins freely would do so for ever.
+      const auto size = static_cast<std::uint32_t>(nodes_.size());
       left_start = left_start || !seen_.similar(state, start);
-      ended =
-          ended || (left_start && seen_.has_similar(state, first_of_run, static_cast<std::uint32_t>(nodes_.size())));
+      while (left_behind < size && !seen_.similar(state, nodes_[left_behind].state)) ++left_behind;
+      ended = ended || (left_start && seen_.has_similar(state, left_behind, size));
     }
     if (ended) break;
     if (turning()) {
@@ -232,6 +236,8 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
       return unit_actions(*world_, parameters_.force, turning());
     case Stage::diagonals:
       return diagonal_actions(*world_, parameters_.force);
+    case Stage::screws:
+      return screw_actions(*world_, parameters_.force);
     case Stage::free:
     case Stage::leaning:
       break;
@@ -258,10 +264,12 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   return RunEnd::blocked;
 }
 
-Search::RunEnd Search::sweep(std::uint64_t max_nodes, PathResult& result) {
+Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
+  const std::uint64_t end_at = expanded_ + expansions;
   while (!waiting_.empty() || take_up_middles()) {
-    if (max_nodes > 0 && expanded_ >= max_nodes) return RunEnd::blocked;
+    if (expansions > 0 && expanded_ >= end_at) return RunEnd::blocked;
     const Waiting next = *waiting_.begin();
+    if (next.rank > limits_.rank) return RunEnd::blocked;
     waiting_.erase(waiting_.begin());
     const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     const unsigned now = rank(node) + static_cast<unsigned>(node.stage) + (node.middle ? 1 : 0);
@@ -283,33 +291,30 @@ bool Search::take_up_middles() {
   return !waiting_.empty();
 }
 
-PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool limited_steps,
-                       std::uint64_t max_nodes) {
-  deadline_ = deadline;
-  steps_left_ = &steps_left;
-  limited_steps_ = limited_steps;
+PathResult Search::run(const Limits& limits) {
+  limits_ = limits;
   PathResult result;
-  reset();
-  if (world_->separated(nodes_.front().state)) {
-    result.outcome = Outcome::start_is_goal;
-    result.path = path_to(0);
-    result.path.push_back(result.path.front());
-    finish(result);
-    return result;
+  if (nodes_.empty()) {
+    reset();
+    if (world_->separated(nodes_.front().state)) {
+      result.outcome = Outcome::start_is_goal;
+      result.path = path_to(0);
+      result.path.push_back(result.path.front());
+      finish(result);
+      return result;
+    }
   }
   RunEnd end = RunEnd::blocked;
-  bool may_relax = true;
   while (true) {
-    const std::uint64_t strict = max_nodes > 0 ? std::min(max_nodes, kStrictNodes) : kStrictNodes;
-    const bool overlapping = may_relax && world_->strict();
-    end = sweep(overlapping ? strict : max_nodes, result);
+    const bool overlapping = may_relax_ && world_->strict();
+    end = sweep(overlapping ? std::min(limits.expansions - 1, kStrictNodes - 1) + 1 : limits.expansions, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(parameters_.max_refusals)) {
       reset();  // what was found so far may have leaked through the same place
       continue;
     }
     if (end != RunEnd::blocked || !overlapping) break;
     world_->relax();
-    may_relax = false;
+    may_relax_ = false;
     reset();  // once more, with all the overlap that the judge allows
   }
   if (end == RunEnd::solved) {

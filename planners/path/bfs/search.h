@@ -25,9 +25,18 @@ class Search {
  public:
   Search(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context);
 
-  /// `steps_left`: simulated steps that may still be used, updated; 0 at the start means unlimited.
-  /// `max_nodes`: states to search from at most, 0 = no limit.
-  PathResult run(const Deadline& deadline, std::uint64_t& steps_left, bool limited_steps, std::uint64_t max_nodes);
+  /// What one call of run() may use.
+  struct Limits {
+    Deadline deadline;
+    std::uint64_t* steps_left = nullptr;  ///< simulated steps, counted down; nullptr = no limit
+    std::uint64_t expansions = 0;         ///< states given actions; 0 = no limit
+    unsigned rank = ~0U;                  ///< states that wait longer than this are left waiting
+  };
+  /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
+  /// no.
+  PathResult run(const Limits& limits);
+  /// Rank up to which a state is worth a look in the first round: the start with all its actions, and what is new.
+  static constexpr unsigned kFirstRank = 3;
 
  private:
   struct Node {
@@ -39,7 +48,7 @@ class Search {
     bool middle = false;    ///< of a run
   };
   /// What to push with, from stage to stage.
-  enum class Stage { free, leaning, axes, diagonals };
+  enum class Stage { free, leaning, axes, diagonals, screws };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
   struct Middle {
     std::int32_t from;
@@ -51,7 +60,7 @@ class Search {
   void reset();
   unsigned rank(const Node& node) const;
   bool take_up_middles();
-  RunEnd sweep(std::uint64_t max_nodes, PathResult& result);
+  RunEnd sweep(std::uint64_t expansions, PathResult& result);
   RunEnd expand(std::int32_t node, PathResult& result);
   std::vector<Action> actions_at(const Node& node, Stage stage);
   RunEnd follow(std::int32_t from, const Action& action, Stage stage, PathResult& result);
@@ -84,9 +93,8 @@ class Search {
   std::vector<Middle> passed_;     ///< states in the middle of runs that are not nodes yet
   std::size_t passed_before_ = 0;  ///< ... and how many became nodes or were dropped
   std::vector<Path> refusals_;
-  Deadline deadline_;
-  std::uint64_t* steps_left_ = nullptr;
-  bool limited_steps_ = false;
+  Limits limits_;
+  bool may_relax_ = true;
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;

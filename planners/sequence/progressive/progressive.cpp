@@ -17,6 +17,10 @@ void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
               .max = 1e6,
               .doc = "Largest depth of the path search; 0 = none, rounds go on until nothing is to be gained by more "
                      "depth."});
+  schema.add(
+      "last_pair_unlimited", &ProgressiveParams::last_pair_unlimited,
+      {.doc = "When two parts are left and max_depth is 0, the search for the way of either has no depth limit: there "
+              "is nothing to be fair to. Off: exactly Algorithm 2."});
 }
 
 SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -28,6 +32,11 @@ SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, S
     const std::vector<PartId> round = sequence.left();
     for (std::size_t i = 0; i < round.size() && !sequence.done(); ++i) {
       if (sequence.interrupted()) return sequence.finish();
+      if (params_.last_pair_unlimited && params_.max_depth == 0 && sequence.left().size() == 2) {
+        for (const PartId part : std::vector<PartId>(sequence.left()))
+          if (!sequence.done() && !sequence.interrupted()) sequence.attempt(part, 0);
+        return sequence.finish();
+      }
       const Outcome outcome = sequence.attempt(round[i], depth, std::span(round).subspan(i + 1));
       removed_any = removed_any || is_success(outcome);
       deeper_may_help = deeper_may_help || outcome == Outcome::depth_limit;

@@ -9,8 +9,14 @@ namespace {
 
 using Asked = std::vector<std::pair<PartId, unsigned>>;
 
-ProgressiveParams as_given() {
+ProgressiveParams algorithm_2() {
   ProgressiveParams params;
+  params.last_pair_unlimited = false;
+  return params;
+}
+
+ProgressiveParams as_given() {
+  ProgressiveParams params = algorithm_2();
   params.order = PartOrder::as_given;
   return params;
 }
@@ -34,7 +40,7 @@ TEST(Progressive, AsksAtMostRoundsTimesParts) {
   Rng rng(7);
   for (int trial = 0; trial < 200; ++trial) {
     const FakeMachine machine = FakeMachine::random(2 + rng.below(20), 0.3, 4, rng);
-    Progressive planner(ProgressiveParams{});
+    Progressive planner(algorithm_2());
     const FakeRun run = run_on(planner, machine, seeded(1));
     expect_lawful(run, machine);
     EXPECT_EQ(run.result.outcome, Outcome::solved);
@@ -49,7 +55,7 @@ TEST(Progressive, AsksAtMostRoundsTimesParts) {
 TEST(Progressive, EndsWhenMoreDepthCannotHelp) {
   FakeMachine machine(3);
   machine.before = {{1}, {0}, {0}};  // 0 and 1 hold each other
-  Progressive planner(ProgressiveParams{});
+  Progressive planner(algorithm_2());
   const FakeRun run = run_on(planner, machine, seeded(1));
   expect_lawful(run, machine);
   EXPECT_EQ(run.result.outcome, Outcome::exhausted);
@@ -79,7 +85,7 @@ TEST(Progressive, RepeatsRoundsAtTheDepthCap) {
 TEST(Progressive, SaysThatTheDepthCapWasInTheWay) {
   FakeMachine machine(2);
   machine.depth = {5, 5};
-  ProgressiveParams params;
+  ProgressiveParams params = algorithm_2();
   params.max_depth = 3;
   Progressive planner(params);
   const FakeRun run = run_on(planner, machine, seeded(1));
@@ -92,7 +98,7 @@ TEST(Progressive, TriesPartsInTheOrderChosen) {
   FakeMachine machine(3);
   machine.volume = {5, 1, 9};
   const auto first_asked = [&](PartOrder order) {
-    ProgressiveParams params;
+    ProgressiveParams params = algorithm_2();
     params.order = order;
     Progressive planner(params);
     return run_on(planner, machine, seeded(1)).asked.at(0).first;
@@ -109,7 +115,7 @@ TEST(Progressive, HintsOnlyWhenThereAreThreads) {
     Notes notes;
     RunContext context;
     context.threads = threads;
-    Progressive planner(ProgressiveParams{});
+    Progressive planner(algorithm_2());
     planner.plan(assembly, oracle, notes, context);
     EXPECT_EQ(oracle.hinted > 0, threads > 1);
   }
@@ -117,6 +123,16 @@ TEST(Progressive, HintsOnlyWhenThereAreThreads) {
 
 TEST(Progressive, ParametersAreDeclaredInFull) {
   EXPECT_TRUE(problems_of_schema(Schema<ProgressiveParams>().specs()).empty());
+}
+
+TEST(Progressive, GivesTheLastTwoPartsAllTheDepthTheyNeed) {
+  FakeMachine machine(3);
+  machine.depth = {1, 7, 9};
+  Progressive planner(ProgressiveParams{});
+  const FakeRun run = run_on(planner, machine, seeded(1));
+  expect_lawful(run, machine);
+  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.asked.back().second, 0u) << "0 = no limit";
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 namespace dismantle::sdf {
 
 CandidateCells::CandidateCells(const Aabb& box, double cell)
-    : box_(box), cell_(cell), half_diagonal_(0.5 * std::sqrt(3.0) * cell),
-      cells_((box.size() / cell).array().ceil().cast<int>().max(1)), blocks_((cells_ + kBlock - 1) / kBlock),
+    : box_(box),
+      cell_(cell),
+      half_diagonal_(0.5 * std::sqrt(3.0) * cell),
+      cells_((box.size() / cell).array().ceil().cast<int>().max(1)),
+      blocks_((cells_ + kBlock - 1) / kBlock),
       table_(static_cast<std::size_t>(blocks_.prod())) {}
 
 CandidateCells::~CandidateCells() {

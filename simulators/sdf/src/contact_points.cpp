@@ -1,11 +1,10 @@
 #include "dismantle/sdf/contact_points.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-
-#include <Eigen/Geometry>
 
 namespace dismantle::sdf {
 namespace {
@@ -107,7 +106,8 @@ void split(std::vector<Eigen::Vector3d>& points, std::uint32_t first, std::uint3
   for (std::uint32_t i = first; i < first + count; ++i) lo = lo.cwiseMin(points[i]), hi = hi.cwiseMax(points[i]);
   Eigen::Index axis = 0;
   (hi - lo).maxCoeff(&axis);
-  const std::uint32_t half = (count / 2 + ContactPoints::kBlockSize - 1) / ContactPoints::kBlockSize * ContactPoints::kBlockSize;
+  const std::uint32_t half =
+      (count / 2 + ContactPoints::kBlockSize - 1) / ContactPoints::kBlockSize * ContactPoints::kBlockSize;
   const std::uint32_t left = half < count ? half : count / 2;
   const auto begin = points.begin() + first;
   std::nth_element(begin, begin + left, begin + count, [axis](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {

@@ -81,8 +81,8 @@ double ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   return limit;
 }
 
-void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin,
-                        double odometer, std::vector<ContactPoint>& out) {
+void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface,
+                        double margin, double odometer, std::vector<ContactPoint>& out) {
   const Shape& points = *members_[owner].placed->shape;
   const Shape& target = *members_[surface].placed->shape;
   const std::size_t solids = target.solids.size();
@@ -195,7 +195,8 @@ void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
   for (auto& pair : pairs_) {
     const Member &a = members_[pair.a], &b = members_[pair.b];
     const auto& known = rest_->of(a.part, b.part, [&](RestContacts::Entry& entry) {
-      ContactScene alone({a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
+      ContactScene alone(
+          {a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
       alone.update({a.pose}, entry.points);
       entry.pair = std::move(alone.pairs_.front());
     });

@@ -173,9 +173,9 @@ double DistanceGrid::value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) 
   const double value = y0 + z * (y1 - y0);
   const double dx0 = (v100 - v000) + y * ((v110 - v010) - (v100 - v000));
   const double dx1 = (v101 - v001) + y * ((v111 - v011) - (v101 - v001));
-  gradient = Eigen::Vector3d((dx0 + z * (dx1 - dx0)) * inverse_cell_[0],
-                             ((x10 - x00) + z * ((x11 - x01) - (x10 - x00))) * inverse_cell_[1],
-                             (y1 - y0) * inverse_cell_[2]);
+  gradient =
+      Eigen::Vector3d((dx0 + z * (dx1 - dx0)) * inverse_cell_[0],
+                      ((x10 - x00) + z * ((x11 - x01) - (x10 - x00))) * inverse_cell_[1], (y1 - y0) * inverse_cell_[2]);
   if (out) {
     // Beyond the grid: straight on from where the grid ends.
     gradient = gradient * std::max(value, 0.0) + outside;

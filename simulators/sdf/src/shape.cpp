@@ -92,7 +92,8 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
 }  // namespace
 
 std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance) {
-  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.vertices.size() < 3) return std::nullopt;
+  if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.vertices.size() < 3)
+    return std::nullopt;
   // Three vertices that span a large triangle fix the motion; all others must follow it.
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;
@@ -104,7 +105,8 @@ std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance) {
   const std::size_t i0 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[0]).squaredNorm(); });
   const std::size_t i1 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[i0]).squaredNorm(); });
   const Eigen::Vector3d line = (a.vertices[i1] - a.vertices[i0]).stableNormalized();
-  const std::size_t i2 = farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[i0]).cross(line).squaredNorm(); });
+  const std::size_t i2 =
+      farthest([&](const Eigen::Vector3d& v) { return (v - a.vertices[i0]).cross(line).squaredNorm(); });
   const auto frame = [&](const Mesh& m) {
     Eigen::Matrix3d f;
     f.col(0) = (m.vertices[i1] - m.vertices[i0]).stableNormalized();
@@ -158,7 +160,8 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
     for (std::size_t k; (k = next.fetch_add(1)) < distinct.size();) {
       const Part& part = assembly.parts[distinct[k]];
       try {
-        if (!context.should_stop()) placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
+        if (!context.should_stop())
+          placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
       } catch (const std::exception&) {
         failure[k] = std::current_exception();
       }

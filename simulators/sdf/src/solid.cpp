@@ -1,12 +1,11 @@
 #include "dismantle/sdf/solid.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>
-
-#include <Eigen/Geometry>
 
 #include "dismantle/geometry/triangle_bvh.h"
 

@@ -1,11 +1,10 @@
 #include "dismantle/sdf/surface_query.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-
-#include <Eigen/Geometry>
 
 namespace dismantle::sdf {
 namespace {
@@ -50,9 +49,9 @@ constexpr std::uint32_t kLeafSize = 4;
 /// Cells of the candidate lists, assembly units: a few steps of motion, a few triangles.
 constexpr double kCell = 0.05, kLeastCell = 0.01, kCellsPerEdge = 24;
 /// Lists serve points that are nearer than this to the surface.
-constexpr double kNearSurface = 0.06;
-/// More candidates than this are better looked for in the tree.
-constexpr std::size_t kMostCandidates = 48;
+constexpr double kNearSurface = 0.12;
+/// More candidates than this are better looked for in the tree. Few of a long list are looked at: it is sorted.
+constexpr std::size_t kMostCandidates = 256;
 /// Rounding of distances and of their storage as float, for coordinates of up to some tens.
 constexpr double kRounding = 1e-5;
 

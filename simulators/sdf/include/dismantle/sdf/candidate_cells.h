@@ -14,7 +14,7 @@ namespace dismantle::sdf {
 
 /// A triangle that is closest to some point of a cell.
 struct Candidate {
-  float from_center = 0;   ///< a distance that it is not nearer to the cell's centre than
+  float from_center = 0;  ///< a distance that it is not nearer to the cell's centre than
   std::uint32_t slot = 0;
 };
 

@@ -22,9 +22,9 @@ struct ContactPoints {
 };
 
 struct ContactPointOptions {
-  double spacing = 0.1;            ///< along sharp edges and over smooth surfaces, assembly units, > 0
-  double sharp_angle = 0.5;        ///< rad; convex edges that bend more are sampled one by one
-  std::size_t max_points = 60'000; ///< the spacing grows where there would be more
+  double spacing = 0.1;             ///< along sharp edges and over smooth surfaces, assembly units, > 0
+  double sharp_angle = 0.5;         ///< rad; convex edges that bend more are sampled one by one
+  std::size_t max_points = 60'000;  ///< the spacing grows where there would be more
 };
 
 /// Where this closed surface can touch another one first:

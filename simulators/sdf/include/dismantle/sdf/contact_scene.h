@@ -57,7 +57,9 @@ class ContactScene {
   const Member& member(std::size_t i) const { return members_[i]; }
   std::size_t member_count() const { return members_.size(); }
   /// Mass centre of moving body i in its assembled frame; and its bounding radius about it.
-  Eigen::Vector3d center(std::size_t i) const { return members_[i].placed->rest * members_[i].placed->shape->mass.center; }
+  Eigen::Vector3d center(std::size_t i) const {
+    return members_[i].placed->rest * members_[i].placed->shape->mass.center;
+  }
   double radius(std::size_t i) const { return members_[i].placed->shape->radius; }
   /// Adds a sample at `point` (assembled frame of `part`) against `other`.
   void add_point(PartId part, PartId other, const Eigen::Vector3d& point);
@@ -67,22 +69,24 @@ class ContactScene {
   void set_members(std::vector<Member> moving, std::vector<Member> still);
   void update_pair(ContactPair& pair, std::vector<ContactPoint>& out);
   void begin_at_rest(std::vector<ContactPoint>& out);
-  void scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin, double odometer,
-            std::vector<ContactPoint>& out);
-  float assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface, const Eigen::Vector3d& point) const;
-  void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner, const Member& surface) const;
+  void scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin,
+            double odometer, std::vector<ContactPoint>& out);
+  float assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface,
+                        const Eigen::Vector3d& point) const;
+  void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
+                          const Member& surface) const;
   double signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit, std::uint32_t& hint,
                          Sample& sample);
 
   DistanceModel model_;
   double margin_, threshold_, slack_;
   std::size_t moving_ = 0;
-  std::vector<Member> members_;  ///< moving first
-  std::vector<Pose> world_;      ///< shape frame -> world, now
-  std::vector<Aabb> boxes_;      ///< world, now
-  std::vector<double> odometer_; ///< per moving body: way that its points may have travelled in all
+  std::vector<Member> members_;   ///< moving first
+  std::vector<Pose> world_;       ///< shape frame -> world, now
+  std::vector<Aabb> boxes_;       ///< world, now
+  std::vector<double> odometer_;  ///< per moving body: way that its points may have travelled in all
   std::vector<ContactPair> pairs_;
-  RestContacts* rest_;           ///< nullptr once the scene has begun
+  RestContacts* rest_;  ///< nullptr once the scene has begun
   std::uint64_t queries_ = 0;
 };
 

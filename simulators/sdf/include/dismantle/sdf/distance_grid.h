@@ -11,8 +11,8 @@
 namespace dismantle::sdf {
 
 struct GridOptions {
-  double cell = 0.05;         ///< appendix A: largest cell edge, assembly units, > 0
-  int cells_per_edge = 20;    ///< appendix A: cell <= L_i / cells_per_edge along each axis, >= 1
+  double cell = 0.05;                   ///< appendix A: largest cell edge, assembly units, > 0
+  int cells_per_edge = 20;              ///< appendix A: cell <= L_i / cells_per_edge along each axis, >= 1
   std::int64_t max_nodes = 30'000'000;  ///< cells grow evenly on all axes where the grid would exceed this
 };
 
@@ -44,7 +44,8 @@ class DistanceGrid {
  private:
   std::size_t index(int i, int j, int k) const {
     return (static_cast<std::size_t>(k) * static_cast<std::size_t>(nodes_.y()) + static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(nodes_.x()) + static_cast<std::size_t>(i);
+               static_cast<std::size_t>(nodes_.x()) +
+           static_cast<std::size_t>(i);
   }
   void fill_band(const Solid& solid, const SurfaceQuery& surface);
   void propagate_signs();

@@ -14,9 +14,9 @@ namespace dismantle::sdf {
 struct Solid {
   Mesh mesh;
   // Angle-weighted pseudo-normals (Baerentzen & Aanaes 2005), not normalised for vertices and edges:
-  std::vector<Eigen::Vector3d> face_normal;                   ///< unit, per triangle
-  std::vector<std::array<Eigen::Vector3d, 3>> edge_normal;    ///< per triangle, edge k joins corners k and k+1
-  std::vector<Eigen::Vector3d> vertex_normal;                 ///< per vertex
+  std::vector<Eigen::Vector3d> face_normal;                 ///< unit, per triangle
+  std::vector<std::array<Eigen::Vector3d, 3>> edge_normal;  ///< per triangle, edge k joins corners k and k+1
+  std::vector<Eigen::Vector3d> vertex_normal;               ///< per vertex
 };
 
 /// Splits by connected shells; a shell of negative volume is a void and goes to the smallest outer

@@ -64,10 +64,10 @@ class SurfaceQuery {
 
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
-  std::vector<Corner> corners_;            // by slot: leaves are contiguous
-  std::vector<std::uint32_t> triangle_;    // slot -> triangle
-  std::vector<std::uint32_t> slot_;        // triangle -> slot
-  std::vector<Triangle> indices_;          // by triangle
+  std::vector<Corner> corners_;          // by slot: leaves are contiguous
+  std::vector<std::uint32_t> triangle_;  // slot -> triangle
+  std::vector<std::uint32_t> slot_;      // triangle -> slot
+  std::vector<Triangle> indices_;        // by triangle
   std::vector<Eigen::Vector3d> face_, vertex_;
   std::vector<std::array<Eigen::Vector3d, 3>> edge_;
   std::vector<std::array<std::uint32_t, 3>> neighbor_;  // across a convex edge; kNoTriangle: flat or concave
