@@ -44,7 +44,7 @@ SequenceResult Progressive::plan(const Assembly& assembly, PathOracle& oracle, S
     if (sequence.interrupted()) break;
     const bool at_limit = params_.max_depth != 0 && depth >= params_.max_depth;
     // At the limit a round is repeated at the same depth, as long as parts leave and make room for others.
-    if (at_limit && removed_any) --depth;
+    if (removed_any && (at_limit || !params_.deepen_always)) --depth;
     if (!removed_any && (at_limit || !deeper_may_help)) break;
   }
   return sequence.finish();

@@ -10,6 +10,7 @@ namespace dismantle {
 struct ProgressiveParams {
   PartOrder order = PartOrder::small_first;
   unsigned max_depth = 0;
+  bool deepen_always = false;
   bool last_pair_unlimited = true;
   static void describe(Schema<ProgressiveParams>& schema);
 };

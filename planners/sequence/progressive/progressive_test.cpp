@@ -11,6 +11,7 @@ using Asked = std::vector<std::pair<PartId, unsigned>>;
 
 ProgressiveParams algorithm_2() {
   ProgressiveParams params;
+  params.deepen_always = true;
   params.last_pair_unlimited = false;
   return params;
 }
@@ -133,6 +134,20 @@ TEST(Progressive, GivesTheLastTwoPartsAllTheDepthTheyNeed) {
   expect_lawful(run, machine);
   EXPECT_EQ(run.result.outcome, Outcome::solved);
   EXPECT_EQ(run.asked.back().second, 0u) << "0 = no limit";
+}
+
+TEST(Progressive, StaysAtADepthAsLongAsPartsLeave) {
+  FakeMachine machine(5);
+  machine.before = {{1}, {2}, {3}, {}, {0}};  // against the order of trying: one removal per round
+  machine.depth = {1, 1, 1, 1, 2};
+  ProgressiveParams params = as_given();
+  params.deepen_always = false;
+  Progressive planner(params);
+  const FakeRun run = run_on(planner, machine, seeded(1));
+  expect_lawful(run, machine);
+  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.notes.order, (std::vector<PartId>{3, 2, 1, 0}));
+  for (const auto& [part, depth] : run.asked) EXPECT_EQ(depth, 1u);
 }
 
 }  // namespace
