@@ -69,6 +69,10 @@ int verify(const Verify& options) {
   });
   VerifyOptions tolerance;
   tolerance.max_penetration = tolerance_of(plan, assembly, console);
+  if (const SurfaceRepair& r = plan.assembly.repair; r != SurfaceRepair{})
+    console.warning(fmt::format(
+        "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are judged as repaired with these",
+        r.weld, r.repair, r.max_hole));
   const PlanCheck check = check_plan(plan, assembly, tolerance, context);
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");

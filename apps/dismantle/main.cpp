@@ -1,6 +1,8 @@
 // dismantle: one command, sub-commands. Errors become messages and exit statuses here.
+#include <fcntl.h>
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -92,7 +94,7 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   } catch (const Error& e) {
     return report_failure(json, kUsage, e.what());
   } catch (const std::filesystem::filesystem_error& e) {
-    return report_failure(json, kUsage, e.what());
+    return report_failure(json, kUsage, fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::bad_alloc&) {
     return report_failure(json, kBadInput, "not enough memory for this input");
   } catch (const std::exception& e) {
@@ -100,11 +102,26 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   }
 }
 
+/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in a
+/// plan.
+void open_standard_streams() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
+}
+
+/// What did not reach standard output was not done.
+int flushed(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  fmt::print(stderr, "dismantle: error: standard output cannot be written\n");
+  return status == kComplete || status == kPartial ? kUsage : status;
+}
+
 }  // namespace
 }  // namespace dismantle::app
 
 int main(int argc, char** argv) {
   using namespace dismantle::app;
+  open_standard_streams();
   CLI::App app("Takes assemblies apart, to find out how to put them together.", "dismantle");
   app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
   app.require_subcommand(1);
@@ -122,5 +139,5 @@ int main(int argc, char** argv) {
   add_explain(app, action);
   add_plugins(app, action);
   add_sample(app, action);
-  return run(app, action, argc, argv);
+  return flushed(run(app, action, argc, argv));
 }

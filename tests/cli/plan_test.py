@@ -93,8 +93,8 @@ class Plan(CliTest):
 
 
 class Interruption(CliTest):
-    def interrupt(self, sign):
-        """Sends the signal when the first step is reported; returns status and standard output."""
+    def interrupt(self, sign, at="step 1:", times=1):
+        """Sends the signal when a line that starts so is reported; returns status and standard output."""
         self.run_program("sample", "machine", "-o", "machine", "--set", "parts=40", status=0)
         process = subprocess.Popen([PROGRAM, "plan", "machine", *QUICK, "--threads", "1", "--format", "json"], cwd=self.folder, text=True,
                                    encoding="utf-8", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -104,8 +104,9 @@ class Interruption(CliTest):
         watchdog.start()
         try:
             for line in process.stderr:
-                if line.startswith("step 1:"):
-                    process.send_signal(sign)
+                if line.startswith(at):
+                    for _ in range(times):
+                        process.send_signal(sign)
                     break
             process.stderr.read()
             return process.wait(), process.stdout.read()
@@ -123,3 +124,13 @@ class Interruption(CliTest):
             verified = self.run_program("verify", result["plan"], "--format", "json", status=1)
             self.assertEqual(self.result_of(verified)["status"], "partial")
             self.assertTrue(os.path.exists(self.path("machine.plan", "plan.glb")))
+
+    def test_while_the_parts_are_prepared(self):
+        status, output = self.interrupt(signal.SIGINT, at="reading")
+        self.assertEqual(status, 130)
+        self.assertEqual(json.loads(output.splitlines()[-1])["status"], "interrupted")
+
+    def test_twice_ends_at_once_and_keeps_what_was_saved(self):
+        status, _ = self.interrupt(signal.SIGINT, times=2)
+        self.assertEqual(status, 130)
+        self.run_program("verify", "machine.plan/plan.json", "-q", status=1)

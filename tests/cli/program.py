@@ -30,9 +30,9 @@ class CliTest(unittest.TestCase):
         with open(self.path(*names), encoding="utf-8") as file:
             return file.read()
 
-    def run_program(self, *arguments, status=None, env=None):
+    def run_program(self, *arguments, status=None, env=None, stdout=subprocess.PIPE, preexec_fn=None):
         done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, text=True, encoding="utf-8", timeout=HANGING,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, preexec_fn=preexec_fn,
                               env={**os.environ, **(env or {})})
         if status is not None:
             self.assertEqual(done.returncode, status, f"{arguments}\n{done.stdout}\n{done.stderr}")

@@ -169,8 +169,8 @@ TEST_P(SequencePlannerContract, SamePlanOnAnyNumberOfThreads) {
   EXPECT_EQ(memoised.size(), 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registered, SequencePlannerContract, testing::ValuesIn(ids()), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Registered, SequencePlannerContract, testing::ValuesIn(ids()), [](const auto& instance) {
+  std::string name = instance.param;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
   return name;

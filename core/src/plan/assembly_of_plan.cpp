@@ -61,6 +61,9 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   check_same_files(plan, input, source);
   keep_parts_of(plan, input.parts, source);
   PrepareOptions options;
+  options.weld = plan.assembly.repair.weld;
+  options.repair = plan.assembly.repair.repair;
+  options.max_hole = plan.assembly.repair.max_hole;
   options.drop_duplicates = false;  // the plan says which parts stay
   options.subdivide = 0;
   options.max_triangles = std::numeric_limits<std::int64_t>::max();

@@ -73,6 +73,15 @@ class Place {
     if (x < 0) fail("expected a number >= 0");
     return x;
   }
+  double number_within(double least, double most) const {
+    const double x = number();
+    if (x < least || x > most) fail(fmt::format("expected a number between {:g} and {:g}", least, most));
+    return x;
+  }
+  bool truth() const {
+    if (!value_.is_boolean()) fail("expected true or false");
+    return value_.get<bool>();
+  }
   double positive() const {
     const double x = number();
     if (x <= 0) fail("expected a number > 0");
@@ -140,7 +149,7 @@ std::vector<std::string> read_group(const Place& place, const Names& parts) {
 }
 
 PlanAssembly read_assembly(const Place& place, Names& parts) {
-  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"});
+  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"}, {"repair"});
   PlanAssembly a;
   a.source = place.at("source").text();
   a.sha256 = place.at("sha256").text();
@@ -170,6 +179,12 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     PlanOverlap o{read_part(item.at("a"), parts), read_part(item.at("b"), parts), item.at("depth").number_from_zero()};
     if (o.a == o.b) item.fail("a part cannot overlap itself");
     a.overlaps.push_back(std::move(o));
+  }
+  if (place.has("repair")) {
+    const Place repair = place.at("repair");
+    repair.object({"weld", "repair", "max_hole"});
+    a.repair = {repair.at("weld").number_within(0, 0.01), repair.at("repair").truth(),
+                repair.at("max_hole").number_within(0, 1)};
   }
   return a;
 }

@@ -67,6 +67,8 @@ Json assembly_json(const PlanAssembly& a) {
   out["parts"] = std::move(parts);
   out["excluded"] = std::move(excluded);
   out["overlaps"] = std::move(overlaps);
+  if (a.repair != SurfaceRepair{})
+    out["repair"] = {{"weld", a.repair.weld}, {"repair", a.repair.repair}, {"max_hole", a.repair.max_hole}};
   return out;
 }
 

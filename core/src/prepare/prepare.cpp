@@ -31,6 +31,7 @@ class Preparation {
   Assembly run(std::vector<RawPart> raw, const std::string& source, const std::string& sha256) {
     assembly_.source = source;
     assembly_.sha256 = sha256;
+    assembly_.repair = {options_.weld, options_.repair, options_.max_hole};
     check_size(raw);
     make_names_unique(raw, report_.warnings);
     clean(raw);

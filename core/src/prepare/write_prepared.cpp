@@ -35,7 +35,7 @@ void write_text(const fs::path& file, const fmt::memory_buffer& text) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
-  if (!out) throw InputError(file.string(), fmt::format("cannot be written: {}", std::strerror(errno)));
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(errno)));
 }
 
 fmt::memory_buffer as_obj(const Part& part, const Normalization& normalization) {
@@ -57,7 +57,7 @@ Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v
 std::vector<fs::path> write_prepared(const Assembly& assembly, const PrepareReport& report, const fs::path& dir) {
   std::error_code ec;
   fs::create_directories(dir, ec);
-  if (ec) throw InputError(dir.string(), fmt::format("folder cannot be made: {}", ec.message()));
+  if (ec) throw Error(fmt::format("{}: folder cannot be made: {}", dir.string(), ec.message()));
   std::vector<fs::path> written;
   std::map<std::string, std::string> file_of;  // by part name
   std::set<std::string> used;

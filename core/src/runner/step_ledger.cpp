@@ -22,6 +22,7 @@ Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   a.scale = assembly.normalization.scale;
   a.center = assembly.normalization.center;
   a.box = assembly.input_box;
+  a.repair = assembly.repair;
   for (const auto& part : assembly.parts) a.parts.push_back({part.id, part.name, part.file});
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)

@@ -117,6 +117,9 @@ std::vector<RawPart> read_with_assimp(const std::filesystem::path& file) {
     const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
     if (!scene || !scene->mRootNode) {
       const std::string why = importer.GetErrorString();
+      // What assimp says of a file whose begin it does not recognise.
+      if (why.starts_with("No suitable reader found") || why.starts_with("Failed to open file"))
+        throw InputError(file.string(), fmt::format("this is no {} file, or it is cut off", ending));
       throw InputError(file.string(), "cannot be read: " + (why.empty() ? "no scene in it" : why));
     }
     // What assimp puts into the root node of a DAE scene is a conversion to metres: parts keep the units of their file.

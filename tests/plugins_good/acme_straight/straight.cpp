@@ -29,6 +29,11 @@ class Straight final : public dismantle::PathPlanner {
 
   dismantle::PathResult plan(const dismantle::PathQuery& query, dismantle::RunContext& context) override {
     dismantle::PathResult result;
+    if (!query.simulator.capabilities().dynamics) {
+      result.outcome = dismantle::Outcome::unsupported;
+      result.message = "the simulator has no dynamics to push with";
+      return result;
+    }
     const auto world =
         query.simulator.world(query.assembly, query.prepared, query.cast, dismantle::MotionSpace::translation);
     const dismantle::State start = world->initial_state();

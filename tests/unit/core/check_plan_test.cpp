@@ -210,6 +210,35 @@ TEST_F(CheckPlan, AssemblyStepsAreJudgedToo) {
   expect_problem(3, "from where it is");
 }
 
+TEST_F(CheckPlan, AReverseIsOneOfMotionsNotOfNumbers) {
+  reverse_into_assembly();
+  const Plan good = plan_;
+  EXPECT_TRUE(check().complete);
+  for (auto& step : plan_.assembly_steps)
+    for (auto& pose : step.moves[0].poses) {
+      pose.q.coeffs() *= -1;
+      pose.t += Vec3::Constant(1e-8);  // 1e-10 assembly units
+    }
+  EXPECT_TRUE(check().complete);
+  plan_ = good;
+  std::swap(plan_.assembly_steps[0], plan_.assembly_steps[1]);  // another order is another matter, and looked at
+  plan_.assembly_steps[0].step = 1;
+  plan_.assembly_steps[1].step = 2;
+  EXPECT_TRUE(check().complete);
+}
+
+TEST_F(CheckPlan, AReverseCountsOnlyIfTheSamePartsStandBy) {
+  // part0 goes up through nothing, since part2, which would be in its way, has left before.
+  plan_.disassembly = {slide(1, {"part2"}, {{4, 0, 0}}, {{"part2"}}), slide(2, {"part1"}, {{4, 0, 0}}, {{"part1"}})};
+  plan_.remaining = {"part0"};
+  EXPECT_TRUE(check().complete);
+  reverse_into_assembly();
+  EXPECT_TRUE(check().complete);
+  // The first step alone is the last one backwards, but here part2 never left and stands where part1 goes through.
+  plan_.assembly_steps[1].moves[0] = {"part1", {Pose{}, Pose{}}};
+  expect_problem(1, "assembly step");
+}
+
 TEST_F(CheckPlan, StopsWhenAsked) {
   RunContext context;
   context.cancel.cancel();

@@ -52,6 +52,7 @@ Plan any_plan(Rng& rng) {
   const auto part = [&] { return a.parts[rng.below(n)].name; };
   for (std::uint64_t k = rng.below(3); k > 0; --k) a.excluded.emplace_back("x\t", "not watertight");
   for (unsigned i = 1; i < n; ++i) a.overlaps.push_back({a.parts[i - 1].name, a.parts[i].name, rng.uniform()});
+  if (rng.below(2)) a.repair = {rng.uniform(0, 0.01), rng.below(2) == 0, rng.uniform()};
   const auto steps = [&] {
     std::vector<PlanStep> out(rng.below(4));
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -121,6 +122,7 @@ TEST(PlanIo, ReadingGivesBackWhatWasWritten) {
     EXPECT_EQ(a.assembly.center, b.assembly.center);
     EXPECT_EQ(a.assembly.box.lo, b.assembly.box.lo);
     EXPECT_EQ(a.assembly.box.hi, b.assembly.box.hi);
+    EXPECT_EQ(a.assembly.repair, b.assembly.repair);
     EXPECT_EQ(a.assembly.excluded, b.assembly.excluded);
     ASSERT_EQ(a.assembly.parts.size(), b.assembly.parts.size());
     ASSERT_EQ(a.assembly.overlaps.size(), b.assembly.overlaps.size());
@@ -213,6 +215,10 @@ TEST(PlanIo, ProblemsNameTheFileAndThePlace) {
       {"[\"hole\"]", "[\"hole\", \"hole\"]", "/remaining/1: part 'hole' stands here twice"},
       {"\"separates\": [", "\"separates\": [[], ", "/disassembly/0/separates/0: expected at least one part"},
       {"{", "[", "not valid JSON"},
+      {"\"overlaps\": []", "\"overlaps\": [], \"repair\": {\"weld\": 0.5, \"repair\": true, \"max_hole\": 0}",
+       "/assembly/repair/weld: expected a number between 0 and 0.01"},
+      {"\"overlaps\": []", "\"overlaps\": [], \"repair\": {\"weld\": 0, \"repair\": 1, \"max_hole\": 0}",
+       "/assembly/repair/repair: expected true or false"},
       {"\"bbox\": null", "\"bbox\": [[1,0,0],[0,0,0]]", "/assembly/bbox: the first corner is above the second"},
   };
   for (const auto& [from, to, message] : cases) {

@@ -39,6 +39,15 @@ struct Normalization {
   Pose pose_to_internal(const Pose& p) const { return {scale * (p.t + p.q * center - center), p.q}; }
 };
 
+/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Whoever judges a plan has to
+/// look at the same surfaces.
+struct SurfaceRepair {
+  double weld = 1e-6;
+  bool repair = true;
+  double max_hole = 0.1;
+  bool operator==(const SurfaceRepair&) const = default;
+};
+
 struct ExcludedPart {
   std::string name;
   std::string reason;
@@ -54,6 +63,7 @@ struct Assembly {
   std::string source;   ///< as the user named it
   std::string sha256;   ///< of the input files' bytes, in name order
   Normalization normalization;
+  SurfaceRepair repair;
   Aabb input_box;       ///< of all parts kept, input units
   std::vector<Part> parts;
   std::vector<ExcludedPart> excluded;

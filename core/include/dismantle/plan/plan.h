@@ -9,6 +9,7 @@
 #include "dismantle/export.h"
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/pose.h"
+#include "dismantle/model/assembly.h"
 #include "dismantle/plan/outcome.h"
 
 namespace dismantle {
@@ -54,6 +55,7 @@ struct PlanAssembly {
   double scale = 1;  ///< assembly units per input unit
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
   Aabb box;          ///< input units
+  SurfaceRepair repair;
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
   std::vector<PlanOverlap> overlaps;

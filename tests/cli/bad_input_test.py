@@ -1,0 +1,190 @@
+"""Whatever the input is: a message that names the file or part, the right status, nothing that crashes or hangs."""
+import json
+import os
+import random
+import struct
+
+import meshes
+from program import CliTest
+
+UNIT = meshes.box((0, 0, 0), (1, 1, 1))
+BESIDE = meshes.box((1, 0, 0), (2, 1, 1))
+ABOVE = meshes.box((0, 0, 1), (1, 1, 2))
+QUICK = ("--path-timeout", "0", "--timeout", "0", "--set", "run.path_steps=2000")
+
+
+class BadInput(CliTest):
+    def put(self, name, content):
+        """A file below the test's folder; text or bytes."""
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "wb") as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
+
+    def folder_with(self, name, *parts):
+        """A folder of boxes, part after part as (file name, content)."""
+        for file, content in parts:
+            self.put(f"{name}/{file}", content)
+        return name
+
+    def prepared(self, folder):
+        """prepare.json of a folder that can be used, and what was said."""
+        done = self.run_program("prepare", folder, "-o", "clean", "--format", "json", status=0)
+        report = json.loads(self.read("clean", "prepare.json"))
+        return {p["name"]: p for p in report["parts"]}, done.stderr, self.result_of(done)
+
+    def planned_and_verified(self, folder):
+        done = self.run_program("plan", folder, *QUICK, "-o", folder + ".out", "--format", "json", status=0)
+        self.run_program("verify", folder + ".out/plan.json", "-q", status=0)
+        return done.stderr
+
+
+class Files(BadInput):
+    def test_each_format_is_read(self):
+        for k, (ending, writer) in enumerate(meshes.FORMATS):
+            folder = self.folder_with(f"ok{k}", (f"a.{ending}", writer(*UNIT)), ("b.obj", meshes.obj(*BESIDE)))
+            parts, _, _ = self.prepared(folder)
+            self.assertAlmostEqual(parts["a"]["volume"], 1, 5, writer.__name__)
+
+    def test_files_that_are_cut_off(self):
+        for k, (ending, writer) in enumerate(meshes.FORMATS):
+            whole = writer(*UNIT)
+            for share in (0.02, 0.35, 0.6, 0.9):
+                folder = self.folder_with(f"cut{k}-{share}", (f"a.{ending}", whole[:int(share * len(whole))]), ("b.obj", meshes.obj(*BESIDE)))
+                # With one part of two left there is no assembly, so that OBJ, which has no end mark, is refused too.
+                done = self.run_program("plan", folder, *QUICK, status=3)
+                self.assertRegex(done.stderr, rf"a\.{ending}:|\n  a: ", writer.__name__)
+                self.assertFalse(os.path.exists(self.path(folder + ".plan")))
+
+    def test_files_that_are_something_else(self):
+        noise = random.Random(5).randbytes(4000)
+        for k, (ending, _) in enumerate(meshes.FORMATS):
+            for what, content in (("noise", noise), ("nothing", b""), ("page", b"<!DOCTYPE html><html><body>404</body></html>\n")):
+                folder = self.folder_with(f"{what}{k}", (f"a.{ending}", content), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
+                self.assert_fails(3, f"a.{ending}", "prepare", folder, "-o", "clean")
+
+    def test_headers_that_promise_too_much(self):
+        many = 4000000000
+        stl = bytes(80) + struct.pack("<I", many) + bytes(200)
+        ply = meshes.ply_text(*UNIT).replace("vertex 8", f"vertex {many}").replace("face 12", f"face {many}")
+        off = meshes.off(*UNIT).replace("8 12 0", f"{many} {many} 0", 1)
+        for file, content in (("a.stl", stl), ("a.ply", ply), ("a.off", off), ("a.obj", meshes.obj(*UNIT) + "f 1 2 99999999999999999999\n")):
+            folder = self.folder_with(file + ".in", (file, content), ("b.obj", meshes.obj(*BESIDE)))
+            self.assert_fails(3, file, "prepare", folder, "-o", "clean")
+
+    def test_ten_million_triangles_are_refused_before_they_are_read(self):
+        self.folder_with("big", ("a.stl", bytes(80) + struct.pack("<I", 10**7)), ("b.obj", meshes.obj(*BESIDE)))
+        os.truncate(self.path("big", "a.stl"), 84 + 50 * 10**7)  # a hole on the disk
+        done = self.run_program("plan", "big", "--format", "json", status=3)
+        self.assertIn("a.stl: 10000000 triangles are more than the limit of 5000000 (assembly.max_triangles)", done.stderr)
+        self.assertLess(self.result_of(done)["peak_rss_mb"], 400)
+
+    def test_links_pipes_and_folders_that_are_called_like_meshes(self):
+        self.folder_with("in", ("b.obj", meshes.obj(*UNIT)), ("c.obj", meshes.obj(*BESIDE)))
+        os.mkfifo(self.path("in", "a.obj"))
+        os.mkdir(self.path("in", "d.obj"))
+        _, said, _ = self.prepared("in")
+        self.assertIn("'a.obj' is no regular file", said)
+        self.assertIn("'d.obj'", said)
+        os.symlink("nowhere.obj", self.path("in", "e.obj"))
+        self.assert_fails(3, "e.obj", "prepare", "in", "-o", "clean")
+
+
+class Surfaces(BadInput):
+    def beside_two(self, vertices, triangles):
+        return self.folder_with("in", ("a.obj", meshes.obj(vertices, triangles)), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
+
+    def test_coordinates_that_are_no_numbers(self):
+        for ending, writer in meshes.FORMATS[:6]:
+            broken = ([(float("nan"), 0.0, 0.0)] + UNIT[0][1:], UNIT[1])
+            self.folder_with("nan." + ending, (f"a.{ending}", writer(*broken)), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
+            self.assert_fails(3, f"a.{ending}", "prepare", "nan." + ending, "-o", "clean")
+
+    def test_what_has_no_inside_is_left_out_by_name(self):
+        flat = ([(x, y, 0.0) for x, y, _ in UNIT[0]], UNIT[1])
+        for name, surface, reason in (("flat", flat, "no volume"), ("open", (UNIT[0], UNIT[1][:6]), "not watertight")):
+            self.beside_two(*surface)
+            parts, said, result = self.prepared("in")
+            self.assertFalse(parts["a"]["kept"], name)
+            self.assertIn(reason, parts["a"]["reason"])
+            self.assertIn("'a' is left out", said)
+            self.assertEqual((result["parts"], result["excluded"]), (2, 1))
+        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=0)
+        self.assertEqual([e["name"] for e in json.loads(self.read("out", "plan.json"))["assembly"]["excluded"]], ["a"])
+
+    def test_faces_the_wrong_way_round_are_turned(self):
+        some = [t[::-1] if i % 3 else t for i, t in enumerate(UNIT[1])]
+        for triangles in (some, [t[::-1] for t in UNIT[1]]):
+            self.beside_two(UNIT[0], triangles)
+            parts, _, _ = self.prepared("in")
+            self.assertAlmostEqual(parts["a"]["volume"], 1)
+            self.assertIn("turned", " ".join(parts["a"]["actions"]))
+
+    def test_a_surface_that_crosses_itself_is_kept_with_a_warning(self):
+        self.beside_two(UNIT[0][:7] + [(0.3, 0.4, -1.0)], UNIT[1])  # a corner pulled out through the face below
+        _, said, _ = self.prepared("in")
+        self.assertIn("part 'a': the surface crosses itself", said)
+
+    def test_copies(self):
+        self.folder_with("in", *((f"{n}.obj", meshes.obj(*UNIT)) for n in "abc"))
+        done = self.assert_fails(3, "at least two", "plan", "in")
+        self.assertIn("b: ", done.stderr)
+
+
+class NamesAndScales(BadInput):
+    def test_any_name(self):
+        names = ("pär t", "部品 2", "it's \"q\" & <b>", "a.b.c")
+        self.folder_with("in", *((f"{n}.obj", meshes.obj(*meshes.box((0, 0, z), (1, 1, z + 1)))) for z, n in enumerate(names)))
+        self.planned_and_verified("in")
+        plan = json.loads(self.read("in.out", "plan.json"))
+        self.assertEqual(sorted(p["name"] for p in plan["assembly"]["parts"]), sorted(names))
+        self.assertEqual(len(plan["disassembly"]), 3)
+        self.prepared("in")
+
+    def test_a_name_that_is_not_utf8(self):
+        self.folder_with("in", ("b.obj", meshes.obj(*BESIDE)))
+        with open(os.path.join(self.path("in").encode(), b"caf\xe9.obj"), "w", encoding="ascii") as file:
+            file.write(meshes.obj(*UNIT))
+        self.planned_and_verified("in")
+        self.assertIn("caf\ufffd", self.read("in.out", "plan.json"))
+
+    def test_two_files_of_one_name(self):
+        self.folder_with("in", ("a.obj", meshes.obj(*UNIT)), ("a.stl", meshes.stl(*BESIDE)))
+        self.assertIn("several files are called 'a'", self.planned_and_verified("in"))
+        plan = json.loads(self.read("in.out", "plan.json"))
+        self.assertEqual([p["name"] for p in plan["assembly"]["parts"]], ["a.obj", "a.stl"])
+
+    def test_any_scale(self):
+        for scale in (1e-9, 1e12):
+            folder = f"scale{scale:g}"
+            for name, (vertices, triangles) in (("a", UNIT), ("b", BESIDE)):
+                self.put(f"{folder}/{name}.obj", meshes.obj([tuple(scale * x for x in v) for v in vertices], triangles))
+            self.planned_and_verified(folder)
+
+    def test_far_from_the_origin_and_from_each_other(self):
+        self.folder_with("off", *((f"{n}.obj", meshes.obj(*meshes.box((1e9 + x, 0, 0), (1e9 + x + 1, 1, 1)))) for n, x in (("a", 0), ("b", 1))))
+        self.assertIn("digits of its shape", self.planned_and_verified("off"))
+        self.folder_with("far", ("a.obj", meshes.obj(*UNIT)), ("b.obj", meshes.obj(*meshes.box((1e6, 0, 0), (1e6 + 1, 1, 1)))))
+        self.assertIn("'b' floats apart", self.planned_and_verified("far"))
+
+
+class Output(BadInput):
+    def setUp(self):
+        super().setUp()
+        self.folder_with("in", ("a.obj", meshes.obj(*UNIT)), ("b.obj", meshes.obj(*BESIDE)))
+
+    def test_a_standard_output_that_is_full(self):
+        for command in (["plan", "in", *QUICK], ["plan", "in", *QUICK, "--format", "json"], ["sample", "list"], ["plugins", "list"], ["--help"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = self.run_program(*command, stdout=full, status=2)
+            self.assertIn("standard output cannot be written", done.stderr)
+        self.run_program("verify", "in.plan/plan.json", "-q", status=0)  # the plan itself is there
+
+    def test_closed_streams_do_not_end_up_in_files(self):
+        done = self.run_program("plan", "in", *QUICK, status=0, preexec_fn=lambda: os.closerange(0, 3))
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        self.run_program("verify", "in.plan/plan.json", "-q", status=0)
+
+    def test_folders_that_cannot_be_written(self):
+        for command in (["plan", "in", *QUICK], ["prepare", "in"], ["sample", "peg_in_hole"]):
+            self.assert_fails(2, "/dev/full", *command, "-q", "-o", "/dev/full")
+            self.assert_fails(2, "/proc", *command, "-q", "-o", "/proc/nothing/here")
