@@ -23,6 +23,10 @@ bool same_path(const Path& a, const Path& b) {
                     });
 }
 
+bool holds(const std::vector<PlacedPart>& group, PartId part) {
+  return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
+}
+
 /// What a plugin says about parts and poses is kept only as far as it makes sense.
 void drop_nonsense(PathResult& result, const Attempt& attempt) {
   std::vector<PartId> blockers;
@@ -78,6 +82,24 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
   if (missing.empty()) return {};
   return fmt::format("the simulator does not offer what path planner '{}' needs: {}", planner_id_,
                      fmt::join(missing, ", "));
+}
+
+/// A pair of one that moves and one that stands still, which no planner can part.
+const Lock* AttemptRunner::locked(const Attempt& attempt) const {
+  for (const Lock& lock : verifier_.locks())
+    if ((holds(attempt.moving, lock.inside) && holds(attempt.still, lock.other)) ||
+        (holds(attempt.moving, lock.other) && holds(attempt.still, lock.inside)))
+      return &lock;
+  return nullptr;
+}
+
+std::string AttemptRunner::describe(const Lock& lock) const {
+  const Eigen::Vector3d at = assembly_.normalization.to_input(lock.point);
+  return fmt::format("'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
+                     "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
+                     "units; see verify.max_penetration)",
+                     assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(),
+                     lock.depth, lock.allowed);
 }
 
 AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
@@ -146,6 +168,9 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   try {
     if (attempt.still.empty()) {
       result.outcome = Outcome::start_is_goal;  // nothing left to be apart from
+    } else if (const Lock* lock = locked(attempt)) {
+      result = failure(Outcome::exhausted, describe(*lock));
+      result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
     } else {
       result = plan(planner, attempt, own, last);
     }

@@ -32,6 +32,8 @@ class AttemptRunner {
  private:
   struct Judgement;
   PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, Judgement& last) const;
+  const Lock* locked(const Attempt& attempt) const;
+  std::string describe(const Lock& lock) const;
   Judgement judge(const Attempt& attempt, const Path& path) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "dismantle/geometry/hull.h"
+#include "verify/lock.h"
 #include "verify/pair_check.h"
 #include "verify/sampling.h"
 
@@ -73,6 +75,18 @@ struct Verifier::Impl {
       bodies.push_back(std::move(body));
       meshes.push_back(part.mesh);
     }
+    for (const auto& o : assembly_overlaps)
+      if (const auto lock = locking_point(o)) locks.push_back(*lock);
+  }
+
+  std::optional<Lock> locking_point(const InitialOverlap& o) const {
+    const double allowed = o.depth + options.max_penetration;
+    for (const auto& [inside, other] : {std::pair(o.a, o.b), std::pair(o.b, o.a)})
+      for (const auto& x : bodies[inside].solids)
+        for (const auto& y : bodies[other].solids)
+          if (const auto p = verify::deep_common_point(x, x.frame, y, y.frame, allowed * (1 + 1e-9)))
+            return Lock{inside, other, p->point, p->depth, allowed};
+    return std::nullopt;
   }
 
   double overlap(PartId a, PartId b) const {
@@ -89,6 +103,7 @@ struct Verifier::Impl {
   std::vector<InitialOverlap> assembly_overlaps;
   VerifyOptions options;
   std::vector<double> rungs;
+  std::vector<Lock> locks;
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
 };
@@ -166,6 +181,8 @@ Verifier::Verifier(const Assembly& assembly, VerifyOptions options) {
 Verifier::~Verifier() = default;
 
 const VerifyOptions& Verifier::options() const { return impl_->options; }
+
+const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
 
 MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                                    const Path& path) const {

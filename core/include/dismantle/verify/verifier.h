@@ -35,6 +35,16 @@ struct MotionCheck {
   std::uint64_t tests = 0;     ///< elementary sweep tests done
 };
 
+/// Two parts that overlap when assembled in such a way that no motion within the limits can part them: a point lies in
+/// both, deeper below the surface of `inside` than the pair may penetrate. When they are apart it is outside `other`, so on
+/// any way there it passes through the surface of `other`, which then is as deep in `inside`.
+struct Lock {
+  PartId inside = 0, other = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled
+  double depth = 0;                                 ///< of the point below the surface of `inside`, assembly units
+  double allowed = 0;                               ///< the pair's when assembled and max_penetration
+};
+
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
 ///
 /// The law. Depth of a surface point of one part in another: its distance to the other's surface if it lies inside.
@@ -68,6 +78,8 @@ class DISMANTLE_API Verifier {
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;
+  /// All pairs that are locked by their overlap, sorted by (a, b) as Assembly::overlaps. Found when built.
+  const std::vector<Lock>& locks() const;
 
  private:
   struct Impl;
