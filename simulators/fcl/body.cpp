@@ -11,9 +11,6 @@
 namespace dismantle::mesh_collision {
 namespace {
 
-/// Faces that bend less than this (sine of the angle) are one face.
-constexpr double kFlatBend = 1e-6;
-
 Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
   return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
 }
@@ -85,23 +82,16 @@ double signed_distance(const std::vector<SolidPart>& solids, const Eigen::Vector
 
 EdgeGraph edge_graph(const Mesh& mesh) {
   EdgeGraph graph;
-  graph.of_triangle.assign(mesh.triangles.size(), {EdgeGraph::kFlat, EdgeGraph::kFlat, EdgeGraph::kFlat});
-  struct Side {
-    std::size_t triangle, corner;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Side>> sides;
+  graph.of_triangle.resize(mesh.triangles.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      sides[std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3])].push_back({t, k});
-  for (const auto& [ends, around] : sides) {
-    if (around.size() == 2) {
-      const Eigen::Vector3d n = face_normal(mesh, around[0].triangle), m = face_normal(mesh, around[1].triangle);
-      if (n.dot(m) > 0 && n.cross(m).norm() < kFlatBend) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::pair<std::uint32_t, std::uint32_t> ends =
+          std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      const auto [at, fresh] = known.try_emplace(ends, static_cast<std::uint32_t>(graph.edges.size()));
+      if (fresh) graph.edges.push_back({ends.first, ends.second});
+      graph.of_triangle[t][k] = at->second;
     }
-    for (const auto& side : around)
-      graph.of_triangle[side.triangle][side.corner] = static_cast<std::uint32_t>(graph.edges.size());
-    graph.edges.push_back({ends.first, ends.second});
-  }
   graph.vertex_begin.assign(mesh.vertices.size() + 1, 0);
   for (const auto& e : graph.edges)
     for (const auto v : e) ++graph.vertex_begin[v + 1];
@@ -136,9 +126,11 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
     const Eigen::Vector3d w = into_all(inward[v], least);
     if (!(least > 0.05)) continue;
     // A wall must not be turned inside out: its copy would let thin things pass.
+    const auto inside = [&](double length) { return signed_distance(solids, mesh.vertices[v] + length * w) < 0; };
     double length = depth;
-    for (int halving = 0; halving < 12; ++halving, length /= 2)
-      if (signed_distance(solids, mesh.vertices[v] + 4 * length * w) < 0) break;
+    for (int halving = 0; halving < 12 && !(inside(length) && inside(2 * length) && inside(4 * length)); ++halving)
+      length /= 2;
+    if (!inside(length)) continue;
     way[v] = length * w;
   }
   return way;

@@ -17,13 +17,11 @@
 
 namespace dismantle::mesh_collision {
 
-/// The edges along which a surface bends, which is where depth in another part can be largest.
 struct EdgeGraph {
-  static constexpr std::uint32_t kFlat = 0xffffffffu;
-  std::vector<std::array<std::uint32_t, 2>> edges;            ///< vertices of each bent edge
-  std::vector<std::array<std::uint32_t, 3>> of_triangle;      ///< bent edge k joins corners k and k + 1; or kFlat
-  std::vector<std::uint32_t> vertex_begin, vertex_edges;      ///< bent edges at each vertex; one entry more than vertices
-  std::vector<std::uint32_t> shell_vertex;                    ///< one vertex of each connected shell
+  std::vector<std::array<std::uint32_t, 2>> edges;        ///< vertices, the lower first
+  std::vector<std::array<std::uint32_t, 3>> of_triangle;  ///< edge k joins corners k and k + 1
+  std::vector<std::uint32_t> vertex_begin, vertex_edges;  ///< edges at each vertex; one entry more than vertices
+  std::vector<std::uint32_t> shell_vertex;                ///< one vertex of each connected shell
 };
 EdgeGraph edge_graph(const Mesh& mesh);
 

@@ -35,41 +35,13 @@ double bound(const SolidPart& solid, const End& u, const End& v) {
   return std::min(lipschitz, convex);
 }
 
-/// The box cuts the line to [t0, t1] of [0, 1]; false when it misses it.
-bool clip(const Aabb& box, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double& t0, double& t1) {
-  t0 = 0;
-  t1 = 1;
-  for (int k = 0; k < 3; ++k) {
-    const double d = q[k] - p[k];
-    if (d == 0) {
-      if (p[k] < box.lo[k] || p[k] > box.hi[k]) return false;
-      continue;
-    }
-    double in = (box.lo[k] - p[k]) / d, out = (box.hi[k] - p[k]) / d;
-    if (in > out) std::swap(in, out);
-    t0 = std::max(t0, in);
-    t1 = std::min(t1, out);
-  }
-  return t0 <= t1;
-}
-
-}  // namespace
-
-double deepest_on_line(const SolidPart& solid, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double best,
-                       double resolution, double enough, bool* inside_p, bool* inside_q) {
-  *inside_p = *inside_q = false;
-  double t0 = 0, t1 = 1;
-  if (!clip(solid.box, p, q, t0, t1)) return best;
-  const End first = at(solid, p + t0 * (q - p)), last = at(solid, p + t1 * (q - p));
-  *inside_p = t0 == 0 && first.depth > 0;
-  *inside_q = t1 == 1 && last.depth > 0;
-  best = std::max({best, first.depth, last.depth});
+double bisect(const SolidPart& solid, const End& first, const End& last, double best, const DepthGauge::Effort& effort) {
   std::array<std::pair<End, End>, 64> stack;  // depth first: never more than one entry per halving
   std::size_t top = 0;
   stack[top++] = {first, last};
-  while (top > 0 && best < enough) {
+  while (top > 0 && best < effort.enough) {
     const auto [u, v] = stack[--top];
-    if (bound(solid, u, v) <= best + resolution) continue;
+    if (bound(solid, u, v) <= best + effort.resolution) continue;
     const End middle = at(solid, 0.5 * (u.point + v.point));
     best = std::max(best, middle.depth);
     if (top + 2 > stack.size()) continue;  // halved beyond rounding
@@ -79,51 +51,103 @@ double deepest_on_line(const SolidPart& solid, const Eigen::Vector3d& p, const E
   return best;
 }
 
-void DepthGauge::open(std::uint32_t edge) {
-  if (edge == EdgeGraph::kFlat || stamp_[edge] == now_) return;
-  stamp_[edge] = now_;
-  open_.push_back(edge);
-}
+}  // namespace
 
-double DepthGauge::deepest(const Body& a, const Body& b, const Pose& a_to_b, const std::vector<std::uint32_t>& triangles,
-                           double resolution, double enough) {
+void DepthGauge::begin(const Body& a) {
   if (stamp_.size() < a.graph.edges.size()) stamp_.resize(a.graph.edges.size(), 0);
   ++now_;
   open_.clear();
-  for (const auto t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      open(a.graph.of_triangle[t][k]);
-      // A triangle within a flat face has no bent edge of its own, but its corners may.
-      const auto v = a.mesh.triangles[t][k];
-      for (auto e = a.graph.vertex_begin[v]; e < a.graph.vertex_begin[v + 1]; ++e) open(a.graph.vertex_edges[e]);
-    }
-  return follow(a, b, a_to_b, resolution, enough);
+  crossings_.clear();
 }
 
-double DepthGauge::deepest(const Body& a, const Body& b, const Pose& a_to_b, double resolution, double enough) {
-  if (stamp_.size() < a.graph.edges.size()) stamp_.resize(a.graph.edges.size(), 0);
-  ++now_;
-  open_.clear();
-  for (std::uint32_t e = 0; e < a.graph.edges.size(); ++e) open(e);
-  return follow(a, b, a_to_b, resolution, enough);
+void DepthGauge::open_corner(const Body& a, std::uint32_t vertex) {
+  for (auto i = a.graph.vertex_begin[vertex]; i < a.graph.vertex_begin[vertex + 1]; ++i) {
+    const std::uint32_t edge = a.graph.vertex_edges[i];
+    if (stamp_[edge] == now_) continue;
+    stamp_[edge] = now_;
+    open_.push_back(edge);
+  }
 }
 
-double DepthGauge::follow(const Body& a, const Body& b, const Pose& a_to_b, double resolution, double enough) {
+/// Where the edges of one triangle of a go through one of b. Grazing ones count: a place too many does no harm.
+void DepthGauge::cross(const Body& a, const Body& b, const Pose& a_to_b, std::uint32_t of_a, std::uint32_t of_b) {
+  constexpr double kGraze = 1e-9;
+  const Eigen::Vector3d& o = b.mesh.vertex(of_b, 0);
+  const Eigen::Vector3d u = b.mesh.vertex(of_b, 1) - o, v = b.mesh.vertex(of_b, 2) - o, n = u.cross(v);
+  const double nn = n.squaredNorm();
+  if (!(nn > 0)) return;
+  std::array<Eigen::Vector3d, 3> corner;
+  std::array<double, 3> height{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = a_to_b * a.mesh.vertex(of_a, static_cast<int>(k));
+    height[k] = n.dot(corner[k] - o);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t m = (k + 1) % 3;
+    const double rise = height[k] - height[m];
+    if (rise == 0) continue;  // parallel: it goes in and out elsewhere
+    const double place = height[k] / rise;
+    if (!(place >= -kGraze && place <= 1 + kGraze)) continue;
+    const Eigen::Vector3d x = corner[k] + place * (corner[m] - corner[k]) - o;
+    const double s = n.dot(x.cross(v)) / nn, t = n.dot(u.cross(x)) / nn;
+    if (s < -kGraze || t < -kGraze || s + t > 1 + kGraze) continue;
+    const std::uint32_t edge = a.graph.of_triangle[of_a][k];
+    const bool forward = a.graph.edges[edge][0] == a.mesh.triangles[of_a][k];
+    crossings_.push_back({edge, std::clamp(forward ? place : 1 - place, 0.0, 1.0)});
+  }
+}
+
+double DepthGauge::deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const TrianglePair> pairs,
+                           bool of_second, const Effort& effort) {
+  begin(a);
+  for (const auto& pair : pairs) {
+    const std::uint32_t of_a = of_second ? pair.b : pair.a, of_b = of_second ? pair.a : pair.b;
+    cross(a, b, a_to_b, of_a, of_b);
+  }
+  std::sort(crossings_.begin(), crossings_.end());
+  for (const auto& c : crossings_) {
+    if (stamp_[c.edge] == now_) continue;
+    stamp_[c.edge] = now_;
+    open_.push_back(c.edge);
+  }
+  return follow(a, b, a_to_b, effort);
+}
+
+double DepthGauge::deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const std::uint32_t> corners,
+                           const Effort& effort) {
+  begin(a);
+  for (const auto v : corners) open_corner(a, v);
+  return follow(a, b, a_to_b, effort);
+}
+
+double DepthGauge::follow(const Body& a, const Body& b, const Pose& a_to_b, const Effort& effort) {
   double best = 0;
-  for (std::size_t i = 0; i < open_.size() && best < enough; ++i) {
+  for (std::size_t i = 0; i < open_.size() && best < effort.enough; ++i) {
     const auto [v, w] = a.graph.edges[open_[i]];
     const Eigen::Vector3d p = a_to_b * a.mesh.vertices[v], q = a_to_b * a.mesh.vertices[w];
-    bool inside_v = false, inside_w = false;
-    for (const auto& solid : b.solids) {
-      bool in_v = false, in_w = false;
-      best = deepest_on_line(solid, p, q, best, resolution, enough, &in_v, &in_w);
-      inside_v |= in_v;
-      inside_w |= in_w;
+    const auto [first, last] = std::equal_range(crossings_.begin(), crossings_.end(), Crossing{open_[i], 0},
+                                                [](const auto& x, const auto& y) { return x.edge < y.edge; });
+    double from = 0;
+    for (auto c = first;; ++c) {  // the stretches between crossings
+      const double to = c == last ? 1.0 : c->place;
+      const Eigen::Vector3d middle = p + 0.5 * (from + to) * (q - p);
+      const bool stretch = to > from;
+      for (const auto& solid : b.solids) {
+        if (!stretch || !solid.box.contains(middle)) continue;
+        const End inner = at(solid, middle);
+        if (!(inner.depth > 0)) continue;
+        best = std::max(best, inner.depth);
+        if (from == 0) open_corner(a, v);
+        if (to == 1) open_corner(a, w);
+        if (!effort.thorough) continue;
+        const End begin_at = at(solid, p + from * (q - p)), end_at = at(solid, p + to * (q - p));
+        best = std::max({best, begin_at.depth, end_at.depth});
+        best = bisect(solid, begin_at, inner, best, effort);
+        best = bisect(solid, inner, end_at, best, effort);
+      }
+      if (c == last) break;
+      from = to;
     }
-    if (inside_v)
-      for (auto e = a.graph.vertex_begin[v]; e < a.graph.vertex_begin[v + 1]; ++e) open(a.graph.vertex_edges[e]);
-    if (inside_w)
-      for (auto e = a.graph.vertex_begin[w]; e < a.graph.vertex_begin[w + 1]; ++e) open(a.graph.vertex_edges[e]);
   }
   return best;
 }

@@ -2,6 +2,7 @@
 /// triangles; here it is a distance.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "body.h"
@@ -11,30 +12,41 @@ namespace dismantle::mesh_collision {
 /// Measures depth; keeps its buffers. One per thread.
 class DepthGauge {
  public:
-  /// Largest depth, in assembly units, that a point on a bent edge (or corner) of `a` has in `b`: distance to the
-  /// surface of the solid of b that it is inside of; 0 when none is inside. `a_to_b`: shape frame to shape frame.
-  ///
-  /// Starts at the edges of `triangles` (indices into a; those that meet b), and follows the surface of a from
-  /// corner to corner as long as it is inside. Along an edge the deepest point is found by bisection with bounds, so it
-  /// is exact to `resolution` (from below), however long the edge. Ends early at a depth of `enough` or more.
-  double deepest(const Body& a, const Body& b, const Pose& a_to_b, const std::vector<std::uint32_t>& triangles,
-                 double resolution, double enough);
+  /// What to do besides looking at the middles of what is inside.
+  struct Effort {
+    double resolution = 5e-4;  ///< exact to this much, from below; assembly units
+    double enough = 1;         ///< ends early at this depth
+    bool thorough = true;      ///< false: no more than a few points per edge, for a quick lower bound
+  };
 
-  /// The same for all of a: when a is wholly inside b.
-  double deepest(const Body& a, const Body& b, const Pose& a_to_b, double resolution, double enough);
+  /// Largest depth, in assembly units, that a point on an edge (or corner) of `a` has in `b`: the distance to the surface
+  /// of the solid of b that it is inside of; 0 when none is inside. `a_to_b`: shape frame to shape frame.
+  ///
+  /// `pairs`: triangles that meet, `of_second`: a is the second of each pair. Where the edges of the first
+  /// go through the second is computed from them; between two such places an edge is inside or outside as a whole. From
+  /// corners that are inside the search goes on along all edges there. Along the part of an edge that is inside, the
+  /// deepest point is found by bisection with bounds.
+  double deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const TrianglePair> pairs, bool of_second,
+                 const Effort& effort);
+  /// The same when no triangles meet, from the corners given: shells that may be inside as a whole.
+  double deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const std::uint32_t> corners,
+                 const Effort& effort);
 
  private:
-  void open(std::uint32_t edge);
-  double follow(const Body& a, const Body& b, const Pose& a_to_b, double resolution, double enough);
+  struct Crossing {
+    std::uint32_t edge = 0;
+    double place = 0;  ///< [0, 1] along the edge
+    bool operator<(const Crossing& o) const { return edge != o.edge ? edge < o.edge : place < o.place; }
+  };
+  void begin(const Body& a);
+  void open_corner(const Body& a, std::uint32_t vertex);
+  void cross(const Body& a, const Body& b, const Pose& a_to_b, std::uint32_t of_a, std::uint32_t of_b);
+  double follow(const Body& a, const Body& b, const Pose& a_to_b, const Effort& effort);
 
   std::vector<std::uint32_t> stamp_;  ///< by edge of a: the last measurement that saw it
   std::uint32_t now_ = 0;
   std::vector<std::uint32_t> open_;
+  std::vector<Crossing> crossings_;
 };
-
-/// Deepest point in `solid` on the line from p to q, searched only as far as it beats `best` by `resolution`;
-/// returns the better of both. `inside_p`, `inside_q`: whether the ends are inside.
-double deepest_on_line(const SolidPart& solid, const Eigen::Vector3d& p, const Eigen::Vector3d& q, double best,
-                       double resolution, double enough, bool* inside_p, bool* inside_q);
 
 }  // namespace dismantle::mesh_collision

@@ -8,11 +8,8 @@ namespace {
 
 /// More pairs of triangles than any two parts have that meet in a state worth measuring.
 constexpr std::size_t kMaxPairs = std::size_t{1} << 20;
-
-void sort_unique(std::vector<std::uint32_t>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
-}
+/// The first few are mostly enough to see that a state is too deep.
+constexpr std::size_t kFirstPairs = 16;
 
 }  // namespace
 
@@ -22,13 +19,14 @@ Aabb moved_box(const Aabb& box, const Pose& pose) {
   return {center - half, center + half};
 }
 
-/// Their surfaces do not meet: a shell of one inside the material of the other?
-bool PairCheck::contained(const Body& a, const Pose& a_to_b, const Body& b) const {
+/// Their surfaces do not meet: shells of one inside the material of the other? Leaves a corner of each in corners_.
+bool PairCheck::contained(const Body& a, const Pose& a_to_b, const Body& b) {
+  corners_.clear();
   for (const auto v : a.graph.shell_vertex) {
     const Eigen::Vector3d p = a_to_b * a.mesh.vertices[v];
-    if (b.box.contains(p) && signed_distance(b.solids, p) < 0) return true;
+    if (b.box.contains(p) && signed_distance(b.solids, p) < 0) corners_.push_back(v);
   }
-  return false;
+  return !corners_.empty();
 }
 
 bool PairCheck::collide(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b) {
@@ -43,23 +41,23 @@ bool PairCheck::collide(const Body& a, const Pose& pose_a, const Body& b, const 
 
 double PairCheck::measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough) {
   const Pose a_to_b = pose_b.inverse() * pose_a, b_to_a = a_to_b.inverse();
-  collider_.pairs(a.surface, pose_a, b.surface, pose_b, kMaxPairs, pairs_);
-  if (pairs_.empty()) {
-    double deepest = 0;
-    if (contained(a, a_to_b, b)) deepest = gauge_.deepest(a, b, a_to_b, parameters_.resolution, enough);
-    if (contained(b, b_to_a, a))
-      deepest = std::max(deepest, gauge_.deepest(b, a, b_to_a, parameters_.resolution, enough));
-    return deepest;
+  double deepest = 0;
+  for (const std::size_t limit : {kFirstPairs, kMaxPairs}) {
+    collider_.pairs(a.surface, pose_a, b.surface, pose_b, limit, pairs_);
+    if (pairs_.empty()) break;
+    const DepthGauge::Effort effort{parameters_.resolution, enough, pairs_.size() < limit};
+    const double of_a = gauge_.deepest(a, b, a_to_b, pairs_, false, effort);
+    const double of_b = of_a < enough ? gauge_.deepest(b, a, b_to_a, pairs_, true, effort) : 0.0;
+    deepest = std::max(of_a, of_b);
+    if (deepest >= enough) return deepest;
+    // One shell against one shell: what meets cannot be inside as well.
+    if (effort.thorough && a.graph.shell_vertex.size() == 1 && b.graph.shell_vertex.size() == 1) return deepest;
+    if (effort.thorough) break;
   }
-  triangles_.clear();
-  for (const auto& pair : pairs_) triangles_.push_back(pair.a);
-  sort_unique(triangles_);
-  const double of_a = gauge_.deepest(a, b, a_to_b, triangles_, parameters_.resolution, enough);
-  if (of_a >= enough) return of_a;
-  triangles_.clear();
-  for (const auto& pair : pairs_) triangles_.push_back(pair.b);
-  sort_unique(triangles_);
-  return std::max(of_a, gauge_.deepest(b, a, b_to_a, triangles_, parameters_.resolution, enough));
+  const DepthGauge::Effort effort{parameters_.resolution, enough, true};
+  if (contained(a, a_to_b, b)) deepest = std::max(deepest, gauge_.deepest(a, b, a_to_b, corners_, effort));
+  if (contained(b, b_to_a, a)) deepest = std::max(deepest, gauge_.deepest(b, a, b_to_a, corners_, effort));
+  return deepest;
 }
 
 /// The shrunken copy of a does not meet the surface of b, so each of its shells is inside or outside of b as a
@@ -83,7 +81,11 @@ double PairCheck::depth(const Body& a, const Pose& pose_a, const Body& b, const 
   if (!collide(a, pose_a, b, pose_b)) return 0;
   const double certified = parameters_.certified_depth;
   if (certified > 0 && certify(a, pose_a, b, pose_b, allowed + certified)) return certified;
-  return std::max(0.0, measure(a, pose_a, b, pose_b, allowed + parameters_.depth_limit) - allowed);
+  const double measured = measure(a, pose_a, b, pose_b, allowed + parameters_.depth_limit) - allowed;
+  // The search has stopped: say what cannot be exceeded. A ball inside a part is no larger than half its box's diagonal.
+  if (measured >= parameters_.depth_limit)
+    return std::max(measured, 0.5 * std::min(a.box.size().norm(), b.box.size().norm()) - allowed);
+  return std::max(0.0, measured);
 }
 
 }  // namespace dismantle::mesh_collision

@@ -7,8 +7,8 @@ namespace dismantle::mesh_collision {
 
 struct Parameters {
   double certified_depth = 0.002;
-  double resolution = 2e-4;
-  double depth_limit = 0.1;
+  double resolution = 5e-4;
+  double depth_limit = 0.005;
 
   static void describe(Schema<Parameters>& s) {
     s.add("certified_depth", &Parameters::certified_depth,
@@ -19,8 +19,8 @@ struct Parameters {
           {.unit = "unit", .min = 1e-6, .max = 0.1, .doc = "Measured depths are exact to this much."});
     s.add("depth_limit", &Parameters::depth_limit,
           {.unit = "unit", .min = 1e-3,
-           .doc = "States deeper than this are reported with some depth between this and theirs: searching on for the "
-                  "deepest point costs time and changes no decision."});
+           .doc = "States deeper than this are reported with an upper bound of their depth, half the smaller part's "
+                  "diagonal: searching on for the deepest point costs time and changes no decision."});
   }
 };
 

@@ -32,21 +32,21 @@ class PairCheck {
   bool collide(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b);
   /// Depth beyond `allowed`, >= 0. At most Parameters::certified_depth where that could be proved, else measured.
   double depth(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double allowed);
-  /// Measured only: the deepest point of the bent edges of one in the other, both ways.
+  /// Measured only: the deepest point of the edges of one in the other, both ways. Ends early at `enough`.
   double measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough);
   /// True proves that no surface point of one is deeper in the other than `depth`. Bodies without an inset of that
   /// depth prove nothing.
   bool certify(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth);
 
  private:
-  bool contained(const Body& a, const Pose& a_to_b, const Body& b) const;
+  bool contained(const Body& a, const Pose& a_to_b, const Body& b);
   bool inset_is_clear(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth);
 
   Parameters parameters_;
   Collider collider_;
   DepthGauge gauge_;
   std::vector<TrianglePair> pairs_;
-  std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint32_t> corners_;
 };
 
 class MeshWorld final : public World {
