@@ -7,9 +7,15 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/hull.h"
+#include "flat_faces.h"
 
 namespace dismantle::mesh_collision {
 namespace {
+
+/// Vertices this near to a plane lie in it (assembly units): far below any clearance, above the noise of printed
+/// coordinates.
+constexpr double kFlat = 1e-7;
+constexpr double kWorthMerging = 0.7;
 
 Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
   return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
@@ -137,7 +143,10 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
 }
 
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths) {
-  const Mesh& mesh = *part.mesh;
+  // Fans and slivers come with merging: not for a few triangles less.
+  Mesh mesh = merge_flat_faces(*part.mesh, kFlat);
+  if (static_cast<double>(mesh.triangles.size()) > kWorthMerging * static_cast<double>(part.mesh->triangles.size()))
+    mesh = *part.mesh;
   std::vector<SolidPart> solids;
   for (const sdf::Solid& solid : sdf::split_solids(mesh))
     solids.push_back({solid.mesh, solid.mesh.box(), std::make_unique<sdf::SurfaceQuery>(solid)});

@@ -41,7 +41,7 @@ struct Inset {
 
 /// In the frame in which the first part of this shape stands when assembled.
 struct Body {
-  Mesh mesh;
+  Mesh mesh;  ///< flat faces merged (flat_faces.h) where that is worth while
   Aabb box;
   std::vector<SolidPart> solids;
   EdgeGraph graph;

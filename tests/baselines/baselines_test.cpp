@@ -85,7 +85,7 @@ TEST_P(EachPlanner, PlanDependsOnTheSeedAlone) {
 
 TEST_P(EachPlanner, WorksUnderEachSequencePlanner) {
   for (const std::string sequence : {"progressive", "queue", "random"}) {
-    Settings set = brief(GetParam(), std::string(GetParam()) == "bk_rrt" ? "6000" : "600");
+    Settings set = brief(GetParam(), std::string(GetParam()) == "bk_rrt" ? "6000" : "4000");
     set.push_back("sequence_planner.type=" + sequence);
     const RunResult r = plan("stacked_box", kSmallBox, GetParam(), set);
     EXPECT_EQ(r.plan.status, PlanStatus::complete) << sequence;

@@ -1,5 +1,6 @@
 // Collision checks per second of the fcl simulator beside bare FCL, on the same meshes in the same poses. The ratio of
-// "world" to "bare" is what the wrapping costs; "penetration" adds depth where something collides.
+// "checked" to "bare_merged" is what the wrapping costs (containment, above all), to "bare" what merging flat faces gains on
+// top; "penetration" adds depth where something collides.
 #include <benchmark/benchmark.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
@@ -31,13 +32,8 @@ struct Setup {
     for (const auto& part : assembly.parts) {
       bodies.placed.push_back({make_body(part, {parameters.certified_depth}), {}});
       (part.name == c.moving ? cast.moving : cast.still).push_back({part.id, {}});
-      auto& model = models.emplace_back();
-      model.beginModel();
-      std::vector<fcl::Triangle> triangles;
-      for (const auto& t : part.mesh->triangles) triangles.emplace_back(t[0], t[1], t[2]);
-      model.addSubModel(part.mesh->vertices, triangles);
-      model.endModel();
-      model.computeLocalAABB();
+      build(*part.mesh, models.emplace_back());
+      build(bodies.placed.back().body->mesh, merged.emplace_back());
     }
     Rng rng(7);
     const Eigen::Vector3d center = bodies.placed[cast.moving[0].part].body->center;
@@ -55,11 +51,20 @@ struct Setup {
       transforms.push_back(transform);
     }
   }
+  static void build(const Mesh& mesh, fcl::BVHModel<fcl::OBBRSSd>& model) {
+    std::vector<fcl::Triangle> triangles;
+    for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+    model.beginModel();
+    model.addSubModel(mesh.vertices, triangles);
+    model.endModel();
+    model.computeLocalAABB();
+  }
+
   Parameters parameters;
   Assembly assembly;
   PreparedBodies bodies;
   Cast cast;
-  std::vector<fcl::BVHModel<fcl::OBBRSSd>> models;
+  std::vector<fcl::BVHModel<fcl::OBBRSSd>> models, merged;  ///< as given; flat faces merged
   std::vector<Pose> poses;
   std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>> transforms;
 };
@@ -78,19 +83,28 @@ void label(benchmark::State& state, double hits) {
                  std::to_string(static_cast<int>(100 * hits / static_cast<double>(state.iterations()))) + " %");
 }
 
-void bare(benchmark::State& state) {
-  Setup& s = setup(static_cast<std::size_t>(state.range(0)));
+void bare_on(benchmark::State& state, const Setup& s, const std::vector<fcl::BVHModel<fcl::OBBRSSd>>& models) {
   fcl::CollisionRequestd request;
   fcl::CollisionResultd result;
   std::size_t i = 0;
   double hits = 0;
   for (auto _ : state) {
     result.clear();
-    hits += fcl::collide(&s.models[s.cast.moving[0].part], s.transforms[i], &s.models[s.cast.still[0].part],
+    hits += fcl::collide(&models[s.cast.moving[0].part], s.transforms[i], &models[s.cast.still[0].part],
                          fcl::Transform3d::Identity(), request, result) > 0;
     i = (i + 1) % s.transforms.size();
   }
   label(state, hits);
+}
+
+void bare(benchmark::State& state) {
+  const Setup& s = setup(static_cast<std::size_t>(state.range(0)));
+  bare_on(state, s, s.models);
+}
+
+void bare_merged(benchmark::State& state) {
+  const Setup& s = setup(static_cast<std::size_t>(state.range(0)));
+  bare_on(state, s, s.merged);
 }
 
 void checked(benchmark::State& state) {
@@ -121,6 +135,7 @@ void penetration(benchmark::State& state) {
 }
 
 BENCHMARK(bare)->DenseRange(0, std::size(kCases) - 1);
+BENCHMARK(bare_merged)->DenseRange(0, std::size(kCases) - 1);
 BENCHMARK(checked)->DenseRange(0, std::size(kCases) - 1);
 BENCHMARK(penetration)->DenseRange(0, std::size(kCases) - 1);
 

@@ -186,6 +186,9 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
   }
   result.counts["checks"] = static_cast<double>(budget.checks);
   result.counts["refused"] = static_cast<double>(court.refused());
+  std::string text = "trees:";
+  for (const auto& [name, count] : result.counts) text += " " + name + " " + std::to_string(static_cast<std::uint64_t>(count));
+  context.log(LogLevel::debug, text);
   return result;
 }
 
