@@ -79,8 +79,8 @@ double signed_distance(const std::vector<SolidPart>& solids, const Eigen::Vector
   double least = limit;
   for (const auto& s : solids) {
     if (s.box.squared_distance(p) > 0 && s.box.squared_distance(p) >= least * least) continue;
-    const sdf::Sample sample = s.surface->sample(p, s.box.contains(p) ? std::numeric_limits<double>::infinity()
-                                                                      : std::max(least, 0.0));
+    const sdf::Sample sample =
+        s.surface->sample(p, s.box.contains(p) ? std::numeric_limits<double>::infinity() : std::max(least, 0.0));
     if (sample.triangle != sdf::kNoTriangle) least = std::min(least, sample.value);
   }
   return least;
@@ -152,9 +152,15 @@ std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double
     solids.push_back({solid.mesh, solid.mesh.box(), std::make_unique<sdf::SurfaceQuery>(solid)});
   if (solids.empty()) throw InputError(part.name, "encloses no volume");
   EdgeGraph graph = edge_graph(mesh);
-  auto body = std::make_shared<Body>(Body{mesh, mesh.box(), std::move(solids), std::move(graph),
-                                          CollisionMesh(mesh.vertices, mesh.triangles), hull_corners(mesh.vertices),
-                                          sdf::mass_properties(mesh).center, 0, {}});
+  auto body = std::make_shared<Body>(Body{mesh,
+                                          mesh.box(),
+                                          std::move(solids),
+                                          std::move(graph),
+                                          CollisionMesh(mesh.vertices, mesh.triangles),
+                                          hull_corners(mesh.vertices),
+                                          sdf::mass_properties(mesh).center,
+                                          0,
+                                          {}});
   for (const auto& v : mesh.vertices) body->radius = std::max(body->radius, (v - body->center).norm());
   for (const double depth : depths)
     body->insets.emplace(depth, make_inset(mesh, body->solids, body->graph.shell_vertex, depth));

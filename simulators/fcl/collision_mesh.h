@@ -41,8 +41,8 @@ class Collider {
   /// Do the surfaces meet? Poses place the meshes in one frame.
   bool meet(const CollisionMesh& a, const Pose& pose_a, const CollisionMesh& b, const Pose& pose_b);
   /// All pairs of triangles that meet, at most `limit`; replaces the content of `out`.
-  void pairs(const CollisionMesh& a, const Pose& pose_a, const CollisionMesh& b, const Pose& pose_b,
-             std::size_t limit, std::vector<TrianglePair>& out);
+  void pairs(const CollisionMesh& a, const Pose& pose_a, const CollisionMesh& b, const Pose& pose_b, std::size_t limit,
+             std::vector<TrianglePair>& out);
 
  private:
   struct Impl;

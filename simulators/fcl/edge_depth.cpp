@@ -35,7 +35,8 @@ double bound(const SolidPart& solid, const End& u, const End& v) {
   return std::min(lipschitz, convex);
 }
 
-double bisect(const SolidPart& solid, const End& first, const End& last, double best, const DepthGauge::Effort& effort) {
+double bisect(const SolidPart& solid, const End& first, const End& last, double best,
+              const DepthGauge::Effort& effort) {
   std::array<std::pair<End, End>, 64> stack;  // depth first: never more than one entry per halving
   std::size_t top = 0;
   stack[top++] = {first, last};

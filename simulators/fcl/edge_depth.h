@@ -19,8 +19,8 @@ class DepthGauge {
     bool thorough = true;      ///< false: no more than a few points per edge, for a quick lower bound
   };
 
-  /// Largest depth, in assembly units, that a point on an edge (or corner) of `a` has in `b`: the distance to the surface
-  /// of the solid of b that it is inside of; 0 when none is inside. `a_to_b`: shape frame to shape frame.
+  /// Largest depth, in assembly units, that a point on an edge (or corner) of `a` has in `b`: the distance to the
+  /// surface of the solid of b that it is inside of; 0 when none is inside. `a_to_b`: shape frame to shape frame.
   ///
   /// `pairs`: triangles that meet, `of_second`: a is the second of each pair. Where the edges of the first
   /// go through the second is computed from them; between two such places an edge is inside or outside as a whole. From

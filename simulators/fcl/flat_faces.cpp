@@ -22,7 +22,10 @@ constexpr double kSameNormal = 1 - 1e-6;
 class Collapser {
  public:
   Collapser(const Mesh& mesh, double tolerance)
-      : points_(mesh.vertices), triangles_(mesh.triangles), alive_(triangles_.size(), true), around_(points_.size()),
+      : points_(mesh.vertices),
+        triangles_(mesh.triangles),
+        alive_(triangles_.size(), true),
+        around_(points_.size()),
         tolerance_(tolerance) {
     for (Id t = 0; t < triangles_.size(); ++t)
       for (const Id v : triangles_[t]) around_[v].push_back(t);
@@ -67,8 +70,7 @@ class Collapser {
   void find_faces() {
     std::map<std::pair<Id, Id>, std::vector<Id>> edges;
     for (Id t = 0; t < triangles_.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k)
-        edges[std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3])].push_back(t);
+      for (std::size_t k = 0; k < 3; ++k) edges[std::minmax(triangles_[t][k], triangles_[t][(k + 1) % 3])].push_back(t);
     std::vector<Id> order(triangles_.size());
     std::iota(order.begin(), order.end(), 0u);
     std::vector<double> area;

@@ -82,7 +82,8 @@ double PairCheck::depth(const Body& a, const Pose& pose_a, const Body& b, const 
   const double certified = parameters_.certified_depth;
   if (certified > 0 && certify(a, pose_a, b, pose_b, allowed + certified)) return certified;
   const double measured = measure(a, pose_a, b, pose_b, allowed + parameters_.depth_limit) - allowed;
-  // The search has stopped: say what cannot be exceeded. A ball inside a part is no larger than half its box's diagonal.
+  // The search has stopped: say what cannot be exceeded. A ball inside a part is no larger than half its box's
+  // diagonal.
   if (measured >= parameters_.depth_limit)
     return std::max(measured, 0.5 * std::min(a.box.size().norm(), b.box.size().norm()) - allowed);
   return std::max(0.0, measured);

@@ -1,4 +1,5 @@
 #include "dismantle/plugin.h"
+
 #include "simulator.h"
 
 DISMANTLE_PLUGIN("dismantle.fcl", DISMANTLE_VERSION, "MIT", "") {

@@ -68,8 +68,7 @@ std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, 
   in_parallel(distinct.size(), context.threads, [&](std::size_t k) {
     const std::size_t i = distinct[k];
     if (context.should_stop()) return;
-    prepared->placed[i].body =
-        make_body(assembly.parts[i], std::vector<double>(depths[i].begin(), depths[i].end()));
+    prepared->placed[i].body = make_body(assembly.parts[i], std::vector<double>(depths[i].begin(), depths[i].end()));
     const std::lock_guard lock(progress);
     context.progress("hierarchies", ++done, distinct.size(), assembly.parts[i].name);
   });
@@ -78,13 +77,14 @@ std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, 
 }
 
 std::unique_ptr<World> FclSimulator::world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
-                             MotionSpace space) const {
+                                           MotionSpace space) const {
   const auto& bodies = dynamic_cast<const PreparedBodies&>(prepared);
   for (const auto* group : {&cast.moving, &cast.still})
     for (const PlacedPart& p : *group)
       if (p.part >= bodies.placed.size() || !bodies.placed[p.part].body)
-        throw InputError(p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
-                         "was not prepared (the preparation was interrupted)");
+        throw InputError(
+            p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
+            "was not prepared (the preparation was interrupted)");
   return std::make_unique<MeshWorld>(bodies, cast, space, parameters_);
 }
 

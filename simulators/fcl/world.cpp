@@ -78,8 +78,7 @@ bool MeshWorld::separated(const State& state) {
   place(state);
   Aabb box;
   for (const auto& m : moving_) box.extend(m.box);
-  // The common case of a state deep in the assembly needs no hulls: its centre is inside the other's box and
-  // boxes say nothing; the common case of a state far out does not either.
+  // Far out, boxes say it already.
   const Eigen::Vector3d gap = (box.lo - rest_box_.hi).cwiseMax(rest_box_.lo - box.hi);
   if (gap.maxCoeff() > kSeparationGap) return true;
   moving_hull_.clear();

@@ -56,7 +56,9 @@ class MeshWorld final : public World {
   const Cast& cast() const override { return cast_; }
   MotionSpace space() const override { return space_; }
   State initial_state() const override;
-  Eigen::Vector3d center(std::size_t body) const override { return moving_[body].placed->rest * moving_[body].placed->body->center; }
+  Eigen::Vector3d center(std::size_t body) const override {
+    return moving_[body].placed->rest * moving_[body].placed->body->center;
+  }
   double radius(std::size_t body) const override { return moving_[body].placed->body->radius; }
   double torque_arm(std::size_t body) const override { return radius(body); }
   [[noreturn]] StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;

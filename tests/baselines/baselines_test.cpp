@@ -29,7 +29,8 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
   RunContext context;
   context.threads = threads;
   PrepareReport report;
-  const Assembly assembly = prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
+  const Assembly assembly =
+      prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
   Ingredients ingredients;
   ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
   ingredients.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.params); };
@@ -55,8 +56,9 @@ const ParamSet kSmallBox = {{"count", std::int64_t{1}}, {"clearance", 0.5}, {"si
 class EachPlanner : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EachPlanner, SolvesPegWithGenerousClearance) {
-  const RunResult r = plan("peg_in_hole", {{"clearance", 0.5}, {"size", 10.0}, {"length", 12.0}, {"segments", std::int64_t{16}}},
-                           GetParam(), {"run.path_steps=200000"});
+  const RunResult r =
+      plan("peg_in_hole", {{"clearance", 0.5}, {"size", 10.0}, {"length", 12.0}, {"segments", std::int64_t{16}}},
+           GetParam(), {"run.path_steps=200000"});
   EXPECT_EQ(r.plan.status, PlanStatus::complete);
 }
 
@@ -67,8 +69,7 @@ TEST_P(EachPlanner, SolvesBoxWithLid) {
 }
 
 TEST_P(EachPlanner, SolvesSlotWithOneBend) {
-  const RunResult r =
-      plan("l_slot", {{"clearance", 0.5}, {"travel", 10.0}}, GetParam(), {"run.path_steps=400000"});
+  const RunResult r = plan("l_slot", {{"clearance", 0.5}, {"travel", 10.0}}, GetParam(), {"run.path_steps=400000"});
   EXPECT_EQ(r.plan.status, PlanStatus::complete);
 }
 
@@ -85,7 +86,8 @@ TEST_P(EachPlanner, PlanDependsOnTheSeedAlone) {
 
 TEST_P(EachPlanner, WorksUnderEachSequencePlanner) {
   for (const std::string sequence : {"progressive", "queue", "random"}) {
-    Settings set = brief(GetParam(), std::string(GetParam()) == "bk_rrt" ? "6000" : "4000");
+    const std::string planner = GetParam();
+    Settings set = brief(planner, planner == "bk_rrt" ? "6000" : planner == "rrt" ? "3000" : "800");
     set.push_back("sequence_planner.type=" + sequence);
     const RunResult r = plan("stacked_box", kSmallBox, GetParam(), set);
     EXPECT_EQ(r.plan.status, PlanStatus::complete) << sequence;

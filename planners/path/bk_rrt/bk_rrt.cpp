@@ -58,7 +58,7 @@ class BkRrt final : public PathPlanner {
         if (solved || stopped) break;
       }
     if (!solved) {
-      result.outcome = !stopped                       ? Outcome::depth_limit
+      result.outcome = !stopped                     ? Outcome::depth_limit
                        : context.cancel.cancelled() ? Outcome::cancelled
                                                     : Outcome::timeout;
       const auto& best = *std::max_element(trees.begin(), trees.end(), [](const auto& a, const auto& b) {

@@ -25,18 +25,28 @@ struct Parameters {
                           {"auto", Motion::automatic, "a tree of each kind, which grow in turn"}},
                          "State space of the search.");
     s.add("time_step", &Parameters::time_step,
-          {.unit = "s", .min = 1e-3, .max = 10, .doc = "Planning time step: how long a random action is applied (table 6)."});
+          {.unit = "s",
+           .min = 1e-3,
+           .max = 10,
+           .doc = "Planning time step: how long a random action is applied (table 6)."});
     s.add("force", &Parameters::force,
-          {.unit = "N", .min = 0, .min_open = true,
+          {.unit = "N",
+           .min = 0,
+           .min_open = true,
            .doc = "Force of each action; torques are this times the part's radius (table 6)."});
-    s.add_choice<Actions>("actions", &Parameters::actions,
-                          {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
-                           {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
-                          "What a random action is drawn from.");
+    s.add_choice<Actions>(
+        "actions", &Parameters::actions,
+        {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
+         {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
+        "What a random action is drawn from.");
     s.add("thinning", &Parameters::thinning,
-          {.unit = "unit", .min = 0, .max = 0.01, .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+          {.unit = "unit",
+           .min = 0,
+           .max = 0.01,
+           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
     s.add("level_steps", &Parameters::level_steps,
-          {.unit = "1", .min = 1,
+          {.unit = "1",
+           .min = 1,
            .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
                   "level doubles them."});
   }

@@ -21,7 +21,9 @@ bool same(const std::vector<Pose>& a, const std::vector<Pose>& b) {
 }  // namespace
 
 RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng)
-    : query_(query), parameters_(parameters), rng_(rng),
+    : query_(query),
+      parameters_(parameters),
+      rng_(rng),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
       sees_contacts_(query.simulator.capabilities().contacts) {
   const sampling::Surroundings around(query, *world_);
@@ -69,8 +71,8 @@ Action RandomTree::random_action() {
   }
   Action action;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    action.wrenches.push_back({parameters_.force * unit.head<3>(),
-                               parameters_.force * world_->torque_arm(i) * unit.tail<3>()});
+    action.wrenches.push_back(
+        {parameters_.force * unit.head<3>(), parameters_.force * world_->torque_arm(i) * unit.tail<3>()});
   return action;
 }
 

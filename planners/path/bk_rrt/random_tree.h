@@ -23,7 +23,7 @@ class RandomTree {
   bool iterate(PathResult& result);
 
   bool starts_out();
-  std::uint64_t steps() const { return steps_; }      ///< simulated time steps so far
+  std::uint64_t steps() const { return steps_; }  ///< simulated time steps so far
   std::uint64_t refused() const { return refused_; }
   std::size_t size() const { return nodes_.size(); }
   double farthest_way() const { return farthest_way_; }  ///< of the centre, assembly units
@@ -38,7 +38,7 @@ class RandomTree {
     StateType place;  ///< of the first moving part
     std::uint32_t parent = 0;
     unsigned depth = 0;
-    Path way;         ///< from the parent: its state excluded, this one included
+    Path way;  ///< from the parent: its state excluded, this one included
   };
   std::uint32_t add(State state, std::uint32_t parent, Path way);
   StateType place(const State& state) const;

@@ -41,7 +41,8 @@ void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<Face>&
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle, std::size_t most) {
+std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle,
+                                            std::size_t most) {
   std::vector<Face> faces;
   Aabb near;
   for (const auto& m : query.cast.moving) {

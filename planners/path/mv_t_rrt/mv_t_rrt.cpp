@@ -13,7 +13,8 @@ struct Parameters : sampling::TreeParameters {
   std::int64_t max_vectors = 256;
 
   static void describe(Schema<Parameters>& s) {
-    sampling::describe_tree(s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
+    sampling::describe_tree(
+        s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
     s.add("neighbor_reach", &Parameters::neighbor_reach,
           {.unit = "unit", .min = 0, .doc = "Still parts whose boxes are this near to the part's are its neighbours."});
     s.add("merge_angle", &Parameters::merge_angle,

@@ -8,7 +8,8 @@ namespace {
 struct Parameters : sampling::TreeParameters {
   Parameters() { goal_bias = 0.2; }
   static void describe(Schema<Parameters>& s) {
-    sampling::describe_tree(s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
+    sampling::describe_tree(
+        s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
   }
 };
 
@@ -17,9 +18,9 @@ class TargetlessRrt final : public PathPlanner {
   explicit TargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
   Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
   PathResult plan(const PathQuery& query, RunContext& context) override {
-    return sampling::plan_by_trees(
-        query, context, parameters_,
-        [](sampling::Scene& scene, Rng) { return std::make_unique<sampling::NearestExit>(scene); });
+    return sampling::plan_by_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
+      return std::make_unique<sampling::NearestExit>(scene);
+    });
   }
 
  private:

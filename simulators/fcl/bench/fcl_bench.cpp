@@ -1,6 +1,6 @@
 // Collision checks per second of the fcl simulator beside bare FCL, on the same meshes in the same poses. The ratio of
-// "checked" to "bare_merged" is what the wrapping costs (containment, above all), to "bare" what merging flat faces gains on
-// top; "penetration" adds depth where something collides.
+// "checked" to "bare_merged" is what the wrapping costs (containment, above all), to "bare" what merging flat faces
+// gains on top; "penetration" adds depth where something collides.
 #include <benchmark/benchmark.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
@@ -21,8 +21,10 @@ struct Case {
   double turn;   ///< largest turn, rad
 };
 /// Near the assembled state, where planners spend their time; and all over the place.
-constexpr Case kCases[] = {{"peg_in_hole", "peg", 0.05, 0.005}, {"peg_in_hole", "peg", 5, 1},
-                           {"bolt_and_nut", "nut", 0.05, 0.005}, {"bolt_and_nut", "nut", 5, 1}};
+constexpr Case kCases[] = {{"peg_in_hole", "peg", 0.05, 0.005},
+                           {"peg_in_hole", "peg", 5, 1},
+                           {"bolt_and_nut", "nut", 0.05, 0.005},
+                           {"bolt_and_nut", "nut", 5, 1}};
 
 struct Setup {
   explicit Setup(const Case& c) {

@@ -77,8 +77,8 @@ TEST(FclDepth, Containment) {
   const Pose off = shapes::shift({0.3, -0.2, 0.1});
   EXPECT_TRUE(pair.check.collide(*pair.a, off, *pair.b, {}));
   EXPECT_TRUE(swapped.check.collide(*swapped.a, {}, *swapped.b, off));
-  EXPECT_NEAR(pair.measured(off, {}), 1.5, 0.31);       // deepest corner: at least 1.2
-  EXPECT_GE(pair.depth(off, {}), 1.2);                  // beyond the limit: an upper bound
+  EXPECT_NEAR(pair.measured(off, {}), 1.5, 0.31);  // deepest corner: at least 1.2
+  EXPECT_GE(pair.depth(off, {}), 1.2);             // beyond the limit: an upper bound
   EXPECT_GE(swapped.depth({}, off), 1.2);
   Pair hollow(inner, shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.1));
   EXPECT_FALSE(hollow.check.collide(*hollow.a, off, *hollow.b, {}));
@@ -144,8 +144,8 @@ TEST(FclDepth, SoundAgainstTheJudge) {
 
 /// A shrunken copy lies within its depth of the original, and inside of it.
 TEST(FclDepth, Insets) {
-  for (const Mesh& mesh : {part_of("peg_in_hole", "block"), part_of("bolt_and_nut", "bolt"), part_of("l_slot", "housing"),
-                           shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.004)}) {
+  for (const Mesh& mesh : {part_of("peg_in_hole", "block"), part_of("bolt_and_nut", "bolt"),
+                           part_of("l_slot", "housing"), shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.004)}) {
     const auto body = body_of(mesh, {});
     for (const double depth : {0.002, 0.02}) {
       const auto way = inset_displacements(mesh, body->solids, depth);
@@ -181,8 +181,8 @@ class FclWorld : public ::testing::Test {
   Parameters parameters;
   FclSimulator simulator{parameters};
   RunContext context;
-  Assembly assembly = shapes::assembly_of({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1}),
-                                         shapes::box({-5, -5, -1}, {5, 5, 0})});
+  Assembly assembly = shapes::assembly_of(
+      {shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1}), shapes::box({-5, -5, -1}, {5, 5, 0})});
   std::shared_ptr<const Prepared> prepared;
 };
 

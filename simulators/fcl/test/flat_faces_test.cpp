@@ -1,10 +1,11 @@
 // Laws: merging flat faces changes the number of triangles and nothing else.
+#include "flat_faces.h"
+
 #include <gtest/gtest.h>
 
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/samples.h"
-#include "flat_faces.h"
 #include "test_shapes.h"
 
 namespace dismantle::mesh_collision {
@@ -30,7 +31,8 @@ void expect_same_surface(const Mesh& before, const Mesh& after, double scale) {
 TEST(FlatFaces, RefinedBoxIsABoxAgain) {
   Rng rng(1);
   for (int i = 0; i < 20; ++i) {
-    const Mesh fine = shapes::moved(shapes::refine(shapes::box({-1, -2, -3}, {1, 2, 3}), 3), shapes::random_pose(rng, 5));
+    const Mesh fine =
+        shapes::moved(shapes::refine(shapes::box({-1, -2, -3}, {1, 2, 3}), 3), shapes::random_pose(rng, 5));
     const Mesh coarse = merge_flat_faces(fine, kTolerance);
     EXPECT_EQ(coarse.triangles.size(), 12u);
     expect_same_surface(fine, coarse, 1);

@@ -32,7 +32,8 @@ void silence_ompl() {
 }  // namespace
 
 Budget::Budget(const PathQuery& query, const RunContext& run)
-    : max_checks(query.effort.max_steps), context(run),
+    : max_checks(query.effort.max_steps),
+      context(run),
       deadline(query.effort.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
                                         : run.deadline) {}
 
@@ -201,9 +202,10 @@ std::vector<PartId> Scene::blockers() const {
   for (const auto& still : query_.cast.still) {
     const auto alone =
         query_.simulator.world(query_.assembly, query_.prepared, {query_.cast.moving, {still}}, world_->space());
-    const auto count = static_cast<std::size_t>(
-        std::count_if(blocked_states_.begin(), blocked_states_.end(),
-                      [&](const StateType& s) { return alone->penetration(world_state(s)) > allowed_; }));
+    const auto count =
+        static_cast<std::size_t>(std::count_if(blocked_states_.begin(), blocked_states_.end(), [&](const StateType& s) {
+          return alone->penetration(world_state(s)) > allowed_;
+        }));
     if (count > 0) hits.emplace_back(count, still.part);
   }
   std::sort(hits.begin(), hits.end(),

@@ -11,7 +11,11 @@ namespace dismantle::sampling {
 namespace ob = ompl::base;
 
 TargetTree::TargetTree(Scene& scene, const Settings& settings, std::unique_ptr<TargetRule> rule, const Rng& rng)
-    : Planner(scene.information(), "TargetTree"), scene_(scene), settings_(settings), rule_(std::move(rule)), rng_(rng) {}
+    : Planner(scene.information(), "TargetTree"),
+      scene_(scene),
+      settings_(settings),
+      rule_(std::move(rule)),
+      rng_(rng) {}
 
 void TargetTree::clear() {
   Planner::clear();

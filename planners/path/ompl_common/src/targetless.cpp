@@ -9,7 +9,8 @@ std::array<int, 6> exits_by_distance(const Scene& scene, const Scene::StateType&
   std::array<int, 6> order{};
   std::array<double, 6> way{};
   std::iota(order.begin(), order.end(), 0);
-  for (const int side : order) way[static_cast<std::size_t>(side)] = scene.space().distance(from, scene.exit(from, side));
+  for (const int side : order)
+    way[static_cast<std::size_t>(side)] = scene.space().distance(from, scene.exit(from, side));
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return way[static_cast<std::size_t>(a)] < way[static_cast<std::size_t>(b)]; });
   return order;

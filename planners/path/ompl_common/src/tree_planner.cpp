@@ -119,7 +119,8 @@ class Search {
 /// Checks that a limit of depth allows; 0 = no limit.
 std::uint64_t level_limit(const Effort& effort, const TreeParameters& p) {
   if (effort.max_depth == 0) return 0;
-  const double checks = std::ldexp(static_cast<double>(p.level_checks), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
+  const double checks =
+      std::ldexp(static_cast<double>(p.level_checks), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
   return checks < 1e18 ? static_cast<std::uint64_t>(checks) : 0;
 }
 
@@ -141,7 +142,8 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
 
   std::vector<std::unique_ptr<Search>> searches;
   const auto add = [&](MotionSpace motion, std::uint64_t stream) {
-    searches.push_back(std::make_unique<Search>(query, motion, parameters, make_rule, budget, context.rng.fork(stream)));
+    searches.push_back(
+        std::make_unique<Search>(query, motion, parameters, make_rule, budget, context.rng.fork(stream)));
   };
   // A motion without turns is a motion in SE(3), too: lines need no space of their own.
   if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
@@ -156,12 +158,10 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
   }
 
   bool solved = false;
-  if (make_lines)
-    solved = searches.front()->try_lines(make_lines(query), parameters.range, court, limit, result);
+  if (make_lines) solved = searches.front()->try_lines(make_lines(query), parameters.range, court, limit, result);
   for (std::uint64_t turn = kFirstTurn; !solved && budget.checks < limit && !budget.spent(); turn *= 2)
     for (const auto& search : searches) {
-      const std::uint64_t share =
-          searches.size() > 1 ? std::min(limit, budget.checks + turn) : limit;
+      const std::uint64_t share = searches.size() > 1 ? std::min(limit, budget.checks + turn) : limit;
       if (solved = search->grow(court, share, result); solved) break;
     }
 
@@ -176,7 +176,8 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
       if (way > most) most = way, furthest = i;
     }
     if (most >= 0)
-      result.best_pose = searches[furthest]->scene().poses(searches[furthest]->tree().state(searches[furthest]->tree().farthest()));
+      result.best_pose =
+          searches[furthest]->scene().poses(searches[furthest]->tree().state(searches[furthest]->tree().farthest()));
     if (!context.cancel.cancelled()) result.blocked_by = searches.front()->scene().blockers();
   }
   for (const auto& search : searches) {
@@ -187,7 +188,8 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
   result.counts["checks"] = static_cast<double>(budget.checks);
   result.counts["refused"] = static_cast<double>(court.refused());
   std::string text = "trees:";
-  for (const auto& [name, count] : result.counts) text += " " + name + " " + std::to_string(static_cast<std::uint64_t>(count));
+  for (const auto& [name, count] : result.counts)
+    text += " " + name + " " + std::to_string(static_cast<std::uint64_t>(count));
   context.log(LogLevel::debug, text);
   return result;
 }

@@ -12,7 +12,8 @@ namespace dismantle::sampling::fake {
 
 class FakeWorld final : public World {
  public:
-  FakeWorld(Cast cast, MotionSpace space, std::function<double(const Pose&)> depth, std::function<bool(const Pose&)> out)
+  FakeWorld(Cast cast, MotionSpace space, std::function<double(const Pose&)> depth,
+            std::function<bool(const Pose&)> out)
       : cast_(std::move(cast)), space_(space), depth_(std::move(depth)), out_(std::move(out)) {}
   const Cast& cast() const override { return cast_; }
   MotionSpace space() const override { return space_; }
@@ -41,7 +42,9 @@ struct FakeSimulator final : Simulator {
   std::function<double(const Pose&)> depth = [](const Pose&) { return 0.0; };
   std::function<bool(const Pose&)> out = [](const Pose&) { return false; };
   Capabilities capabilities() const noexcept override { return {.distance = true, .max_moving = 1}; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override { return std::make_shared<Prepared>(); }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override {
+    return std::make_shared<Prepared>();
+  }
   std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace space) const override {
     return std::make_unique<FakeWorld>(cast, space, depth, out);
   }

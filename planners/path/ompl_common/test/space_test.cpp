@@ -31,12 +31,12 @@ TEST(DisplacementSpace, MetricBoundsTravel) {
     EXPECT_NEAR(space.distance(a, b), space.distance(b, a), 1e-12);
     EXPECT_LE(space.distance(a, c), space.distance(a, b) + space.distance(b, c) + 1e-9);
     EXPECT_NEAR(space.distance(a, space.between(a, b, 0.3)), 0.3 * space.distance(a, b), 1e-6);
-    const Vector3d point =
-        space.mover().center + space.mover().radius * shapes::random_vector(rng, -1, 1).normalized();
+    const Vector3d point = space.mover().center + space.mover().radius * shapes::random_vector(rng, -1, 1).normalized();
     double way = 0;
     for (int k = 1; k <= 200; ++k)
       way += (space.displacement(space.between(a, b, k / 200.0)) * point -
-              space.displacement(space.between(a, b, (k - 1) / 200.0)) * point).norm();
+              space.displacement(space.between(a, b, (k - 1) / 200.0)) * point)
+                 .norm();
     EXPECT_LE(way, space.distance(a, b) + 1e-9);
     EXPECT_LE(space.distance(a, b), space.getMaximumExtent() + 1e-9);
   }
@@ -103,7 +103,8 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
 TEST(Scene, ThinWallIsNeverJumped) {
   constexpr double kStep = 0.01;
   Rng rng(5);
-  const Assembly assembly = shapes::assembly_of({shapes::box({-1, -1, -1}, {1, 1, 1}), shapes::box({-5, -5, -5}, {5, 5, 5})});
+  const Assembly assembly =
+      shapes::assembly_of({shapes::box({-1, -1, -1}, {1, 1, 1}), shapes::box({-5, -5, -5}, {5, 5, 5})});
   RunContext context;
   for (int i = 0; i < 60; ++i) {
     const Vector3d normal = shapes::random_vector(rng, -1, 1).normalized();
@@ -111,7 +112,8 @@ TEST(Scene, ThinWallIsNeverJumped) {
     fake::FakeSimulator simulator;
     simulator.depth = [&](const Pose& p) { return std::abs(normal.dot(p.t) - at) <= kStep / 2 ? 1.0 : 0.0; };
     const auto prepared = simulator.prepare(assembly, context);
-    const PathQuery query{assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, [](const Path&) { return Verdict{}; }};
+    const PathQuery query{
+        assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, [](const Path&) { return Verdict{}; }};
     Budget budget(query, context);
     Scene scene(query, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid, 0.004, kStep, budget);
     for (int k = 0; k < 20; ++k) {

@@ -5,9 +5,9 @@
 #include <thread>
 
 #include "dismantle/prepare/prepare.h"
+#include "dismantle/samples.h"
 #include "dismantle/sampling/targetless.h"
 #include "dismantle/sampling/tree_planner.h"
-#include "dismantle/samples.h"
 #include "dismantle/verify/verifier.h"
 #include "simulator.h"
 
@@ -30,8 +30,9 @@ struct Task {
   }
   PathResult plan(std::uint64_t seed, Effort effort, const TreeParameters& p = {},
                   std::function<Verdict(const Path&)> judge_with = {}) const {
-    const PathQuery query{assembly, simulator, *prepared, cast, effort,
-                          judge_with ? judge_with : [this](const Path& path) { return judge(path); }};
+    const PathQuery query{assembly,  simulator,
+                          *prepared, cast,
+                          effort,    judge_with ? judge_with : [this](const Path& path) { return judge(path); }};
     RunContext own;
     own.rng = Rng(seed);
     own.cancel = cancel;

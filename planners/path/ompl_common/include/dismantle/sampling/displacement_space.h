@@ -12,7 +12,8 @@
 
 namespace dismantle::sampling {
 
-/// What moves: its centre in the world at the start, and the largest distance of its points from there (assembly units).
+/// What moves: its centre in the world at the start, and the largest distance of its points from there (assembly
+/// units).
 struct Mover {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0;

@@ -18,11 +18,11 @@ namespace dismantle::sampling {
 /// Budget of one call of PathPlanner::plan, shared by all its searches.
 struct Budget {
   Budget(const PathQuery& query, const RunContext& context);
-  bool spent() const;           ///< nothing may be done any more: cancelled, too late, or too many checks
-  Outcome why() const;          ///< when spent: cancelled or timeout
+  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or too many checks
+  Outcome why() const;  ///< when spent: cancelled or timeout
 
-  std::uint64_t checks = 0;     ///< states looked at
-  std::uint64_t max_checks = 0; ///< 0 = no limit
+  std::uint64_t checks = 0;      ///< states looked at
+  std::uint64_t max_checks = 0;  ///< 0 = no limit
   const RunContext& context;
   Deadline deadline;
 };
@@ -31,9 +31,9 @@ struct Budget {
 struct Surroundings {
   explicit Surroundings(const PathQuery& query, const World& world);
   Mover mover;
-  Aabb rest;                                   ///< of all that stands still, world
-  std::vector<Eigen::Vector3d> moving_hull;    ///< corners of all that moves, where they are at the start
-  Aabb bounds;                                 ///< of the mover's centre: room to get out on every side
+  Aabb rest;                                 ///< of all that stands still, world
+  std::vector<Eigen::Vector3d> moving_hull;  ///< corners of all that moves, where they are at the start
+  Aabb bounds;                               ///< of the mover's centre: room to get out on every side
   /// Box of what moves after a displacement.
   Aabb moving_box(const Pose& displacement) const;
 };
@@ -70,7 +70,8 @@ class Scene {
 
   /// Path through states: the first is the start. Edges are cut where turning asks for it.
   Path path(const std::vector<StateType>& states, std::vector<std::size_t>* edge_of_instant = nullptr) const;
-  /// Shortest sequence that greedy halving finds: straight motions that are free replace what lies between. Draws nothing.
+  /// Shortest sequence that greedy halving finds: straight motions that are free replace what lies between. Draws
+  /// nothing.
   std::vector<StateType> shortcut(const std::vector<StateType>& states);
 
   /// Still parts that were hit, most often hit first. Looks at the samples of blocked states that were kept.

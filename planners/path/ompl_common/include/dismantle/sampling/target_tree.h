@@ -1,4 +1,5 @@
-/// A rapidly-exploring random tree as an OMPL planner, with the choice of goals left open: what `rrt` and `t_rrt` share.
+/// A rapidly-exploring random tree as an OMPL planner, with the choice of goals left open: what `rrt` and `t_rrt`
+/// share.
 #pragma once
 
 #include <ompl/base/Planner.h>

@@ -28,7 +28,9 @@ struct TreeParameters {
 /// Declares them for a struct that derives from TreeParameters. `goal_doc`: what the goal is.
 template <class P>
 void describe_tree(Schema<P>& s, const std::string& goal_doc) {
-  const auto own = [](auto member) { return static_cast<std::remove_reference_t<decltype(std::declval<P>().*member)> P::*>(member); };
+  const auto own = [](auto member) {
+    return static_cast<std::remove_reference_t<decltype(std::declval<P>().*member)> P::*>(member);
+  };
   s.template add_choice<Motion>("motion", own(&TreeParameters::motion),
                                 {{"translation", Motion::translation, "R3, orientation locked"},
                                  {"rotation", Motion::rotation, "SE(3)"},
@@ -36,19 +38,27 @@ void describe_tree(Schema<P>& s, const std::string& goal_doc) {
                                 "State space of the search.");
   s.add("goal_bias", own(&TreeParameters::goal_bias), {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
   s.add("range", own(&TreeParameters::range),
-        {.unit = "unit", .min = 0, .min_open = true,
+        {.unit = "unit",
+         .min = 0,
+         .min_open = true,
          .doc = "Longest extension towards a random state, and way between nodes towards a goal."});
   s.add("step", own(&TreeParameters::step),
-        {.unit = "unit", .min = 1e-5, .max = 1,
+        {.unit = "unit",
+         .min = 1e-5,
+         .max = 1,
          .doc = "Extensions go on in steps of this length, each of which is checked (table 7); largest way of any "
                 "point of the part."});
   s.add("max_penetration", own(&TreeParameters::max_penetration),
-        {.unit = "unit", .min = 0, .max = 1,
+        {.unit = "unit",
+         .min = 0,
+         .max = 1,
          .doc = "Depth above the initial overlap at which a state counts as colliding (table 7 has 0.01, all that the "
                 "verifier allows; a margin keeps it from refusing paths)."});
-  s.add("simplify", own(&TreeParameters::simplify), {.doc = "Replace detours by straight motions where these are free."});
+  s.add("simplify", own(&TreeParameters::simplify),
+        {.doc = "Replace detours by straight motions where these are free."});
   s.add("level_checks", own(&TreeParameters::level_checks),
-        {.unit = "1", .min = 1,
+        {.unit = "1",
+         .min = 1,
          .doc = "State checks for a search of depth 1 where the sequence planner limits depth; each further level "
                 "doubles them."});
 }
@@ -59,8 +69,8 @@ using MakeRule = std::function<std::unique_ptr<TargetRule>(Scene& scene, Rng rng
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 
 /// Grows trees until a path passes the judge or the budget is spent. A path is simplified before it is shown to the
-/// judge. If it is refused, the path as it was found is shown; if that is refused too, the edge at fault is taken out of
-/// the tree with all that grew from it, and the search goes on.
+/// judge. If it is refused, the path as it was found is shown; if that is refused too, the edge at fault is taken out
+/// of the tree with all that grew from it, and the search goes on.
 ///
 /// Counts: `nodes`, `iterations`, `checks` (of states), `refused` (paths shown to the judge in vain), `lines` (tried).
 PathResult plan_by_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
