@@ -14,7 +14,7 @@ constexpr double kSeparationGap = 1e-4;
 }  // namespace
 
 MeshWorld::MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters)
-    : cast_(cast), space_(space), check_(parameters) {
+    : cast_(cast), space_(space), depth_limit_(parameters.depth_limit), check_(parameters) {
   if (cast.moving.empty()) throw std::invalid_argument("a world needs a part that moves");
   const auto member = [&](const PlacedPart& p) {
     const PlacedBody& placed = prepared.placed[p.part];
@@ -63,7 +63,7 @@ double MeshWorld::penetration(const State& state) {
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const Member& m = moving_[i];
     const auto against = [&](const Member& other, std::size_t column) {
-      if (!m.box.overlaps(other.box)) return;
+      if (deepest >= depth_limit_ || !m.box.overlaps(other.box)) return;  // beyond it, one pair says enough
       deepest = std::max(deepest, check_.depth(*m.placed->body, m.pose, *other.placed->body, other.pose,
                                                allowed_[i * others + column]));
     };

@@ -78,6 +78,7 @@ class MeshWorld final : public World {
 
   Cast cast_;
   MotionSpace space_;
+  double depth_limit_ = 0;
   PairCheck check_;
   std::vector<Member> moving_, still_;
   std::vector<double> allowed_;  ///< [moving * (still + moving) + other]

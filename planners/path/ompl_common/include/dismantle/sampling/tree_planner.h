@@ -22,7 +22,7 @@ struct TreeParameters {
   double step = 0.01;
   double max_penetration = 0.004;
   bool simplify = true;
-  std::int64_t level_checks = 2'000;
+  std::int64_t level_checks = 1'000;
 };
 
 /// Declares them for a struct that derives from TreeParameters. `goal_doc`: what the goal is.
