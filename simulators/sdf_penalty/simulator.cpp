@@ -9,9 +9,6 @@ Capabilities offered() {
   return {.dynamics = true, .contacts = true, .distance = true, .max_moving = kMaxBodies};
 }
 
-/// Assembly units; a third of what the verifier lets pass by default.
-constexpr double kFacetAllowance = 0.003;
-
 class PenaltySimulator final : public Simulator {
  public:
   explicit PenaltySimulator(const Parameters& parameters) : parameters_(parameters) {}
@@ -27,13 +24,9 @@ class PenaltySimulator final : public Simulator {
     prepared->placed = sdf::build_shapes(assembly, options, context);
     if (context.should_stop()) return prepared;
     // What overlaps when assembled may overlap as deep while it moves, pair by pair (end of B.1).
-    for (PartId a = 0; a < assembly.parts.size(); ++a)
-      for (PartId b = a + 1; b < assembly.parts.size(); ++b) {
-        if (!assembly.parts[a].mesh->box().overlaps(assembly.parts[b].mesh->box())) continue;
-        const double depth = sdf::assembled_overlap(prepared->placed[a], prepared->placed[b]);
-        // Round fits overlap by the facets of their meshes, more or less as they slide: give them half as much again.
-        if (depth > 0) prepared->overlap[{a, b}] = depth + std::min(0.5 * depth, kFacetAllowance);
-      }
+    // Round fits overlap by the facets of their meshes, more or less as they slide: give them half as much again.
+    for (const InitialOverlap& o : assembly.overlaps)
+      if (o.depth > 0) prepared->overlap[std::minmax(o.a, o.b)] = o.depth + std::min(0.5 * o.depth, kFacetAllowance);
     return prepared;
   }
 

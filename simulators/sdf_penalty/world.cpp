@@ -15,10 +15,22 @@ constexpr double kMarginFactor = 1.25;
 constexpr double kSettleDepth = 2e-4;
 constexpr int kSettleRounds = 3;
 /// A step that covers less than this share of a free one counts as standing still.
-constexpr double kStallShare = 0.02;
+constexpr double kStallShare = 0.1;
+/// Way over which contacts are followed by their own linear model before distances are asked for again. The error is
+/// of second order: below a ten-thousandth of this over anything smooth, and edges carry the planes that meet there.
+constexpr double kFollow = 5e-5;
 constexpr int kStallSteps = 3;
+/// ... and less than this share is standing still for good: there is no inertia that could change it.
+constexpr double kStuckShare = 2e-3;
+/// Corrections below this (assembly units) get a body nowhere.
+constexpr double kSettleTravel = 1e-7;
 /// Hulls count as apart from this gap on: above rounding, below any path step.
 constexpr double kSeparationGap = 1e-4;
+
+bool same_poses(const std::vector<Pose>& a, const std::vector<Pose>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); });
+}
 
 sdf::ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, const Parameters& p) {
   const auto member = [&](const PlacedPart& part) {
@@ -28,7 +40,8 @@ sdf::ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, c
   for (const auto& m : cast.moving) moving.push_back(member(m));
   for (const auto& s : cast.still) still.push_back(member(s));
   return {std::move(moving), std::move(still), p.distance, kMarginFactor * p.max_travel,
-          [&](PartId a, PartId b) { return prepared.allowed(a, b) + p.contact_threshold; }};
+          [&](PartId a, PartId b) { return prepared.allowed(a, b); }, p.contact_threshold, kFacetAllowance,
+          &prepared.rest};
 }
 
 }  // namespace
@@ -73,12 +86,63 @@ State PenaltyWorld::initial_state() const {
 
 void PenaltyWorld::update_contacts(const State& state) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
+  if (same_poses(poses_, touching_at_)) return;
   scene_.update(poses_, touching_);
+  rows_current_ = false;
+  touching_at_ = poses_;
+  since_update_ = 0;
+}
+
+/// Contacts after the bodies were displaced by `x`, no point by more than `travel`.
+template <int Dof>
+void PenaltyWorld::follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel) {
+  since_update_ += travel;
+  if (since_update_ > kFollow) {
+    touching_at_.clear();
+    return update_contacts(state);
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) touching_at_[i] = state.bodies[i].pose;
+  if (travel == 0) return;
+  rows_current_ = false;
+  const auto shift_of = [&](int body, const Eigen::Vector3d& point) -> Eigen::Vector3d {
+    if (body < 0) return Eigen::Vector3d::Zero();
+    const Eigen::Index at = static_cast<Eigen::Index>(body) * per_body_;
+    Eigen::Vector3d d = x.template segment<3>(at);
+    if (per_body_ == 6) {
+      const Eigen::Vector3d turn = x.template segment<3>(at + 3);
+      const auto i = static_cast<std::size_t>(body);
+      d += turn.cross(point - state.bodies[i].pose * bodies_[i].center);
+    }
+    return d;
+  };
+  for (auto& c : touching_) {
+    const Eigen::Vector3d owner = shift_of(c.owner, c.point), relative = owner - shift_of(c.surface, c.point);
+    c.gap += c.normal.dot(relative);
+    for (int k = 0; k < c.plane_count; ++k) c.planes[k].gap += c.planes[k].normal.dot(relative);
+    c.point += owner;
+  }
+}
+
+void PenaltyWorld::forget_contacts() {
+  touching_at_.clear();
+  begin_at_.clear();
+}
+
+void PenaltyWorld::learn(PartId part, PartId other, const Eigen::Vector3d& point) {
+  scene_.add_point(part, other, point);
+  forget_contacts();
+}
+
+bool PenaltyWorld::relax() {
+  forget_contacts();
+  return scene_.relax();
 }
 
 void PenaltyWorld::build_rows(const State& state, double dt) {
-  rows_.clear();
   const bool damped = parameters_.contact_damping > 0 && dt > 0;
+  if (rows_current_ && !damped) return;
+  rows_.clear();
+  rows_current_ = !damped;
   const auto add = [&](const sdf::ContactPoint& c, double gap, const Eigen::Vector3d& normal, int alternatives) {
     ContactRow row;
     row.gap = gap;
@@ -100,9 +164,12 @@ void PenaltyWorld::build_rows(const State& state, double dt) {
     if (damped) row.stiffness = std::max(0.0, row.stiffness - parameters_.contact_damping * approach);
     rows_.push_back(row);
   };
+  merger_.clear();
   for (const auto& c : touching_) {
+    const std::size_t first = rows_.size();
     add(c, c.gap, c.normal, c.plane_count);
     for (int i = 0; i < c.plane_count; ++i) add(c, c.planes[i].gap, c.planes[i].normal, 0);
+    if (per_body_ == 3) merger_.add(rows_, first);
   }
 }
 
@@ -130,13 +197,13 @@ double PenaltyWorld::displace(State& state, const typename StepSolver<Dof>::Vect
 
 /// Pushes the state out of surfaces that it sank into further than the action's force explains.
 template <int Dof>
-void PenaltyWorld::settle(State& state) {
+void PenaltyWorld::settle(State& state, double explained) {
   using Solver = StepSolver<Dof>;
   const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
   for (int round = 0; round < kSettleRounds; ++round) {
     double deepest = 0;
     for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
-    if (deepest <= kSettleDepth) return;
+    if (deepest <= kSettleDepth + explained) return;
     build_rows(state, 0);
     typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -154,9 +221,9 @@ void PenaltyWorld::settle(State& state) {
       travel = std::max(travel, x.template segment<3>(at).norm() +
                                     (per_body_ == 6 ? x.template segment<3>(at + 3).norm() * bodies_[i].radius : 0.0));
     }
+    if (travel < kSettleTravel) return;  // squeezed from both sides
     if (travel > parameters_.max_travel) x *= parameters_.max_travel / travel;
-    displace<Dof>(state, x);
-    update_contacts(state);
+    follow_contacts<Dof>(state, x, displace<Dof>(state, x));
   }
 }
 
@@ -178,13 +245,14 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
   const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
   typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
   typename Solver::Vector target = Solver::Vector::Zero(n);
-  double free_travel = 0;
+  double free_travel = 0, largest_force = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i) * per_body_;
     const Body& body = bodies_[i];
     const BodyState& s = state.bodies[i];
     const Wrench& wrench = action.wrenches[i];
     const double r2 = body.radius * body.radius;
+    largest_force = std::max(largest_force, wrench.force.norm() + wrench.torque.norm() / body.radius);
     Eigen::Vector3d shift, turn = Eigen::Vector3d::Zero();
     if (still_water) {
       weight.template block<3, 3>(at, at).diagonal().setConstant(parameters_.drag / dt);
@@ -224,8 +292,9 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
       state.bodies[i].velocity = x.template segment<3>(at) / dt;
       if (per_body_ == 6) state.bodies[i].angular_velocity = x.template segment<3>(at + 3) / dt;
     }
-  update_contacts(state);
-  if (still_water) settle<Dof>(state);
+  follow_contacts<Dof>(state, x, *travel);
+  if (*travel < kStuckShare * free_travel) return Moved::not_at_all;
+  if (still_water) settle<Dof>(state, largest_force / parameters_.contact_stiffness);
   return *travel < kStallShare * free_travel ? Moved::stalled : Moved::freely;
 }
 
@@ -234,7 +303,22 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     throw std::invalid_argument("state and action need one entry per moving part");
   StepReport report;
   const State begin = state;
-  update_contacts(state);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
+  if (same_poses(poses_, begin_at_)) {
+    touching_ = begin_touching_;
+    touching_at_ = begin_at_;
+    since_update_ = 0;
+    rows_ = begin_rows_;
+    rows_current_ = true;
+  } else {
+    if (since_update_ > 0) touching_at_.clear();
+    update_contacts(state);
+    begin_touching_ = touching_;
+    begin_at_ = touching_at_;
+    build_rows(state, 0);
+    begin_rows_ = rows_;
+    rows_current_ = true;
+  }
   const bool quasi_static = parameters_.dynamics == Dynamics::quasi_static;
   const double natural = quasi_static ? quasi_static_step(action) : parameters_.time_step;
   if (!(natural > 0)) {  // no force, no inertia: nothing happens
@@ -265,8 +349,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
       for (const auto& b : state.bodies) instant.push_back(b.pose);
       trace->push_back(std::move(instant));
     }
-    idle = moved == Moved::stalled ? idle + 1 : 0;
-    if (quasi_static && idle >= kStallSteps) {
+    idle = moved == Moved::freely ? 0 : idle + 1;
+    if (quasi_static && (idle >= kStallSteps || moved == Moved::not_at_all)) {
       report.stalled = true;
       break;
     }

@@ -6,15 +6,21 @@
 
 #include "dismantle/simulator.h"
 #include "parameters.h"
+#include "row_merger.h"
 #include "step_solver.h"
 
 namespace dismantle::sdf_penalty {
+
+/// What a pair may overlap beyond its depth when assembled; assembly units, a third of what the verifier lets pass
+/// by default.
+constexpr double kFacetAllowance = 0.003;
 
 /// What prepare() keeps: shapes and the depth to which each pair overlaps when assembled.
 class PreparedShapes final : public Prepared {
  public:
   std::vector<sdf::Placed> placed;
   std::map<std::pair<PartId, PartId>, double> overlap;  ///< a < b; only pairs that overlap
+  mutable sdf::RestContacts rest;                       ///< filled by the worlds as they need it
   double allowed(PartId a, PartId b) const {
     const auto found = overlap.find(std::minmax(a, b));
     return found == overlap.end() ? 0.0 : found->second;
@@ -35,9 +41,8 @@ class PenaltyWorld final : public World {
   double penetration(const State& state) override;
   void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
-  void learn(PartId part, PartId other, const Eigen::Vector3d& point) override {
-    scene_.add_point(part, other, point);
-  }
+  void learn(PartId part, PartId other, const Eigen::Vector3d& point) override;
+  bool relax() override;
 
  private:
   struct Body {
@@ -47,13 +52,16 @@ class PenaltyWorld final : public World {
     Eigen::Matrix3d inertia;       ///< about the centre, assembled frame
     std::vector<Eigen::Vector3d> hull;  ///< assembled frame
   };
-  enum class Moved { freely, stalled };
+  enum class Moved { freely, stalled, not_at_all };
 
   template <int Dof>
   Moved step(State& state, const Action& action, double dt, double* travel);
   template <int Dof>
-  void settle(State& state);
+  void settle(State& state, double explained);
   void update_contacts(const State& state);
+  template <int Dof>
+  void follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel);
+  void forget_contacts();
   void build_rows(const State& state, double dt);
   template <int Dof>
   double displace(State& state, const typename StepSolver<Dof>::Vector& x) const;
@@ -68,8 +76,15 @@ class PenaltyWorld final : public World {
   std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all still parts, world
   Aabb rest_box_;
   std::vector<Pose> poses_;                 // scratch
-  std::vector<sdf::ContactPoint> touching_; // scratch: at the state of the last update
+  std::vector<sdf::ContactPoint> touching_; // at the state of the last update or follow
+  std::vector<Pose> touching_at_;           // poses that touching_ belongs to; empty: to none
+  double since_update_ = 0;                 // way since distances were asked for
+  std::vector<sdf::ContactPoint> begin_touching_;  // where the last advance() began: the next often begins there too
+  std::vector<Pose> begin_at_;
+  std::vector<ContactRow> begin_rows_;
+  bool rows_current_ = false;               // rows_ were built from touching_ as it is
   std::vector<ContactRow> rows_;            // scratch
+  RowMerger merger_;                        // scratch
 };
 
 }  // namespace dismantle::sdf_penalty

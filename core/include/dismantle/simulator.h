@@ -115,6 +115,9 @@ class DISMANTLE_API World {
   /// Tells the world of a place where the judge found it too permissive: `point` (assembled frame of
   /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
   virtual void learn(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
+  /// A world may at first be stricter than the judge: where parts overlap when assembled, it may want them to
+  /// overlap only there. This grants all that the judge does. False when nothing was held back.
+  virtual bool relax() { return false; }
 };
 
 /// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.

@@ -2,6 +2,7 @@
 // the displacement rules (patch.h) or the Lipschitz bound shows it to hold nothing deeper than what was found.
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -45,8 +46,13 @@ class Descent {
     while (!open_.empty() && left-- > 0) {
       const Patch patch = open_.front();
       open_.pop_front();
-      if (settled(patch)) continue;
-      for (const Patch& quarter : patch.quarters()) open_.push_back(quarter);
+      std::optional<Ridge> ridge;
+      if (settled(patch, ridge)) continue;
+      if (ridge) {
+        for (const Patch& half : patch.halves(ridge->edge, ridge->t)) open_.push_back(half);
+      } else {
+        for (const Patch& quarter : patch.quarters()) open_.push_back(quarter);
+      }
     }
     return false;
   }
@@ -56,7 +62,7 @@ class Descent {
 
   double sample(const Vec3& x) {
     if (b_.box.squared_distance(x) > 0) return 0;
-    const double d = depth_at(x, b_);
+    const double d = escape_at(x, b_).depth;
     deepest_ = std::max(deepest_, d);
     return d;
   }
@@ -115,15 +121,19 @@ class Descent {
     }
   }
 
-  bool settled(const Patch& patch) {
+  /// Nothing of the patch is deeper than level(); or where it is best divided, if there is a good place.
+  bool settled(const Patch& patch, std::optional<Ridge>& ridge) {
     if (clear_outside(moved_by_vertices(patch, level()))) return true;
-    if (clear_outside(moved_by_normal(patch, a_, level()))) return true;
+    if (clear_outside(moved_along(patch, -a_.normals[patch.triangle], level()))) return true;
     const Probe seen = probe(patch, place_, b_);
     deepest_ = std::max(deepest_, seen.depth[static_cast<std::size_t>(seen.deepest)]);
     if (clear_outside(moved_by_probe(patch, seen, level()))) return true;
-    const double d = depth_at(place_ * patch.center(), b_);
-    deepest_ = std::max(deepest_, d);
-    return d + patch.radius() <= level();
+    const Escape center = escape_at(place_ * patch.center(), b_);
+    deepest_ = std::max(deepest_, center.depth);
+    if (center.depth + patch.radius() <= level()) return true;
+    if (clear_outside(moved_along(patch, place_.r.transpose() * center.out, level()))) return true;
+    ridge = ridge_on(patch, seen);
+    return false;
   }
 
   const Solid& a_;

@@ -125,13 +125,24 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     later.push_back(id);
     return true;
   }
-  const Corners by_normal = moved_by_normal(patch, a_, e);
+  const double s = 0.5 * (i.s0 + i.s1);
+  const Placement mid(motion_.at(s));
+  const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
+  double travel = 0;
+  for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
+  const Escape center = escape_at(mid * patch.center(), b_);
+  const double depth = center.depth;
+  if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
+  const double reach = patch.radius() + 0.5 * travel + 2 * i.margin;
+  if (depth + reach <= most) {  // depth changes no faster than the point moves
+    by_shrunken_copy_ = false;
+    return true;
+  }
+  const Corners by_normal = moved_along(patch, -a_.normals[patch.triangle], e);
   if (clear(i, by_normal, far) && (far || outside(i.at0, by_normal))) {
     by_shrunken_copy_ = false;
     return true;
   }
-  const double s = 0.5 * (i.s0 + i.s1);
-  const Placement mid(motion_.at(s));
   // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
@@ -145,20 +156,15 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     }
     if (attempt > 0) break;
     for (const auto& [place, time] : {std::pair(i.at0, i.s0), std::pair(i.at1, i.s1)}) {
-      const Probe end = probe(patch, place, b_);
-      const auto corner = static_cast<std::size_t>(end.deepest);
-      if (end.depth[corner] > most)
-        return fail(Answer::violated, patch.p[corner], end.depth[corner], patch.triangle, time);
-      seen.deepen(end);
+      const Probe at_end = probe(patch, place, b_);
+      const auto corner = static_cast<std::size_t>(at_end.deepest);
+      if (at_end.depth[corner] > most)
+        return fail(Answer::violated, patch.p[corner], at_end.depth[corner], patch.triangle, time);
+      seen.deepen(at_end);
     }
   }
-  const double depth = depth_at(mid * patch.center(), b_);
-  if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
-  const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
-  double travel = 0;
-  for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
-  const double reach = patch.radius() + travel + 2 * i.margin;
-  if (depth + reach <= most) {  // depth changes no faster than the point moves
+  const Corners by_center = moved_along(patch, mid.r.transpose() * center.out, e);
+  if (depth > 0 && clear(i, by_center, far) && (far || outside(i.at0, by_center))) {
     by_shrunken_copy_ = false;
     return true;
   }
@@ -169,7 +175,11 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   }
   if (budget_.patches_left < 4) return fail(Answer::exhausted, patch.center(), depth, patch.triangle, s);
   budget_.patches_left -= 4;
-  for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  if (const auto ridge = ridge_on(patch, seen)) {
+    for (const Patch& half : patch.halves(ridge->edge, ridge->t)) same.push_back(add(half));
+  } else {
+    for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  }
   return true;
 }
 

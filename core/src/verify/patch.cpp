@@ -29,24 +29,56 @@ std::array<Patch, 4> Patch::quarters() const {
           Patch{{m[0], m[1], m[2]}, {i[0], i[1], i[2]}, triangle}};
 }
 
+std::array<Patch, 2> Patch::halves(std::size_t edge, double t) const {
+  const std::size_t i = edge, j = (edge + 1) % 3, k = (edge + 2) % 3;
+  const Vec3 m = (1 - t) * p[i] + t * p[j], d = (1 - t) * inward[i] + t * inward[j];
+  return {Patch{{p[i], m, p[k]}, {inward[i], d, inward[k]}, triangle, halved + 1},
+          Patch{{m, p[j], p[k]}, {d, inward[j], inward[k]}, triangle, halved + 1}};
+}
+
 Corners moved_by_vertices(const Patch& patch, double depth) {
   return {patch.p[0] + depth * patch.inward[0], patch.p[1] + depth * patch.inward[1],
           patch.p[2] + depth * patch.inward[2]};
 }
 
-Corners moved_by_normal(const Patch& patch, const Solid& solid, double depth) {
+Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
   constexpr double kAcross = 0.02;
   static const double along = std::sqrt(1 - kAcross * kAcross);
-  const Vec3& n = solid.normals[patch.triangle];
   Corners moved = patch.p;
-  for (std::size_t i = 0; i < 3; ++i)
-    moved[i] += depth * (kAcross * (patch.inward[i] - patch.inward[i].dot(n) * n) - along * n);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 across = patch.inward[i] - patch.inward[i].dot(direction) * direction;
+    moved[i] += depth * (along * direction + kAcross * across);
+  }
   return moved;
 }
 
-double depth_at(const Vec3& point, const Solid& solid) {
-  const double distance = solid.bvh.closest(point).distance;
-  return solid.bvh.inside(point) ? distance : -distance;
+Escape escape_at(const Vec3& point, const Solid& solid) {
+  constexpr double kOnSurface = 1e-9;
+  const ClosestPoint c = solid.bvh.closest(point);
+  const bool inside = solid.bvh.inside(point);
+  if (c.distance < kOnSurface) return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
+  return {inside ? c.distance : -c.distance, (inside ? Vec3(c.point - point) : Vec3(point - c.point)) / c.distance};
+}
+
+std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
+  constexpr double kSameWay = 0.7, kNearEnd = 0.02;
+  if (patch.halved >= 2) return std::nullopt;
+  std::optional<Ridge> best;
+  double least = kSameWay;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const double agreement = probe.out[i].dot(probe.out[j]);
+    if (agreement >= least || probe.depth[i] <= 0 || probe.depth[j] <= 0) continue;
+    // Going from i to j the way out of i gets longer by a, going back that of j by b.
+    const Vec3 edge = patch.p[j] - patch.p[i];
+    const double a = -edge.dot(probe.out[i]), b = edge.dot(probe.out[j]);
+    if (!(a + b > 0)) continue;
+    const double t = (probe.depth[j] - probe.depth[i] + b) / (a + b);
+    if (!(t > kNearEnd && t < 1 - kNearEnd)) continue;
+    least = agreement;
+    best = Ridge{i, t};
+  }
+  return best;
 }
 
 void Probe::deepen(const Probe& other) {
@@ -59,20 +91,12 @@ void Probe::deepen(const Probe& other) {
 }
 
 Probe probe(const Patch& patch, const Placement& place, const Solid& other) {
-  constexpr double kOnSurface = 1e-9;
   Probe result;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 x = place * patch.p[i];
-    const ClosestPoint c = other.bvh.closest(x);
-    const bool inside = other.bvh.inside(x);
-    result.depth[i] = inside ? c.distance : -c.distance;
-    Vec3 out;
-    if (c.distance < kOnSurface)
-      out = other.normals[c.triangle];
-    else
-      out = (inside ? c.point - x : x - c.point) / c.distance;
-    result.out[i] = place.r.transpose() * out;
-    if (result.depth[i] > result.depth[static_cast<std::size_t>(result.deepest)]) result.deepest = static_cast<int>(i);
+    const Escape at = escape_at(place * patch.p[i], other);
+    result.depth[i] = at.depth;
+    result.out[i] = place.r.transpose() * at.out;
+    if (at.depth > result.depth[static_cast<std::size_t>(result.deepest)]) result.deepest = static_cast<int>(i);
   }
   return result;
 }

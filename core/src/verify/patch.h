@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "verify/relative_motion.h"
 #include "verify/solid.h"
@@ -19,18 +20,22 @@ struct Patch {
   Corners p;       ///< frame of its part
   Corners inward;  ///< displacement of the vertex rule for a unit of depth, lengths <= 1
   std::uint32_t triangle = 0;
+  std::uint32_t halved = 0;  ///< times in a row
 
   Eigen::Vector3d center() const { return (p[0] + p[1] + p[2]) / 3; }
   double longest_edge() const;
   double radius() const;  ///< largest distance of a corner from the centre
   std::array<Patch, 4> quarters() const;
+  /// Two pieces, divided by the line from the opposite corner to the point at `t` on edge `edge` (0: p[0] to p[1],
+  /// ...).
+  std::array<Patch, 2> halves(std::size_t edge, double t) const;
 };
 
 /// Corners moved by `depth` times the patch's own inward directions: the vertex rule. Neighbours stay joined.
 Corners moved_by_vertices(const Patch& patch, double depth);
-/// Corners moved back along the normal of the face, and a little across it by the vertex rule: faces that adjoin the
-/// edge may touch something.
-Corners moved_by_normal(const Patch& patch, const Solid& solid, double depth);
+/// Corners moved all the same way (unit `direction`), and a little across it by the vertex rule: faces that adjoin the
+/// edge may touch something. Along the inward normal of the face for one.
+Corners moved_along(const Patch& patch, const Eigen::Vector3d& direction, double depth);
 
 /// Where the corners of a patch are with respect to a solid.
 struct Probe {
@@ -46,8 +51,21 @@ Probe probe(const Patch& patch, const Placement& place, const Solid& other);
 /// vertex rule; none by more than `depth`.
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth);
 
-/// > 0 inside, < 0 outside; distance to the surface.
-double depth_at(const Eigen::Vector3d& point, const Solid& solid);
+/// Where one point is with respect to a solid, in whose frame all of this is.
+struct Escape {
+  double depth;         ///< > 0 inside, < 0 outside; distance to the surface
+  Eigen::Vector3d out;  ///< unit: the shortest way out
+};
+Escape escape_at(const Eigen::Vector3d& point, const Solid& solid);
+
+/// An edge of the patch whose ends have different ways out, and the place on it where both ways are equally long: there
+/// the depth has a ridge, and pieces on either side of it are easier to judge. None after two halvings in a row: where
+/// ridges meet, cutting along one would never come to an end.
+struct Ridge {
+  std::size_t edge;
+  double t;
+};
+std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe);
 
 Corners placed(const Placement& place, const Corners& p);
 

@@ -27,7 +27,7 @@ constexpr double kWorthwhile = 1e-3;
 constexpr double kRoom = 0.8;
 /// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
-constexpr std::uint64_t kFullTests = 4'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
+constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
 
 std::vector<double> rungs_up_to(double most) {
   std::vector<double> rungs;

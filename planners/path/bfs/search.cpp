@@ -101,8 +101,12 @@ void Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
   std::vector<PartId> parts;
+  const auto moves = [&](PartId part) {
+    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+                       [part](const PlacedPart& m) { return m.part == part; });
+  };
   for (const auto& c : contacts)
-    if (c.depth > -1e-3) parts.push_back(c.other);
+    if (c.depth > -1e-3 && !moves(c.other)) parts.push_back(c.other);
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (PartId p : parts) ++touched_[p];
@@ -243,6 +247,11 @@ PathResult Search::run(const Deadline& deadline, std::uint64_t& steps_left, bool
     }
     waiting = false;
     for (unsigned d = 0; d < ends_.size(); ++d) waiting |= waiting_at(d);
+    if (end == RunEnd::blocked && (waiting || stage + 1 == actions_.size()) && world_->relax()) {
+      reset();  // once more, with all the overlap that the judge allows
+      stage = 0;
+      continue;
+    }
     if (end != RunEnd::blocked || waiting || ++stage == actions_.size()) break;
     // The axes are exhausted: push every state found so far along the further directions.
     for (std::size_t i = 0; i < nodes_.size(); ++i) ends_[nodes_[i].depth].push_back(static_cast<std::int32_t>(i));

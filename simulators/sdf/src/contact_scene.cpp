@@ -44,10 +44,15 @@ void ContactScene::set_members(std::vector<Member> moving, std::vector<Member> s
 }
 
 void ContactScene::add_point(PartId part, PartId other, const Eigen::Vector3d& point) {
+  rest_ = nullptr;
+  const auto add = [&](const ContactPair& pair, DirectedContacts& set, const Member& owner, const Member& surface) {
+    set.extra.push_back(owner.placed->rest.inverse() * point);
+    set.extra_own.push_back(assembled_depth(pair, owner, surface, set.extra.back()));
+  };
   for (auto& pair : pairs_) {
-    const PartId pa = members_[pair.a].part, pb = members_[pair.b].part;
-    if (pa == part && pb == other) pair.ab.extra.push_back(members_[pair.a].placed->rest.inverse() * point);
-    if (pb == part && pa == other) pair.ba.extra.push_back(members_[pair.b].placed->rest.inverse() * point);
+    const Member &a = members_[pair.a], &b = members_[pair.b];
+    if (a.part == part && b.part == other) add(pair, pair.ab, a, b);
+    if (b.part == part && a.part == other) add(pair, pair.ba, b, a);
   }
 }
 
@@ -76,16 +81,19 @@ double ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   return limit;
 }
 
-void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uint32_t surface, double margin,
+void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin,
                         double odometer, std::vector<ContactPoint>& out) {
   const Shape& points = *members_[owner].placed->shape;
   const Shape& target = *members_[surface].placed->shape;
   const std::size_t solids = target.solids.size();
   if (!set.ready) {
     set.wake.assign(points.points.blocks.size(), -1.0);
+    set.point_wake.assign(points.points.points.size(), -1.0);
     set.hint.assign(points.points.points.size() * solids, kNoTriangle);
+    if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
     set.ready = true;
   }
+  const bool local = pair.everywhere < pair.allowed;
   const Pose to_target = world_[surface].inverse() * world_[owner];
   const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
   const Eigen::Vector3d shift = to_target.t;
@@ -96,9 +104,9 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
     std::size_t solid = 0;
     Sample sample;
   };
-  const auto emit = [&](const Eigen::Vector3d& p, const Touch& touch) {
+  const auto emit = [&](const Eigen::Vector3d& p, const Touch& touch, double allowed) {
     ContactPoint c;
-    c.gap = touch.distance + pair.allowed;
+    c.gap = touch.distance + allowed;
     c.normal = to_world * touch.sample.normal;
     c.point = to_world * p + world_[surface].t;
     c.owner = owner < moving_ ? static_cast<int>(owner) : -1;
@@ -106,10 +114,10 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
     c.owner_part = members_[owner].part;
     c.surface_part = members_[surface].part;
     if (touch.sample.triangle != kNoTriangle) {
-      c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, kOnEdge + pair.allowed, c.planes);
+      c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, kOnEdge + allowed, c.planes);
       for (int i = 0; i < c.plane_count; ++i) {
         c.planes[i].normal = to_world * c.planes[i].normal;
-        c.planes[i].gap += pair.allowed;
+        c.planes[i].gap += allowed;
       }
     }
     out.push_back(c);
@@ -132,7 +140,7 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
     const PointBlock& block = points.points.blocks[k];
     const Eigen::Vector3d center = rotation * block.center + shift;
     double lower = std::sqrt(target.box.squared_distance(center)) - block.radius;
-    if (lower + pair.allowed < margin) {
+    if (lower + pair.everywhere < margin) {
       double free = kReach * 4;
       for (const SolidField& s : target.solids) {
         const double outside = std::sqrt(s.box.squared_distance(center));
@@ -140,16 +148,23 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
       }
       lower = std::max(lower, free - block.radius);
     }
-    double slack = lower + pair.allowed - margin;
+    // A bound of zero may be inside, at any depth.
+    double slack = lower > 0 ? lower + pair.everywhere - margin : -1.0;
     if (slack <= 0) {
-      double closest = kReach;
+      slack = kReach;
       for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+        if (set.point_wake[i] > odometer) {
+          slack = std::min(slack, set.point_wake[i] - odometer);
+          continue;
+        }
         const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
         const Touch touch = nearest(p, &set.hint[i * solids]);
-        closest = std::min(closest, touch.distance);
-        if (touch.distance + pair.allowed < margin) emit(p, touch);
+        const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
+        const double beyond = touch.distance + allowed - margin;
+        set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
+        slack = std::min(slack, beyond);
+        if (touch.distance + allowed < margin) emit(p, touch, allowed);
       }
-      slack = closest + pair.allowed - margin;
     }
     set.wake[k] = slack > 0 ? odometer + slack : -1.0;
   }
@@ -157,13 +172,58 @@ void ContactScene::scan(Pair& pair, Directed& set, std::uint32_t owner, std::uin
   for (std::size_t i = 0; i < set.extra.size(); ++i) {
     const Eigen::Vector3d p = rotation * set.extra[i] + shift;
     const Touch touch = nearest(p, &set.extra_hint[i * solids]);
-    if (touch.distance + pair.allowed < margin) emit(p, touch);
+    const double allowed = local ? std::max<double>(pair.everywhere, set.extra_own[i]) : pair.everywhere;
+    if (touch.distance + allowed < margin) emit(p, touch, allowed);
+  }
+}
+
+void ContactScene::update_pair(ContactPair& pair, std::vector<ContactPoint>& out) {
+  const double odometer = odometer_[pair.a] + (pair.b < moving_ ? odometer_[pair.b] : 0.0);
+  if (pair.wake > odometer) return;
+  const double gap = box_gap(boxes_[pair.a], boxes_[pair.b]), slack = gap + pair.everywhere - margin_;
+  if (gap > 0 && slack > 0) {  // boxes that overlap tell nothing
+    pair.wake = odometer + slack;
+    return;
+  }
+  pair.wake = 0;
+  scan(pair, pair.ab, pair.a, pair.b, margin_, odometer, out);
+  scan(pair, pair.ba, pair.b, pair.a, margin_, odometer, out);
+}
+
+/// The first update, with every part where it was when assembled: pairs are as another scene has found them.
+void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
+  for (auto& pair : pairs_) {
+    const Member &a = members_[pair.a], &b = members_[pair.b];
+    const auto& known = rest_->of(a.part, b.part, [&](RestContacts::Entry& entry) {
+      ContactScene alone({a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
+      alone.update({a.pose}, entry.points);
+      entry.pair = std::move(alone.pairs_.front());
+    });
+    const std::uint32_t ia = pair.a, ib = pair.b;
+    pair = known.pair;
+    pair.a = ia;
+    pair.b = ib;
+    const int moving_b = ib < moving_ ? static_cast<int>(ib) : -1;
+    for (const ContactPoint& c : known.points) {
+      out.push_back(c);
+      out.back().owner = c.owner == 0 ? static_cast<int>(ia) : moving_b;
+      out.back().surface = c.surface == 0 ? static_cast<int>(ia) : moving_b;
+    }
   }
 }
 
 void ContactScene::update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out) {
   out.clear();
-  const double margin = margin_;
+  if (rest_ != nullptr) {
+    bool assembled = true;
+    for (std::size_t i = 0; i < members_.size() && assembled; ++i) {
+      const Pose& p = i < moving_ ? poses[i] : members_[i].pose;
+      assembled = p.t == Eigen::Vector3d::Zero() && p.q.coeffs() == Eigen::Quaterniond::Identity().coeffs();
+    }
+    if (assembled) begin_at_rest(out);
+    rest_ = nullptr;
+    if (assembled) return;
+  }
   for (std::size_t i = 0; i < moving_; ++i) {
     const Pose next = poses[i] * members_[i].placed->rest;
     const Eigen::Vector3d c = members_[i].placed->shape->mass.center;
@@ -172,36 +232,40 @@ void ContactScene::update(const std::vector<Pose>& poses, std::vector<ContactPoi
     world_[i] = next;
     boxes_[i] = world_box(members_[i].placed->shape->box, next);
   }
-  for (auto& pair : pairs_) {
-    const double odometer = odometer_[pair.a] + (pair.b < moving_ ? odometer_[pair.b] : 0.0);
-    if (pair.wake > odometer) continue;
-    const double slack = box_gap(boxes_[pair.a], boxes_[pair.b]) + pair.allowed - margin;
-    if (slack > 0) {
-      pair.wake = odometer + slack;
-      continue;
-    }
-    pair.wake = 0;
-    scan(pair, pair.ab, pair.a, pair.b, margin, odometer, out);
-    scan(pair, pair.ba, pair.b, pair.a, margin, odometer, out);
+  for (auto& pair : pairs_) update_pair(pair, out);
+}
+
+float ContactScene::assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface,
+                                    const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d p = surface.placed->rest.inverse() * (owner.placed->rest * point);
+  double depth = 0;
+  for (const SolidField& s : surface.placed->shape->solids)
+    if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
+  depth += std::min(0.5 * depth, slack_) + threshold_;
+  return depth > pair.everywhere ? static_cast<float>(std::min(depth, pair.allowed)) : 0.0F;
+}
+
+void ContactScene::measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
+                                      const Member& surface) const {
+  const ContactPoints& points = owner.placed->shape->points;
+  const Pose to_surface = surface.placed->rest.inverse() * owner.placed->rest;
+  set.own.assign(points.points.size(), 0.0F);
+  for (const PointBlock& block : points.blocks) {
+    if (surface.placed->shape->box.squared_distance(to_surface * block.center) > block.radius * block.radius) continue;
+    for (std::uint32_t i = block.first; i < block.first + block.count; ++i)
+      set.own[i] = assembled_depth(pair, owner, surface, points.points[i]);
   }
 }
 
-double assembled_overlap(const Placed& a, const Placed& b) {
-  const auto deepest = [](const Placed& owner, const Placed& target) {
-    double depth = 0;
-    const Pose to_target = target.rest.inverse() * owner.rest;
-    for (const auto& block : owner.shape->points.blocks) {
-      const Eigen::Vector3d c = to_target * block.center;
-      if (target.shape->box.squared_distance(c) > block.radius * block.radius) continue;
-      for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
-        const Eigen::Vector3d p = to_target * owner.shape->points.points[i];
-        for (const auto& s : target.shape->solids)
-          if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
-      }
-    }
-    return depth;
-  };
-  return std::max(deepest(a, b), deepest(b, a));
+bool ContactScene::relax() {
+  rest_ = nullptr;
+  bool changed = false;
+  for (auto& pair : pairs_) {
+    if (pair.everywhere >= pair.allowed) continue;
+    pair.everywhere = pair.allowed;
+    changed = true;
+  }
+  return changed;
 }
 
 }  // namespace dismantle::sdf

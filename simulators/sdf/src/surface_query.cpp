@@ -47,6 +47,15 @@ float above(double x) { return std::nextafter(static_cast<float>(x), std::numeri
 
 constexpr std::uint32_t kLeafSize = 4;
 
+/// Cells of the candidate lists, assembly units: a few steps of motion, a few triangles.
+constexpr double kCell = 0.05, kLeastCell = 0.01, kCellsPerEdge = 24;
+/// Lists serve points that are nearer than this to the surface.
+constexpr double kNearSurface = 0.06;
+/// More candidates than this are better looked for in the tree.
+constexpr std::size_t kMostCandidates = 48;
+/// Rounding of distances and of their storage as float, for coordinates of up to some tens.
+constexpr double kRounding = 1e-5;
+
 }  // namespace
 
 SurfaceQuery::SurfaceQuery(const Solid& solid)
@@ -68,6 +77,52 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
     corners_[s] = {a, b - a, c - a};
   }
   find_convex_features(solid);
+  Aabb box = solid.mesh.box();
+  if (n == 0) return;
+  const double cell = std::clamp(box.size().maxCoeff() / kCellsPerEdge, kLeastCell, kCell);
+  box.inflate(kNearSurface);
+  cells_ = std::make_unique<CandidateCells>(box, cell);
+}
+
+/// The triangle closest to a point of the cell is no further from the centre than the centre's own closest triangle
+/// and twice the half diagonal.
+CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
+  CandidateList list;
+  list.center = center;
+  const Sample closest_to_center = sample(center);
+  const double reach = std::abs(closest_to_center.value) + 2 * cells_->half_diagonal() + kRounding;
+  std::vector<std::uint32_t> todo{0};
+  while (!todo.empty()) {
+    const std::uint32_t id = todo.back();
+    const Node& n = nodes_[id];
+    todo.pop_back();
+    double outside = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double d = std::max({n.lo[k] - center[k], center[k] - n.hi[k], 0.0});
+      outside += d * d;
+    }
+    if (outside > reach * reach) continue;
+    if (n.count == 0) {
+      todo.push_back(n.first);
+      todo.push_back(id + 1);
+      continue;
+    }
+    for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
+      const double d = std::sqrt(closest(center, corners_[s].a, corners_[s].ab, corners_[s].ac).squared);
+      if (d > reach) continue;
+      if (list.candidates.size() == kMostCandidates) {
+        list.candidates.clear();
+        list.candidates.shrink_to_fit();
+        list.usable = false;
+        return list;
+      }
+      list.candidates.push_back({static_cast<float>(d - kRounding), s});
+    }
+  }
+  std::sort(list.candidates.begin(), list.candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.from_center != b.from_center ? a.from_center < b.from_center : a.slot < b.slot;
+  });
+  return list;
 }
 
 void SurfaceQuery::find_convex_features(const Solid& solid) {
@@ -208,6 +263,23 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
     }
   }
   // The hint may tie with another triangle: keep a strict order so that the answer does not depend on it.
+  if (best_slot != kNoTriangle && best < kNearSurface * kNearSurface && cells_->covers(p)) {
+    const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
+    if (list.usable) {
+      const double off = (p - list.center).norm();
+      for (const Candidate& candidate : list.candidates) {
+        const double least = candidate.from_center - off;
+        if (least > 0 && least * least > best) break;
+        const Corner& k = corners_[candidate.slot];
+        const Closest c = closest(p, k.a, k.ab, k.ac);
+        if (c.squared < best || (c.squared == best && candidate.slot < best_slot)) {
+          best = c.squared;
+          best_slot = candidate.slot;
+        }
+      }
+      return signed_sample(p, best_slot);
+    }
+  }
   const double px = p.x(), py = p.y(), pz = p.z();
   const auto box_distance = [&](const Node& n) {
     const double dx = std::max({n.lo[0] - px, px - n.hi[0], 0.0});

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/sdf/contact_pair.h"
 #include "dismantle/sdf/shape.h"
 #include "dismantle/simulator.h"
 
@@ -13,21 +15,6 @@ namespace dismantle::sdf {
 enum class DistanceModel {
   exact,  ///< closest triangle near the surface: no field error
   grid,   ///< trilinear interpolation of the grid (the paper's)
-};
-
-/// One sample point near or below a surface. The gap is linear in small motions of the bodies:
-/// gap(x) = gap + sum over its bodies of sign * normal . (v + w x arm).
-struct ContactPoint {
-  double gap = 0;            ///< signed distance plus what the pair may overlap; < 0 = in contact
-  Eigen::Vector3d normal;    ///< world, unit, out of the surface that is touched
-  Eigen::Vector3d point;     ///< world
-  int owner = -1;            ///< moving body that carries the point, -1 = a part that stands still
-  int surface = -1;          ///< moving body that carries the surface, likewise
-  PartId owner_part = 0, surface_part = 0;
-  /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
-  /// it is outside of one of them: gap(x) is the largest of all.
-  int plane_count = 0;
-  FacePlane planes[kMaxPlanes];  ///< normals in world axes, gaps as above
 };
 
 /// Points are culled by motion: each pair, then each block of points, remembers how far the bodies may
@@ -40,14 +27,28 @@ class ContactScene {
     const Placed* placed = nullptr;
     Pose pose;  ///< of a still part; start pose of a moving one
   };
-  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair had when assembled.
+  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap; `threshold` is
+  /// granted on top of it, to all pairs everywhere.
+  ///
+  /// A depth above kTight is not granted everywhere at once, since it would let a part through walls that are
+  /// thinner than twice that: at first each point may be as deep as it was when assembled (with `slack`
+  /// on top), other points kTight. relax() grants the pair's depth to all points.
+  ///
+  /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
   ContactScene(std::vector<Member> moving, std::vector<Member> still, DistanceModel model, double margin,
-               const Allowed& allowed)
-      : model_(model), margin_(margin) {
+               const Allowed& allowed, double threshold = 0, double slack = 0, RestContacts* rest = nullptr)
+      : model_(model), margin_(margin), threshold_(threshold), slack_(slack), rest_(rest) {
     set_members(std::move(moving), std::move(still));
-    for (auto& pair : pairs_) pair.allowed = allowed(members_[pair.a].part, members_[pair.b].part);
+    for (auto& pair : pairs_) {
+      const double overlap = allowed(members_[pair.a].part, members_[pair.b].part);
+      pair.allowed = overlap + threshold;
+      pair.everywhere = std::min(overlap, kTight) + threshold;
+    }
   }
+  static constexpr double kTight = 0.01;
+  /// False when there was nothing to relax.
+  bool relax();
 
   /// Moves the moving bodies to `poses` and lists all points whose gap is below the margin.
   void update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out);
@@ -63,39 +64,26 @@ class ContactScene {
   std::uint64_t distance_queries() const { return queries_; }
 
  private:
-  /// Points of one member against the solids of another.
-  struct Directed {
-    bool ready = false;
-    std::vector<double> wake;             ///< per block: odometer reading at which it may matter
-    std::vector<std::uint32_t> hint;      ///< per point and solid: last closest triangle
-    std::vector<Eigen::Vector3d> extra;   ///< learned points, owner's shape frame
-    std::vector<std::uint32_t> extra_hint;
-  };
-  struct Pair {
-    std::uint32_t a = 0, b = 0;  ///< members; a is moving
-    double allowed = 0;
-    double wake = 0;             ///< odometer reading at which the boxes may meet
-    Directed ab, ba;             ///< points of a on b, points of b on a
-  };
-
   void set_members(std::vector<Member> moving, std::vector<Member> still);
-  void scan(Pair& pair, Directed& set, std::uint32_t owner, std::uint32_t surface, double margin, double odometer,
+  void update_pair(ContactPair& pair, std::vector<ContactPoint>& out);
+  void begin_at_rest(std::vector<ContactPoint>& out);
+  void scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin, double odometer,
             std::vector<ContactPoint>& out);
+  float assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface, const Eigen::Vector3d& point) const;
+  void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner, const Member& surface) const;
   double signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit, std::uint32_t& hint,
                          Sample& sample);
 
   DistanceModel model_;
-  double margin_;
+  double margin_, threshold_, slack_;
   std::size_t moving_ = 0;
   std::vector<Member> members_;  ///< moving first
   std::vector<Pose> world_;      ///< shape frame -> world, now
   std::vector<Aabb> boxes_;      ///< world, now
   std::vector<double> odometer_; ///< per moving body: way that its points may have travelled in all
-  std::vector<Pair> pairs_;
+  std::vector<ContactPair> pairs_;
+  RestContacts* rest_;           ///< nullptr once the scene has begun
   std::uint64_t queries_ = 0;
 };
-
-/// Largest depth of any contact point of the two parts in each other when assembled, >= 0.
-double assembled_overlap(const Placed& a, const Placed& b);
 
 }  // namespace dismantle::sdf

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "dismantle/sdf/candidate_cells.h"
 #include "dismantle/sdf/solid.h"
 
 namespace dismantle::sdf {
@@ -28,7 +29,8 @@ struct FacePlane {
 };
 constexpr int kMaxPlanes = 4;
 
-/// Bounding-volume hierarchy with precomputed triangles. Immutable; queries allocate nothing.
+/// Bounding-volume hierarchy with precomputed triangles, and lists of the closest ones where contact has been. Answers
+/// never change; queries allocate nothing but a list where none has been asked for yet.
 class SurfaceQuery {
  public:
   explicit SurfaceQuery(const Solid& solid);
@@ -57,8 +59,10 @@ class SurfaceQuery {
   };
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes);
+  CandidateList candidates_of(const Eigen::Vector3d& center) const;
   Sample signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const;
 
+  std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;            // by slot: leaves are contiguous
   std::vector<std::uint32_t> triangle_;    // slot -> triangle

@@ -1,0 +1,188 @@
+/// A simulator whose worlds are mazes for a point: answers are known without any physics.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/path_planner.h"
+#include "dismantle/registry.h"
+
+namespace dismantle::bfs::test {
+
+using Eigen::Vector3d;
+
+/// Free space, as a union of boxes. A point outside of `exit` is out.
+struct Maze {
+  std::vector<Aabb> free{};
+  Aabb exit{Vector3d::Constant(-5), Vector3d::Constant(5)};
+  std::vector<Aabb> free_after_learning{};  ///< empty: nothing to learn
+  double speed = 2.5;                       ///< units / s
+  std::uint64_t steps_per_advance = 10;
+  bool inside(const Vector3d& p, bool learned) const {
+    for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
+      if (box.contains(p)) return true;
+    return false;
+  }
+};
+
+/// What the planner did, counted by the worlds.
+struct Notes {
+  std::uint64_t worlds = 0, advances = 0, steps = 0, learned = 0;
+  std::function<void()> on_advance;
+};
+
+class MazeWorld final : public World {
+ public:
+  MazeWorld(const Maze& maze, Notes& notes, const Cast& cast, MotionSpace space)
+      : maze_(maze), notes_(notes), cast_(cast), space_(space) {}
+  const Cast& cast() const override { return cast_; }
+  MotionSpace space() const override { return space_; }
+  State initial_state() const override {
+    State s;
+    for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Vector3d::Zero(), Vector3d::Zero()});
+    return s;
+  }
+  Vector3d center(std::size_t) const override { return Vector3d::Zero(); }
+  double radius(std::size_t) const override { return 0.1; }
+  double torque_arm(std::size_t) const override { return 0.1; }
+
+  StepReport advance(State& state, const Action& action, double duration, Trace* trace) override {
+    ++notes_.advances;
+    if (notes_.on_advance) notes_.on_advance();
+    StepReport report;
+    const State begin = state;
+    for (std::uint64_t k = 0; k < maze_.steps_per_advance; ++k) {
+      ++report.steps;
+      ++notes_.steps;
+      bool moved = false;
+      for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+        const Vector3d& force = action.wrenches.at(i).force;
+        if (force.norm() == 0) continue;
+        const Vector3d way = maze_.speed * duration / static_cast<double>(maze_.steps_per_advance) * force.normalized();
+        moved |= move(state.bodies[i].pose.t, way);
+      }
+      report.stalled = !moved;
+      if (report.stalled) break;
+      if (trace != nullptr) {
+        trace->emplace_back();
+        for (const auto& b : state.bodies) trace->back().push_back(b.pose);
+      }
+    }
+    for (std::size_t i = 0; i < state.bodies.size(); ++i)
+      report.travel = std::max(report.travel, (state.bodies[i].pose.t - begin.bodies[i].pose.t).norm());
+    return report;
+  }
+  double penetration(const State&) override { return 0; }
+  void contacts(const State& state, std::vector<Contact>& out) override {
+    out.clear();
+    for (std::size_t i = 0; i < state.bodies.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0}) {
+          const Vector3d& p = state.bodies[i].pose.t;
+          if (maze_.inside(p + 0.03 * sign * Vector3d::Unit(axis), learned_)) continue;
+          out.push_back({cast_.moving[i].part, cast_.still.front().part, p, -sign * Vector3d::Unit(axis), 0.0});
+        }
+  }
+  bool separated(const State& state) override {
+    for (const auto& b : state.bodies)
+      if (maze_.exit.contains(b.pose.t)) return false;
+    return true;
+  }
+  void learn(PartId, PartId, const Vector3d&) override {
+    ++notes_.learned;
+    learned_ = true;
+  }
+
+ private:
+  /// As far as it goes; along a wall if the wall is in the way.
+  bool move(Vector3d& p, const Vector3d& way) const {
+    const Vector3d before = p;
+    if (maze_.inside(p + way, learned_)) {
+      p += way;
+    } else {
+      for (int axis = 0; axis < 3; ++axis)
+        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_)) p = next;
+    }
+    return (p - before).norm() > 1e-12;
+  }
+
+  const Maze& maze_;
+  Notes& notes_;
+  Cast cast_;
+  MotionSpace space_;
+  bool learned_ = false;
+};
+
+class MazeSimulator final : public Simulator {
+ public:
+  MazeSimulator(Maze maze, Notes& notes) : maze_(std::move(maze)), notes_(notes) {}
+  Capabilities capabilities() const noexcept override { return has; }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override {
+    return std::make_shared<Prepared>();
+  }
+  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace space) const override {
+    ++notes_.worlds;
+    return std::make_unique<MazeWorld>(maze_, notes_, cast, space);
+  }
+  Capabilities has{.dynamics = true, .contacts = true, .distance = true, .max_moving = 4};
+
+ private:
+  Maze maze_;
+  Notes& notes_;
+};
+
+inline const Registry& registry() {
+  static const std::unique_ptr<Registry> all = [] {
+    auto r = std::make_unique<Registry>();
+    r->scan();
+    return r;
+  }();
+  return *all;
+}
+
+inline Aabb tunnel(const Vector3d& from, const Vector3d& to, double half = 0.04) {
+  Aabb box;
+  box.extend(from);
+  box.extend(to);
+  box.inflate(half);
+  return box;
+}
+
+/// One search in a maze, with all that it said.
+struct MazeRun {
+  PathResult result;
+  std::vector<Path> judged;
+  Notes notes;
+};
+
+using Judge = std::function<Verdict(const Path&)>;
+inline Verdict accept(const Path&) {
+  Verdict v;
+  v.accepted = true;
+  return v;
+}
+
+/// `moving` points start at the origin; part 9 stands still.
+inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Effort& effort = {},
+                   const Judge& judge = accept, RunContext context = {}, std::size_t moving = 1,
+                   Capabilities has = {true, true, true, 4}) {
+  MazeSimulator simulator(maze, run.notes);
+  simulator.has = has;
+  const Assembly assembly;
+  const auto prepared = simulator.prepare(assembly, context);
+  Cast cast;
+  for (std::size_t i = 0; i < moving; ++i) cast.moving.push_back({static_cast<PartId>(i), Pose{}});
+  cast.still.push_back({9, Pose{}});
+  const PathQuery query{assembly, simulator, *prepared, cast, effort, [&](const Path& path) {
+                          run.judged.push_back(path);
+                          return judge(path);
+                        }};
+  run.result = registry().create<PathPlanner>("bfs", given)->plan(query, context);
+}
+
+}  // namespace dismantle::bfs::test

@@ -1,0 +1,155 @@
+// bfs over sdf_penalty, judged by the verifier, on small solids.
+#include "dismantle/verify/verifier.h"
+#include "maze.h"
+
+namespace dismantle::bfs {
+namespace {
+
+using namespace test;
+
+Mesh boxes(const std::vector<Aabb>& list) {
+  Mesh mesh;
+  for (const auto& b : list) {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
+                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
+    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
+                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
+                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
+      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  return mesh;
+}
+
+Assembly assembly_of(std::vector<Mesh> meshes) {
+  Assembly a;
+  for (auto& mesh : meshes) {
+    Part part;
+    part.id = static_cast<PartId>(a.parts.size());
+    part.name = "part" + std::to_string(part.id);
+    part.mesh = part.surface = std::make_shared<const Mesh>(std::move(mesh));
+    a.parts.push_back(std::move(part));
+  }
+  return a;
+}
+
+Aabb block(double x0, double y0, double z0, double x1, double y1, double z1) { return {{x0, y0, z0}, {x1, y1, z1}}; }
+
+/// A slider in a slot that is closed above it: 1.5 along +x, then up through a hole in the roof.
+Assembly l_slot() {
+  const double c = 0.02;
+  return assembly_of(
+      {boxes({block(0, 0, 0, 1, 0.8, 0.6)}), boxes({block(-0.5, -0.5, -0.5, 3, 1.3, -c),              // floor
+                                                    block(-0.5, -0.5, -c, -c, 1.3, 1),                // back
+                                                    block(2.5 + c, -0.5, -c, 3, 1.3, 1),              // front
+                                                    block(-c, -0.5, -c, 2.5 + c, -c, 1),              // sides
+                                                    block(-c, 0.8 + c, -c, 2.5 + c, 1.3, 1),          //
+                                                    block(-c, -c, 0.6 + c, 1.5 - c, 0.8 + c, 1)})});  // roof
+}
+
+struct Bench {
+  Assembly assembly;
+  std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
+  std::shared_ptr<const Prepared> prepared;
+  Verifier verifier;
+
+  explicit Bench(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
+    RunContext context;
+    prepared = simulator->prepare(assembly, context);
+  }
+  PathResult plan(const std::vector<PartId>& moving, const ParamSet& given, const Effort& effort = {}) {
+    Cast cast;
+    for (const auto& part : assembly.parts)
+      (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? cast.moving : cast.still)
+          .push_back({part.id, Pose{}});
+    RunContext context;
+    const PathQuery query{assembly, *simulator, *prepared, cast, effort, [&](const Path& path) {
+                            Verdict v;
+                            const MotionCheck check = verifier.check_motion(moving, cast.still, path);
+                            v.accepted = check.valid;
+                            if (check.violation) {
+                              v.has_witness = true;
+                              v.part = check.violation->part;
+                              v.other = check.violation->other;
+                              v.point = check.violation->point;
+                            }
+                            return v;
+                          }};
+    return registry().create<PathPlanner>("bfs", given)->plan(query, context);
+  }
+};
+
+TEST(BfsPhysics, SolvesAnLSlotInTwoMoves) {
+  Bench bench(l_slot());
+  const PathResult translation = bench.plan({0}, {{"motion", std::string("translation")}});
+  ASSERT_EQ(translation.outcome, Outcome::solved) << translation.message;
+  EXPECT_EQ(translation.depth, 2u);
+  for (const auto& instant : translation.path)
+    EXPECT_EQ(instant[0].q.coeffs(), Eigen::Quaterniond::Identity().coeffs()) << "orientation is locked";
+  double furthest = 0;
+  for (const auto& instant : translation.path) furthest = std::max(furthest, instant[0].t.x());
+  EXPECT_GE(furthest, 1.45);
+  EXPECT_GE(translation.path.back()[0].t.z(), 0.98);
+
+  const PathResult automatic = bench.plan({0}, {});
+  ASSERT_EQ(automatic.outcome, Outcome::solved);
+  ASSERT_EQ(automatic.path.size(), translation.path.size()) << "auto tries translation first";
+  for (std::size_t k = 0; k < automatic.path.size(); ++k) EXPECT_EQ(automatic.path[k][0].t, translation.path[k][0].t);
+}
+
+TEST(BfsPhysics, DepthOneIsNotEnoughForAnLSlot) {
+  Bench bench(l_slot());
+  EXPECT_EQ(bench.plan({0}, {}, {.max_depth = 1}).outcome, Outcome::depth_limit);
+  EXPECT_EQ(bench.plan({0}, {}, {.max_depth = 2}).outcome, Outcome::solved);
+}
+
+/// A room of 1.2 x 1 x 0.8 with walls of 0.03, and a block in it with `play` on all six sides.
+Assembly closed_box(double play) {
+  const double w = 0.03;
+  Mesh room = boxes({block(-0.6 - w, -0.5 - w, -0.4 - w, 0.6 + w, 0.5 + w, 0.4 + w)});
+  const Mesh inner = boxes({block(-0.6, -0.5, -0.4, 0.6, 0.5, 0.4)});
+  for (const auto& v : inner.vertices) room.vertices.push_back(v);
+  for (const auto& t : inner.triangles) room.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+  return assembly_of({boxes({block(-0.6 + play, -0.5 + play, -0.4 + play, 0.6 - play, 0.5 - play, 0.4 - play)}), room});
+}
+
+TEST(BfsPhysics, AClosedBoxWithThinWallsIsExhausted) {
+  Bench bench(closed_box(0.02));
+  for (const char* motion : {"translation", "rotation", "auto"}) {
+    const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 60'000});
+    EXPECT_EQ(r.outcome, Outcome::exhausted) << motion << ", " << r.counts.at("steps") << " steps";
+    EXPECT_EQ(r.counts.at("refused"), 0) << "the physics holds by itself";
+    EXPECT_EQ(r.blocked_by, std::vector<PartId>{1});
+    EXPECT_TRUE(r.path.empty());
+  }
+}
+
+TEST(BfsPhysics, NothingLeavesAClosedBoxHoweverLoose) {
+  Bench bench(closed_box(0.15));
+  for (const char* motion : {"translation", "rotation"}) {
+    const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 6'000});
+    EXPECT_FALSE(is_success(r.outcome)) << motion;
+    EXPECT_EQ(r.counts.at("refused"), 0) << "the physics holds by itself";
+  }
+}
+
+TEST(BfsPhysics, PartsThatMoveTogetherDoNotBlockEachOther) {
+  // Two plates in a tube with a floor, one on the other: both leave at once, and only the tube is in their way.
+  const double c = 0.02;
+  Bench bench(
+      assembly_of({boxes({block(-0.5, -0.5, 0, 0.5, 0.5, 0.2)}), boxes({block(-0.5, -0.5, 0.2, 0.5, 0.5, 0.4)}),
+                   boxes({block(-0.8, -0.8, -0.3, 0.8, 0.8, -c), block(-0.8, -0.8, -c, -0.5 - c, 0.8, 0.7),
+                          block(0.5 + c, -0.8, -c, 0.8, 0.8, 0.7), block(-0.5 - c, -0.8, -c, 0.5 + c, -0.5 - c, 0.7),
+                          block(-0.5 - c, 0.5 + c, -c, 0.5 + c, 0.8, 0.7)})}));
+  const PathResult both = bench.plan({0, 1}, {});
+  ASSERT_EQ(both.outcome, Outcome::solved);
+  for (const PartId p : both.blocked_by) EXPECT_EQ(p, 2u) << "only what stands still blocks";
+  const PathResult lower = bench.plan({0}, {{"motion", std::string("translation")}}, {.max_steps = 60'000});
+  EXPECT_EQ(lower.outcome, Outcome::exhausted);
+  ASSERT_FALSE(lower.blocked_by.empty());
+  EXPECT_NE(std::find(lower.blocked_by.begin(), lower.blocked_by.end(), 1u), lower.blocked_by.end());
+}
+
+}  // namespace
+}  // namespace dismantle::bfs

@@ -1,0 +1,80 @@
+/// What contact remembers of two parts from one update to the next.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "dismantle/model/assembly.h"
+#include "dismantle/sdf/surface_query.h"
+
+namespace dismantle::sdf {
+
+/// One sample point near or below a surface. The gap is linear in small motions of the bodies:
+/// gap(x) = gap + sum over its bodies of sign * normal . (v + w x arm).
+struct ContactPoint {
+  double gap = 0;            ///< signed distance plus what the pair may overlap; < 0 = in contact
+  Eigen::Vector3d normal;    ///< world, unit, out of the surface that is touched
+  Eigen::Vector3d point;     ///< world
+  int owner = -1;            ///< moving body that carries the point, -1 = a part that stands still
+  int surface = -1;          ///< moving body that carries the surface, likewise
+  PartId owner_part = 0, surface_part = 0;
+  /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
+  /// it is outside of one of them: gap(x) is the largest of all.
+  int plane_count = 0;
+  FacePlane planes[kMaxPlanes];  ///< normals in world axes, gaps as above
+};
+
+/// Points of one member against the solids of another.
+struct DirectedContacts {
+  bool ready = false;
+  std::vector<double> wake;             ///< per block: odometer reading at which it may matter
+  std::vector<double> point_wake;       ///< per point: likewise
+  std::vector<std::uint32_t> hint;      ///< per point and solid: last closest triangle
+  std::vector<Eigen::Vector3d> extra;   ///< learned points, owner's shape frame
+  std::vector<std::uint32_t> extra_hint;
+  std::vector<float> own, extra_own;    ///< per point: depth when assembled, where that exceeds ContactPair::everywhere
+};
+struct ContactPair {
+  std::uint32_t a = 0, b = 0;  ///< members; a is moving
+  double allowed = 0;          ///< depth that no point may exceed
+  double everywhere = 0;       ///< depth that every point may have
+  double wake = 0;             ///< odometer reading at which the boxes may meet
+  DirectedContacts ab, ba;             ///< points of a on b, points of b on a
+};
+
+/// A pair as it is when assembled: where nearly every attempt begins. Measured once, shared by all scenes and threads.
+class RestContacts {
+ public:
+  struct Entry {
+    ContactPair pair;                  ///< a = 0 moves, b = 1 stands still; odometer 0
+    std::vector<ContactPoint> points;
+  };
+  /// `measure(entry)` is called once for each (moving, other), whoever asks first.
+  template <class Measure>
+  const Entry& of(PartId moving, PartId other, const Measure& measure) {
+    Slot* slot = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      auto& place = slots_[{moving, other}];
+      if (!place) place = std::make_unique<Slot>();
+      slot = place.get();
+    }
+    std::call_once(slot->once, [&] { measure(slot->entry); });
+    return slot->entry;
+  }
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    Entry entry;
+  };
+  std::mutex mutex_;
+  std::map<std::pair<PartId, PartId>, std::unique_ptr<Slot>> slots_;
+};
+
+}  // namespace dismantle::sdf

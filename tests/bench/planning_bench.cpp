@@ -1,0 +1,98 @@
+// Whole searches by bfs on samples as users get them, with and without preparation, and the verifier alone.
+#include <benchmark/benchmark.h>
+
+#include "bench_models.h"
+#include "dismantle/registry.h"
+#include "dismantle/verify/verifier.h"
+
+namespace dismantle::bench {
+namespace {
+
+const Registry& registry() {
+  static const std::unique_ptr<Registry> all = [] {
+    auto r = std::make_unique<Registry>();
+    r->scan();
+    return r;
+  }();
+  return *all;
+}
+
+struct Task {
+  Assembly assembly;
+  Cast cast;
+  std::vector<PartId> moving;
+  std::unique_ptr<Verifier> verifier;
+  std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
+  std::shared_ptr<PathPlanner> planner = registry().create<PathPlanner>("bfs");
+  std::shared_ptr<const Prepared> prepared;
+  double judging = 0;  ///< seconds
+
+  Task(const char* name, const char* part) : assembly(sample(name)) {
+    moving = {part_called(assembly, part)};
+    for (const auto& p : assembly.parts) (p.id == moving[0] ? cast.moving : cast.still).push_back({p.id, Pose{}});
+    prepare();
+  }
+  void prepare() {
+    RunContext context;
+    prepared = simulator->prepare(assembly, context);
+    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
+  }
+  PathResult plan() {
+    RunContext context;
+    const PathQuery query{assembly, *simulator, *prepared, cast, {}, [&](const Path& path) {
+                            const auto begin = Deadline::Clock::now();
+                            Verdict v;
+                            const MotionCheck check = verifier->check_motion(moving, cast.still, path);
+                            v.accepted = check.valid;
+                            if (check.violation) {
+                              v.has_witness = true;
+                              v.part = check.violation->part;
+                              v.other = check.violation->other;
+                              v.point = check.violation->point;
+                            }
+                            judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+                            return v;
+                          }};
+    return planner->plan(query, context);
+  }
+};
+
+/// `prepare`: fields, contact points and the verifier's trees are part of it, on one thread.
+void PathPlanning(benchmark::State& state, const char* name, const char* part, bool prepare) {
+  Task task(name, part);
+  PathResult result;
+  for (auto _ : state) {
+    if (prepare) task.prepare();
+    result = task.plan();
+    if (result.outcome != Outcome::solved) state.SkipWithError("not solved");
+  }
+  for (const auto& [count, value] : result.counts) state.counters[count] = value;
+  state.counters["judging"] = benchmark::Counter(task.judging, benchmark::Counter::kAvgIterations);
+}
+BENCHMARK_CAPTURE(PathPlanning, peg_in_hole, "peg_in_hole", "peg", false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(PathPlanning, peg_in_hole_with_prepare, "peg_in_hole", "peg", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(PathPlanning, l_slot, "l_slot", "slider", false)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(PathPlanning, l_slot_with_prepare, "l_slot", "slider", true)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(PathPlanning, inclined_washer, "inclined_washer", "washer", false)->Unit(benchmark::kMillisecond);
+
+void VerifyPath(benchmark::State& state, const char* name, const char* part) {
+  Task task(name, part);
+  const PathResult result = task.plan();
+  if (result.outcome != Outcome::solved) state.SkipWithError("not solved");
+  MotionCheck check;
+  for (auto _ : state) {
+    check = task.verifier->check_motion(task.moving, task.cast.still, result.path);
+    benchmark::DoNotOptimize(check.valid);
+  }
+  std::size_t triangles = 0;
+  for (const auto& p : task.assembly.parts) triangles += p.mesh->triangles.size();
+  state.counters["instants"] = static_cast<double>(result.path.size());
+  state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["tests"] = static_cast<double>(check.tests);
+}
+BENCHMARK_CAPTURE(VerifyPath, peg_in_hole, "peg_in_hole", "peg")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(VerifyPath, l_slot, "l_slot", "slider")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(VerifyPath, inclined_washer, "inclined_washer", "washer")->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace dismantle::bench

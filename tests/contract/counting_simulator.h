@@ -1,0 +1,74 @@
+/// A simulator that counts what a path planner asks of it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "dismantle/simulator.h"
+
+namespace dismantle::contract {
+
+using Eigen::Vector3d;
+
+/// Steps simulated or, without dynamics, states checked.
+struct Counted {
+  std::uint64_t steps = 0;
+  std::function<void()> on_step;
+};
+
+/// A real world that counts what is asked of it.
+class CountingWorld final : public World {
+ public:
+  CountingWorld(std::unique_ptr<World> inner, bool dynamics, Counted& counted)
+      : inner_(std::move(inner)), dynamics_(dynamics), counted_(counted) {}
+  const Cast& cast() const override { return inner_->cast(); }
+  MotionSpace space() const override { return inner_->space(); }
+  State initial_state() const override { return inner_->initial_state(); }
+  Vector3d center(std::size_t body) const override { return inner_->center(body); }
+  double radius(std::size_t body) const override { return inner_->radius(body); }
+  double torque_arm(std::size_t body) const override { return inner_->torque_arm(body); }
+  StepReport advance(State& state, const Action& action, double duration, Trace* trace) override {
+    const StepReport report = inner_->advance(state, action, duration, trace);
+    count(report.steps);
+    return report;
+  }
+  double penetration(const State& state) override {
+    if (!dynamics_) count(1);
+    return inner_->penetration(state);
+  }
+  void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
+  bool separated(const State& state) override { return inner_->separated(state); }
+  void learn(PartId part, PartId other, const Vector3d& point) override { inner_->learn(part, other, point); }
+  bool relax() override { return inner_->relax(); }
+
+ private:
+  void count(std::uint64_t n) {
+    counted_.steps += n;
+    if (counted_.on_step) counted_.on_step();
+  }
+  std::unique_ptr<World> inner_;
+  bool dynamics_;
+  Counted& counted_;
+};
+
+class CountingSimulator final : public Simulator {
+ public:
+  CountingSimulator(std::shared_ptr<Simulator> inner, Counted& counted)
+      : has(inner->capabilities()), inner_(std::move(inner)), counted_(counted) {}
+  Capabilities capabilities() const noexcept override { return has; }
+  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) override {
+    return inner_->prepare(assembly, context);
+  }
+  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+                               MotionSpace space) const override {
+    return std::make_unique<CountingWorld>(inner_->world(assembly, prepared, cast, space), has.dynamics, counted_);
+  }
+  Capabilities has;
+
+ private:
+  std::shared_ptr<Simulator> inner_;
+  Counted& counted_;
+};
+
+}  // namespace dismantle::contract

@@ -1,0 +1,347 @@
+// What every path planner must obey, with its default parameters, on the first simulator that has what it needs.
+#include <functional>
+
+#include "counting_simulator.h"
+#include "small_assemblies.h"
+
+namespace dismantle {
+namespace {
+
+using namespace contract;
+
+bool covers(const Capabilities& has, const Capabilities& needs) {
+  return (has.dynamics || !needs.dynamics) && (has.contacts || !needs.contacts) && (has.distance || !needs.distance);
+}
+
+bool same(const Path& a, const Path& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].size() != b[k].size()) return false;
+    for (std::size_t i = 0; i < a[k].size(); ++i)
+      if (!bitwise(a[k][i], b[k][i])) return false;
+  }
+  return true;
+}
+
+/// Doc of PathPlanner: cancellation and budgets are looked at at least so often.
+constexpr std::uint64_t kLook = 100;
+/// Enough for any of the small assemblies.
+constexpr std::uint64_t kPlenty = 30'000;
+
+TEST(PathPlanners, TheOnesOfThisProjectAreThere) {
+  const auto found = ids(PluginKind::path_planner);
+  EXPECT_EQ(std::count(found.begin(), found.end(), "bfs"), 1)
+      << registry().why_missing(PluginKind::path_planner, "bfs");
+}
+
+class PathPlannerContract : public testing::TestWithParam<std::string> {
+ protected:
+  struct Ready {
+    std::shared_ptr<Simulator> simulator;
+    std::vector<std::shared_ptr<const Prepared>> prepared;  ///< as small_assemblies()
+  };
+  struct Run {
+    PathResult result;
+    std::vector<std::pair<Path, bool>> judged;  ///< and whether it was accepted
+    Counted counted;
+    std::string output;
+  };
+  using Judge = std::function<Verdict(const Path&)>;
+
+  static std::shared_ptr<PathPlanner> make() { return registry().create<PathPlanner>(GetParam()); }
+  /// The simulator and what it prepared, once for all tests; null when there is none.
+  static const Ready* ready() {
+    static std::map<std::string, Ready> cache;
+    const Capabilities needs = make()->needs();
+    for (const auto& id : ids(PluginKind::simulator)) {
+      if (cache.contains(id)) {
+        if (covers(cache.at(id).simulator->capabilities(), needs)) return &cache.at(id);
+        continue;
+      }
+      auto simulator = registry().create<Simulator>(id);
+      if (!covers(simulator->capabilities(), needs)) continue;
+      Ready& r = cache[id];
+      r.simulator = simulator;
+      for (const auto& small : small_assemblies()) {
+        RunContext context;
+        r.prepared.push_back(simulator->prepare(small.assembly, context));
+      }
+      return &r;
+    }
+    return nullptr;
+  }
+
+  static Verdict verify(const Small& small, const Cast& cast, const Path& path) {
+    Verdict v;
+    std::vector<PartId> moving;
+    std::vector<PlacedPart> group = cast.moving;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      moving.push_back(group[i].part);
+      group[i].pose = path.back()[i];
+    }
+    const MotionCheck check = small.verifier->check_motion(moving, cast.still, path);
+    v.accepted = check.valid && small.verifier->apart(group, cast.still);
+    if (check.violation) {
+      v.has_witness = true;
+      v.part = check.violation->part;
+      v.other = check.violation->other;
+      v.point = check.violation->point;
+      v.instant = check.violation->segment;
+      v.reason = "it cuts";
+    }
+    return v;
+  }
+
+  /// One search; a judge that is empty is the verifier.
+  static void plan(Run& run, std::size_t which, const Effort& effort = {.max_steps = kPlenty}, RunContext context = {},
+                   const Judge& judge = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr) {
+    const Small& small = small_assemblies()[which];
+    CountingSimulator simulator(ready()->simulator, run.counted);
+    const Cast chosen = cast != nullptr ? *cast : small.cast();
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[which], chosen, effort, [&](const Path& path) {
+                            const Verdict v = judge ? judge(path) : verify(small, chosen, path);
+                            run.judged.emplace_back(path, v.accepted);
+                            return v;
+                          }};
+    const auto own = make();
+    testing::internal::CaptureStdout();
+    run.result = (planner != nullptr ? planner : own.get())->plan(query, context);
+    run.output = testing::internal::GetCapturedStdout();
+    expect_lawful(run, small, chosen, effort);
+  }
+
+  /// What holds however a search ends.
+  static void expect_lawful(const Run& run, const Small& small, const Cast& cast, const Effort& effort) {
+    SCOPED_TRACE(small.name);
+    const PathResult& r = run.result;
+    EXPECT_TRUE(run.output.empty()) << "planners never print: " << run.output;
+    EXPECT_NE(r.outcome, Outcome::crashed);
+    for (const PartId id : r.blocked_by)
+      EXPECT_TRUE(std::any_of(cast.still.begin(), cast.still.end(), [id](const auto& p) { return p.part == id; }))
+          << "part " << id << " does not stand still";
+    for (std::size_t i = 0; i < r.blocked_by.size(); ++i)
+      EXPECT_EQ(std::count(r.blocked_by.begin(), r.blocked_by.end(), r.blocked_by[i]), 1);
+    if (!r.best_pose.empty()) {
+      EXPECT_EQ(r.best_pose.size(), cast.moving.size());
+    }
+    if (effort.max_steps > 0) {
+      EXPECT_LE(run.counted.steps, effort.max_steps + kLook);
+    }
+    for (const auto& [path, accepted] : run.judged) {
+      ASSERT_GE(path.size(), 2u);
+      for (const auto& instant : path) {
+        ASSERT_EQ(instant.size(), cast.moving.size());
+        for (const auto& pose : instant) {
+          ASSERT_TRUE(pose.t.allFinite());
+          ASSERT_NEAR(pose.q.norm(), 1, 1e-9);
+        }
+      }
+      for (std::size_t i = 0; i < cast.moving.size(); ++i)
+        EXPECT_TRUE(bitwise(path.front()[i], cast.moving[i].pose)) << "starts where the parts are";
+    }
+    if (r.outcome == Outcome::solved) {
+      ASSERT_FALSE(run.judged.empty()) << "no path without a judge";
+      EXPECT_TRUE(std::any_of(run.judged.begin(), run.judged.end(), [&](const auto& j) {
+        return j.second && same(j.first, r.path);
+      })) << "the judge has accepted just this path";
+      const auto world = ready()->simulator->world(
+          small.assembly, *ready()->prepared[static_cast<std::size_t>(&small - small_assemblies().data())], cast,
+          MotionSpace::rigid);
+      State end = world->initial_state();
+      for (std::size_t i = 0; i < end.bodies.size(); ++i) end.bodies[i].pose = r.path.back()[i];
+      EXPECT_TRUE(world->separated(end));
+    } else if (r.outcome != Outcome::start_is_goal) {
+      EXPECT_TRUE(r.path.empty()) << to_string(r.outcome);
+    }
+  }
+
+  void SetUp() override {
+    if (ready() == nullptr) GTEST_SKIP() << "no simulator here has what this planner needs";
+  }
+};
+
+TEST_P(PathPlannerContract, DeclaresItselfInFull) {
+  const PluginType& type = registry().find(PluginKind::path_planner, GetParam()).type;
+  EXPECT_TRUE(problems_of_schema(type.params).empty());
+  EXPECT_FALSE(type.summary.empty());
+  const Capabilities says = type.traits.needs, needs = make()->needs();
+  EXPECT_EQ(says.dynamics, needs.dynamics);
+  EXPECT_EQ(says.contacts, needs.contacts);
+  EXPECT_EQ(says.distance, needs.distance);
+}
+
+TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
+  for (std::size_t which = 0; which < small_assemblies().size(); ++which) {
+    Run run;
+    plan(run, which);
+    if (GetParam() == "bfs") {
+      EXPECT_EQ(run.result.outcome, Outcome::solved) << small_assemblies()[which].name;
+    }
+  }
+}
+
+TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
+  // All parts but the lid, while the lid is on.
+  const std::size_t which = 2;
+  const Small& small = small_assemblies()[which];
+  for (const auto& part : small.assembly.parts) {
+    if (part.id == small.leaves || part.name == "box") continue;
+    const Cast cast = small.cast_of({part.id});
+    Run run;
+    plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &cast);
+    EXPECT_FALSE(is_success(run.result.outcome)) << part.name;
+  }
+}
+
+TEST_P(PathPlannerContract, AJudgeThatAlwaysRefusesIsNeverOverruled) {
+  for (const bool witness : {false, true})
+    for (std::size_t which = 0; which < 2; ++which) {
+      const Small& small = small_assemblies()[which];
+      Run run;
+      plan(run, which, {.max_steps = 5'000}, {}, [&](const Path&) {
+        Verdict v;
+        v.has_witness = witness;
+        v.part = small.leaves;
+        v.other = small.leaves == 0 ? 1 : 0;
+        v.point = small.assembly.parts[small.leaves].mesh->vertices.front();
+        v.reason = "refused";
+        return v;
+      });
+      EXPECT_FALSE(is_success(run.result.outcome));
+    }
+}
+
+TEST_P(PathPlannerContract, ARefusedPathIsNotShownForEver) {
+  Run run;
+  int refusals = 0;
+  plan(run, 0, {.max_steps = kPlenty}, {}, [&](const Path& path) {
+    if (refusals++ > 0) return verify(small_assemblies()[0], small_assemblies()[0].cast(), path);
+    return Verdict{};
+  });
+  EXPECT_LT(run.judged.size(), 200u);
+}
+
+TEST_P(PathPlannerContract, CancelledBeforeTheStart) {
+  for (std::size_t which = 0; which < small_assemblies().size(); ++which) {
+    RunContext context;
+    context.cancel.cancel();
+    Run run;
+    plan(run, which, {}, context);
+    EXPECT_EQ(run.result.outcome, Outcome::cancelled);
+    EXPECT_LE(run.counted.steps, kLook);
+    EXPECT_TRUE(run.judged.empty());
+  }
+}
+
+TEST_P(PathPlannerContract, CancelledOnTheWay) {
+  RunContext context;
+  const CancelToken cancel = context.cancel;
+  Run run;
+  run.counted.on_step = [&] {
+    if (run.counted.steps >= 20) cancel.cancel();
+  };
+  plan(run, 1, {}, context);
+  if (run.result.outcome != Outcome::solved) {
+    EXPECT_EQ(run.result.outcome, Outcome::cancelled);
+  }
+  EXPECT_LE(run.counted.steps, 20 + 2 * kLook);
+}
+
+TEST_P(PathPlannerContract, ADeadlineThatHasPassedIsATimeout) {
+  RunContext context;
+  context.deadline = Deadline::after_seconds(0);
+  Run run;
+  plan(run, 0, {}, context);
+  EXPECT_EQ(run.result.outcome, Outcome::timeout);
+  EXPECT_LE(run.counted.steps, kLook);
+}
+
+TEST_P(PathPlannerContract, StepBudgetsAreKept) {
+  Run free;
+  plan(free, 1);
+  for (const std::uint64_t budget : {1u, 30u, 300u}) {
+    Run run;
+    plan(run, 1, {.max_steps = budget});  // expect_lawful looks at the steps
+    if (free.counted.steps > budget + kLook) {
+      EXPECT_EQ(run.result.outcome, Outcome::timeout) << budget;
+    }
+  }
+}
+
+TEST_P(PathPlannerContract, APartThatIsOutHasNothingToDo) {
+  Cast cast = small_assemblies()[0].cast();
+  cast.moving[0].pose.t = Vector3d(0, 0, 30);
+  Run run;
+  plan(run, 0, {}, {}, {}, &cast);
+  EXPECT_EQ(run.result.outcome, Outcome::start_is_goal);
+  for (const auto& instant : run.result.path) EXPECT_TRUE(bitwise(instant[0], cast.moving[0].pose));
+}
+
+TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {
+  Cast cast = small_assemblies()[0].cast();
+  cast.moving[0].pose.t = Vector3d(0.01, -0.005, 0.4);
+  Run run;
+  plan(run, 0, {.max_steps = kPlenty}, {}, {}, &cast);
+  if (GetParam() == "bfs") {
+    EXPECT_EQ(run.result.outcome, Outcome::solved);
+  }
+}
+
+TEST_P(PathPlannerContract, SameSeedSameResultOnAnyObject) {
+  const auto used = make();
+  for (std::size_t which = 0; which < 2; ++which) {
+    const auto seeded = [](std::uint64_t seed) {
+      RunContext context;
+      context.rng = Rng(seed);
+      return context;
+    };
+    Run a, b;
+    plan(a, which, {.max_steps = kPlenty}, seeded(7));
+    plan(b, which, {.max_steps = kPlenty}, seeded(7), {}, nullptr, used.get());
+    EXPECT_EQ(a.result.outcome, b.result.outcome);
+    EXPECT_TRUE(same(a.result.path, b.result.path));
+    EXPECT_EQ(a.result.blocked_by, b.result.blocked_by);
+    EXPECT_EQ(a.counted.steps, b.counted.steps);
+    EXPECT_EQ(a.judged.size(), b.judged.size());
+  }
+}
+
+TEST_P(PathPlannerContract, SeveralPartsMoveAtOnce) {
+  const Small& small = small_assemblies()[2];
+  std::vector<PartId> all_but_box;
+  for (const auto& p : small.assembly.parts)
+    if (p.name != "box") all_but_box.push_back(p.id);
+  ASSERT_GE(all_but_box.size(), 2u);
+  if (ready()->simulator->capabilities().max_moving < all_but_box.size())
+    GTEST_SKIP() << "the simulator moves fewer; the runner refuses that before";
+  const Cast cast = small.cast_of(all_but_box);
+  Run run;
+  plan(run, 2, {.max_steps = kPlenty}, {}, {}, &cast);
+}
+
+TEST_P(PathPlannerContract, UnsupportedWhereTheSimulatorLacksSomething) {
+  const Capabilities needs = make()->needs();
+  std::vector<Capabilities> lacking;
+  const Capabilities full = ready()->simulator->capabilities();
+  if (needs.dynamics) lacking.push_back({false, full.contacts, full.distance, full.max_moving});
+  if (needs.contacts) lacking.push_back({full.dynamics, false, full.distance, full.max_moving});
+  if (needs.distance) lacking.push_back({full.dynamics, full.contacts, false, full.max_moving});
+  const Small& small = small_assemblies()[0];
+  for (const Capabilities& has : lacking) {
+    Counted counted;
+    CountingSimulator simulator(ready()->simulator, counted);
+    simulator.has = has;
+    RunContext context;
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[0],
+                          small.cast(),   {},        [](const Path&) { return Verdict{true, false, 0, 0, {}, 0, {}}; }};
+    const PathResult r = make()->plan(query, context);
+    EXPECT_EQ(r.outcome, Outcome::unsupported);
+    EXPECT_FALSE(r.message.empty()) << "says what is missing";
+    EXPECT_EQ(counted.steps, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Registered, PathPlannerContract, testing::ValuesIn(ids(PluginKind::path_planner)), test_name);
+
+}  // namespace
+}  // namespace dismantle
