@@ -22,14 +22,17 @@ Group without(const Group& group, const Group& taken) {
   return rest;
 }
 
-bool same_pose(const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); }
+/// q and -q are one rotation.
+bool same_pose(const Pose& a, const Pose& b) {
+  return a.t == b.t && (a.q.coeffs() == b.q.coeffs() || a.q.coeffs() == -b.q.coeffs());
+}
 
-/// Is `forward` backwards what `back` does, number for number?
+/// Is `forward` backwards what `back` does from its pose `transfer` on, number for number?
 bool is_reverse(const PlanStep& forward, const PlanStep& back) {
   if (forward.moves.size() != back.moves.size()) return false;
   for (std::size_t i = 0; i < forward.moves.size(); ++i) {
     const PlanMove &a = forward.moves[i], &b = back.moves[i];
-    if (a.part != b.part || a.poses.size() != b.poses.size()) return false;
+    if (a.part != b.part || a.poses.size() + back.transfer != b.poses.size()) return false;
     if (!std::equal(a.poses.begin(), a.poses.end(), b.poses.rbegin(), same_pose)) return false;
   }
   return true;
@@ -43,6 +46,7 @@ class Checker {
   PlanCheck run() {
     check_names();
     result_.step_penetration.assign(plan_.disassembly.size(), 0);
+    passed_.resize(plan_.disassembly.size());
     const std::size_t total = plan_.disassembly.size() + plan_.assembly_steps.size();
     std::size_t done = 0;
     for (std::size_t i = 0; i < plan_.disassembly.size() && !stopped(); ++i) {
@@ -119,7 +123,8 @@ class Checker {
     if (group == state_.groups.end()) {
       problem("it moves parts that do not belong together any more");
     } else {
-      motion_holds(*motion, without(*group, motion->moving), "", result_.step_penetration[index]);
+      passed_[index] = without(*group, motion->moving);
+      motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
     }
     for (std::size_t i = 0; i < motion->moving.size(); ++i) state_.place[motion->moving[i]] = motion->path.back()[i];
     if (group != state_.groups.end()) separate_groups(step, static_cast<std::size_t>(group - state_.groups.begin()));
@@ -189,16 +194,21 @@ class Checker {
         problem(fmt::format("remaining: '{}' is unknown or listed twice", name));
   }
 
-  /// Algorithm 3: each part comes from anywhere; obstacles are the parts that have been put in place.
+  /// Algorithm 3: each part comes from the layout, or from anywhere if there is none. What moves is checked against all
+  /// parts that are anywhere: those in place, and those that still lie in the layout.
   void assembly_steps(std::size_t done, std::size_t total) {
+    claims();
     if (plan_.assembly_steps.empty()) return;
-    constexpr const char* kWhat = "assembly step: ";
     const bool disassembly_holds = result_.problems.empty();
     state_ = PlanState(assembly_);
-    std::vector<bool> in_place(assembly_.parts.size(), true), met(assembly_.parts.size(), false);
-    for (const auto& step : plan_.assembly_steps)
-      for (const auto& move : step.moves)
-        if (const auto id = state_.find(move.part)) in_place[*id] = false;
+    std::vector<bool> present(assembly_.parts.size(), true);
+    for (auto step = plan_.assembly_steps.rbegin(); step != plan_.assembly_steps.rend(); ++step)
+      for (const auto& move : step->moves)
+        if (const auto id = state_.find(move.part); id && !move.poses.empty()) {
+          const Pose& first = move.poses.front();
+          state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
+          present[*id] = step->transfer > 0;
+        }
 
     const std::size_t count = plan_.assembly_steps.size();
     for (std::size_t i = 0; i < count && !stopped(); ++i) {
@@ -207,25 +217,18 @@ class Checker {
       context_.progress("verify", done++, total, title(step));
       const auto motion = read(step, kWhat);
       if (!motion) continue;
-      for (std::size_t k = 0; k < motion->moving.size(); ++k) {
-        const PartId id = motion->moving[k];
-        if (!met[id]) state_.place[id] = motion->path.front()[k];
-        met[id] = true;
-        if (const auto wrong = state_.wrong_start(id, motion->path.front()[k])) problem(kWhat + *wrong);
-      }
-      // A step that is a checked one backwards needs no second look: the same parts pass each other the same way.
-      const bool checked =
-          disassembly_holds && count == plan_.disassembly.size() && is_reverse(plan_.disassembly[count - 1 - i], step);
-      if (!checked) {
-        Group others;
-        for (PartId id = 0; id < in_place.size(); ++id)
-          if (in_place[id] && !contains(motion->moving, id)) others.push_back(id);
-        double bound = 0;
-        motion_holds(*motion, others, kWhat, bound);
-      }
+      for (std::size_t k = 0; k < motion->moving.size(); ++k)
+        if (const auto wrong = state_.wrong_start(motion->moving[k], motion->path.front()[k])) problem(kWhat + *wrong);
+      Group others;
+      for (PartId id = 0; id < present.size(); ++id)
+        if (present[id] && !contains(motion->moving, id)) others.push_back(id);
+      if (step.transfer >= motion->path.size())
+        problem(fmt::format("{}its transfer ends beyond its poses", kWhat));
+      else
+        check_way(*motion, others, step, disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
       for (std::size_t k = 0; k < motion->moving.size(); ++k) {
         state_.place[motion->moving[k]] = motion->path.back()[k];
-        in_place[motion->moving[k]] = true;
+        present[motion->moving[k]] = true;
       }
     }
     step_ = 0;
@@ -236,12 +239,45 @@ class Checker {
                             state_.name(0)));
   }
 
+  /// `there`: the disassembly step that this one may be the reverse of, if there is one.
+  void check_way(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
+    double bound = 0;
+    if (there >= plan_.disassembly.size() || !is_reverse(plan_.disassembly[there], step)) {
+      motion_holds(motion, others, kWhat, bound);
+      return;
+    }
+    // A way in that is a checked step backwards needs no second look at what it passed then: the same parts pass
+    // each other the same way.
+    const auto at = motion.path.begin() + static_cast<std::ptrdiff_t>(step.transfer);
+    if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound)) return;
+    if (plan_.assembly_status != AssemblyStatus::reversed)
+      motion_holds({motion.moving, {at, motion.path.end()}}, without(others, passed_[there]), kWhat, bound);
+  }
+
+  /// A plan that calls its assembly complete brings every part that was removed, from the layout.
+  void claims() {
+    if (plan_.assembly_status != AssemblyStatus::complete) return;
+    std::set<std::string> brought;
+    for (const auto& step : plan_.assembly_steps) {
+      if (step.transfer == 0)
+        problem(fmt::format("the plan calls its assembly complete, but assembly step {} does not begin in the layout",
+                            step.step));
+      for (const auto& move : step.moves) brought.insert(move.part);
+    }
+    for (const auto& step : plan_.disassembly)
+      for (const auto& move : step.moves)
+        if (brought.insert(move.part).second)
+          problem(fmt::format("the plan calls its assembly complete, but has no assembly step for '{}'", move.part));
+  }
+
+  static constexpr const char* kWhat = "assembly step: ";
   const Plan& plan_;
   const Assembly& assembly_;
   RunContext& context_;
   Verifier verifier_;
   PlanState state_;
   PlanCheck result_;
+  std::vector<Group> passed_;  // by disassembly step: what its parts were checked against
   unsigned step_ = 0;
 };
 

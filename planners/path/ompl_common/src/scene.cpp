@@ -43,7 +43,7 @@ bool Budget::spent() const {
 
 Outcome Budget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
 
-Surroundings::Surroundings(const PathQuery& query, const World& world) {
+Surroundings::Surroundings(const PathQuery& query, const World& world, const Pose& goal) {
   const auto& moving = query.cast.moving;
   std::vector<Eigen::Vector3d> points;
   for (const auto& m : moving)
@@ -56,6 +56,7 @@ Surroundings::Surroundings(const PathQuery& query, const World& world) {
     for (const auto& v : query.assembly.parts[s.part].mesh->vertices) rest.extend(s.pose * v);
   bounds = rest;
   bounds.extend(moving_box({}));
+  bounds.extend(moving_box(goal));
   bounds.inflate(1.2 * mover.radius + 0.05 * bounds.size().maxCoeff());
 }
 
@@ -96,10 +97,11 @@ class Scene::Validator final : public ompl::base::MotionValidator {
   Scene& scene_;
 };
 
-Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget)
+Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget,
+             const Pose& goal)
     : query_(query),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
-      surroundings_(query, *world_),
+      surroundings_(query, *world_, goal),
       space_(std::make_shared<DisplacementSpace>(surroundings_.mover, motion, surroundings_.bounds)),
       budget_(budget),
       step_(step),
@@ -143,6 +145,13 @@ double Scene::free_share(const StateType& from, const StateType& to) {
     if (!is_free(k < steps ? space_->between(from, to, k / steps) : to)) return (k - 1) / steps;
   }
   return 1;
+}
+
+StateType Scene::state_after(const Pose& displacement) const {
+  StateType state;
+  state.center = displacement * surroundings_.mover.center;
+  state.turn = displacement.q;
+  return state;
 }
 
 std::optional<StateType> Scene::draw_disassembled(Rng& rng) {

@@ -29,7 +29,8 @@ struct Budget {
 
 /// Geometry of the query that does not depend on the state space.
 struct Surroundings {
-  explicit Surroundings(const PathQuery& query, const World& world);
+  /// `goal`: a displacement that must be within the bounds, too.
+  Surroundings(const PathQuery& query, const World& world, const Pose& goal = {});
   Mover mover;
   Aabb rest;                                 ///< of all that stands still, world
   std::vector<Eigen::Vector3d> moving_hull;  ///< corners of all that moves, where they are at the start
@@ -45,7 +46,8 @@ class Scene {
 
   /// States penetrating no deeper than `max_penetration` (assembly units), or than the start does, are free; motions
   /// are looked at every `step` of the space's metric.
-  Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget);
+  Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget,
+        const Pose& goal = {});
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
@@ -63,6 +65,8 @@ class Scene {
   double free_share(const StateType& from, const StateType& to);
   bool motion_is_free(const StateType& from, const StateType& to) { return free_share(from, to) >= 1; }
 
+  /// The state after a displacement since the start.
+  StateType state_after(const Pose& displacement) const;
   /// A state that is out, drawn at random. Nothing if none was found (the bounds leave room for many).
   std::optional<StateType> draw_disassembled(Rng& rng);
   /// Displacements along which the part leaves the box of the rest on the side given, 0 to 5 for -x, +x, -y, ...
