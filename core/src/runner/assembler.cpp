@@ -115,8 +115,8 @@ Aabb Assembler::box_of(PartId part, const Pose& pose) const {
   return box;
 }
 
-/// Gives every group its place. Returns what is to be said about the poses that the user gave.
-std::vector<std::string> Assembler::place_groups(Scenery& scenery, const RunContext& context) const {
+/// Gives every group its place.
+void Assembler::place_groups(Scenery& scenery, const RunContext& context) const {
   const LayoutOptions& layout = options_.layout;
   const std::size_t n = scenery.steps.size();
   // Room that the work at each group needs: what is there, and what is put in there. Along a screw motion between two
@@ -142,10 +142,7 @@ std::vector<std::string> Assembler::place_groups(Scenery& scenery, const RunCont
   for (const auto& [name, pose] : layout.poses) {
     const auto part = std::find_if(assembly_.parts.begin(), assembly_.parts.end(),
                                    [&, &wanted = name](const Part& p) { return p.name == wanted; });
-    if (part == assembly_.parts.end()) {
-      remarks.push_back(fmt::format("layout: there is no part '{}'", name));
-      continue;
-    }
+    if (part == assembly_.parts.end()) continue;  // run() has told the user
     const std::size_t g = scenery.groups.back()[part->id];
     if (g == 0) {
       remarks.push_back(fmt::format("layout: '{}' is not removed, so it stays where it is", name));
@@ -169,7 +166,6 @@ std::vector<std::string> Assembler::place_groups(Scenery& scenery, const RunCont
   for (std::size_t k = 0; k < ours.size(); ++k)
     scenery.place[ours[k]] = Pose{shifts[k], Eigen::Quaterniond::Identity()};
   for (const auto& remark : remarks) context.log(LogLevel::warning, remark);
-  return remarks;
 }
 
 /// What lies where another part is put in cannot lie there. Our own layout leaves room; a given one may not.

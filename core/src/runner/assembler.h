@@ -35,7 +35,7 @@ class Assembler {
  private:
   struct Scenery;
   struct Way;
-  std::vector<std::string> place_groups(Scenery& scenery, const RunContext& context) const;
+  void place_groups(Scenery& scenery, const RunContext& context) const;
   void clear_ways_in(Scenery& scenery) const;
   Way transfer(const Scenery& scenery, std::size_t step, const RunContext& context) const;
   PlanStep to_step(const Scenery& scenery, std::size_t step, const Way& way, const PlanStep& there) const;

@@ -167,6 +167,8 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   check(assembly, ingredients, options);
   const bool only_one = !options.only_part.empty();
   const PartId part = only_one ? part_named(assembly, options.only_part) : 0;
+  if (ingredients.transfer_planner && options.layout.enabled)
+    for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
 
