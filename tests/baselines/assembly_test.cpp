@@ -111,9 +111,8 @@ TEST(AssemblySteps, TreesAloneDoItToo) {
 }
 
 TEST(AssemblySteps, BeginWhereTheUserSays) {
-  const auto [assembly, r] =
-      plan("stacked_box", kBox,
-           {"layout.poses={lid: [0, 300, 0, 1, 0, 0, 0], plate_1: [300, 0, 0, 0.5, 0.5, 0.5, 0.5]}"});
+  const auto [assembly, r] = plan(
+      "stacked_box", kBox, {"layout.poses={lid: [0, 300, 0, 1, 0, 0, 0], plate_1: [300, 0, 0, 0.5, 0.5, 0.5, 0.5]}"});
   EXPECT_EQ(r.plan.assembly_status, AssemblyStatus::complete) << r.plan.assembly_message;
   const Pose lid = step_of(r.plan, "lid").moves[0].poses[0], plate = step_of(r.plan, "plate_1").moves[0].poses[0];
   EXPECT_LT((lid.t - Vector3d(0, 300, 0)).norm(), 1e-9);
@@ -139,8 +138,8 @@ TEST(AssemblySteps, NamesOfUnknownPartsAreErrors) {
 }
 
 TEST(AssemblySteps, PosesOfTheWrongFormAreErrors) {
-  for (const char* poses : {"[1, 2]", "{lid: [1, 2]}", "{lid: 3}", "{lid: [0, 0, 0, 2, 0, 0, 0]}",
-                            "{lid: [0, 0, 0, a, 0, 0, 0]}"}) {
+  for (const char* poses :
+       {"[1, 2]", "{lid: [1, 2]}", "{lid: 3}", "{lid: [0, 0, 0, 2, 0, 0, 0]}", "{lid: [0, 0, 0, a, 0, 0, 0]}"}) {
     Registry registry;
     EXPECT_THROW(load_config({{}, {std::string("layout.poses=") + poses}, {}}, registry), ConfigError) << poses;
   }

@@ -22,7 +22,7 @@ struct Track {
 
 struct StepTime {
   unsigned step = 0;
-  float begin = 0, end = 0;     ///< s
+  float begin = 0, end = 0;  ///< s
   std::vector<PartId> parts;
 };
 

@@ -225,7 +225,8 @@ class Checker {
       if (step.transfer >= motion->path.size())
         problem(fmt::format("{}its transfer ends beyond its poses", kWhat));
       else
-        check_way(*motion, others, step, disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
+        check_way(*motion, others, step,
+                  disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
       for (std::size_t k = 0; k < motion->moving.size(); ++k) {
         state_.place[motion->moving[k]] = motion->path.back()[k];
         present[motion->moving[k]] = true;
@@ -249,7 +250,8 @@ class Checker {
     // A way in that is a checked step backwards needs no second look at what it passed then: the same parts pass
     // each other the same way.
     const auto at = motion.path.begin() + static_cast<std::ptrdiff_t>(step.transfer);
-    if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound)) return;
+    if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound))
+      return;
     if (plan_.assembly_status != AssemblyStatus::reversed)
       motion_holds({motion.moving, {at, motion.path.end()}}, without(others, passed_[there]), kWhat, bound);
   }

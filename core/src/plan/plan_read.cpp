@@ -211,7 +211,8 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   if (place.has("transfer")) {
     s.transfer = place.at("transfer").small_count();
     if (s.transfer >= s.moves.front().poses.size())
-      place.at("transfer").fail(fmt::format("expected less than {}, the number of poses", s.moves.front().poses.size()));
+      place.at("transfer")
+          .fail(fmt::format("expected less than {}, the number of poses", s.moves.front().poses.size()));
   }
   if (place.has("separates"))
     for (const Place& group : place.at("separates").items()) {

@@ -130,7 +130,8 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
       rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
       Aabb swept;
-      for (const auto& instant : *step.path) swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
+      for (const auto& instant : *step.path)
+        swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
       swept.inflate(sagitta);
       rooms[step.from].extend(swept);
     }
@@ -150,8 +151,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
       remarks.push_back(fmt::format("layout: '{}' lies with parts whose place was given already", name));
     } else {
       given[g] = true;
-      scenery.place[g] =
-          assembly_.normalization.pose_to_internal(pose) * scenery.poses.back()[part->id].inverse();
+      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.poses.back()[part->id].inverse();
       taken.push_back(box_under(rooms[g], scenery.place[g]));
     }
   }
@@ -182,9 +182,8 @@ void Assembler::clear_ways_in(Scenery& scenery) const {
     const std::size_t lies = scenery.groups[i + 1][id];
     const std::size_t wrong = lies > 0 ? lies : from;  // the base stays: then it is the group that is added to
     if (!scenery.missing[wrong].empty()) continue;
-    scenery.leave_out(wrong,
-                      fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
-                                  assembly_.parts[scenery.steps[i].parts.front()].name));
+    scenery.leave_out(wrong, fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
+                                         assembly_.parts[scenery.steps[i].parts.front()].name));
     i = static_cast<std::size_t>(-1);  // from the beginning: what hangs on the group has moved
   }
 }
@@ -222,7 +221,8 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const 
       verdict.other = v.other;
       verdict.point = v.point;
       verdict.instant = written.given_instant(v.segment, v.u);
-      verdict.reason = fmt::format("'{}' and '{}' would meet", assembly_.parts[v.part].name, assembly_.parts[v.other].name);
+      verdict.reason =
+          fmt::format("'{}' and '{}' would meet", assembly_.parts[v.part].name, assembly_.parts[v.other].name);
       return verdict;
     }
     verdict.accepted = true;

@@ -66,10 +66,12 @@ class Table {
 }  // namespace
 
 void LayoutOptions::describe(Schema<LayoutOptions>& s) {
-  s.add("enabled", &LayoutOptions::enabled,
-        {.doc = "Plan the way of each part from a layout to where it is put in (Algorithm 3). Off: assembly steps begin "
-                "where the disassembly left the parts."});
-  s.add_choice<Up>("up", &LayoutOptions::up, {{"x", Up::x, "the plane of y and z"}, {"y", Up::y, "of z and x"}, {"z", Up::z, "of x and y"}},
+  s.add(
+      "enabled", &LayoutOptions::enabled,
+      {.doc = "Plan the way of each part from a layout to where it is put in (Algorithm 3). Off: assembly steps begin "
+              "where the disassembly left the parts."});
+  s.add_choice<Up>("up", &LayoutOptions::up,
+                   {{"x", Up::x, "the plane of y and z"}, {"y", Up::y, "of z and x"}, {"z", Up::z, "of x and y"}},
                    "Normal of the plane on which parts are laid out around the assembly.");
   s.add("gap", &LayoutOptions::gap,
         {.unit = "unit", .min = 1e-3, .max = 100, .doc = "Least distance between the boxes of two things laid out."});

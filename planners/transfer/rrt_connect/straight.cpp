@@ -78,8 +78,8 @@ std::vector<Path> straight_ways(const TransferQuery& query, double clearance) {
     const double lowest_goal = turns ? v.dot(there) - ball.radius : own_goal;
     const double top = reach(query.assembly, query.cast.still, {}, v) + clearance;
     // Heights of the ball's centre that clear everything, and are not below either end.
-    const double height = std::max({v.dot(ball.center) + std::max(0.0, top - lowest_start),
-                                    v.dot(there) + std::max(0.0, top - lowest_goal)});
+    const double height = std::max(
+        {v.dot(ball.center) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});
     const Pose lifted = shift((height - v.dot(ball.center)) * v);
     const Pose above = shift((height - v.dot(there)) * v) * goal;
     const Vector3d c = lifted * ball.center;

@@ -171,9 +171,8 @@ class Loader {
       const Capabilities& needs = chosen.type->type.traits.needs;
       const Capabilities& has = simulator->type.traits.provides;
       const auto report = [&](const std::string& what) {
-        problems_.push_back(
-            chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have", section,
-                                          chosen.type->type.id, what, simulator->type.id)));
+        problems_.push_back(chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
+                                                          section, chosen.type->type.id, what, simulator->type.id)));
       };
       if (needs.dynamics && !has.dynamics) report("dynamics");
       if (needs.contacts && !has.contacts) report("contacts");

@@ -201,6 +201,9 @@ class Glb {
   }
 
   void check_animation() {
+    for (const Json& later : json["animations"])
+      for (const Json& s : later["samplers"])
+        used.insert({s["input"].get<std::size_t>(), s["output"].get<std::size_t>()});
     const Json& animation = json["animations"][0];
     EXPECT_EQ(animation["name"], "disassembly");
     double end = -1;
@@ -275,9 +278,9 @@ TEST(Glb, AssemblyIsTheSecondAnimation) {
     EXPECT_EQ(step["parts"], Json::array({"a"}));
     EXPECT_LT(step["begin"], step["end"]);
   }
-  // It begins where the part lies.
+  // It begins where the part lies; nodes count from the middle of the assembly, half a unit below the part's.
   const Json& sampler = glb.json["animations"][1]["samplers"][0];
-  EXPECT_EQ(vector_of(Json(glb.read(sampler["output"]))), Eigen::Vector3d(12, 0, 0));
+  EXPECT_EQ(vector_of(Json(glb.read(sampler["output"]))), Eigen::Vector3d(12, 0, 0.5));
 }
 
 TEST(Glb, EveryKeyPutsTheGeometryWhereThePlanSays) {

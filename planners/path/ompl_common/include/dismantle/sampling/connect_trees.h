@@ -12,8 +12,8 @@
 
 namespace dismantle::sampling {
 
-/// RRT-Connect (Kuffner and LaValle 2000): one tree from the start, one from the goal (the problem's GoalState). In each
-/// iteration one of them extends towards a random state, and the other goes on towards the new node until it gets
+/// RRT-Connect (Kuffner and LaValle 2000): one tree from the start, one from the goal (the problem's GoalState). In
+/// each iteration one of them extends towards a random state, and the other goes on towards the new node until it gets
 /// there or is blocked; then they change roles. The first random state is the other end itself.
 ///
 /// Not ompl::geometric::RRTConnect: that draws its seeds from a sequence of the whole process. All random numbers
