@@ -92,6 +92,15 @@ TEST(AssemblySteps, LeadFromTheLayoutToTheAssembledState) {
       }
       EXPECT_TRUE(back.moves[0].poses.back().is_identity(1e-12));
     }
+    // What lies in the layout stands on the plane on which the assembly stands.
+    for (const auto& back : r.plan.assembly_steps)
+      for (const auto& part : assembly.parts)
+        if (part.name == back.moves[0].part) {
+          double lowest = 1e300;
+          for (const auto& v : part.mesh->vertices)
+            lowest = std::min(lowest, (back.moves[0].poses[0] * assembly.normalization.to_input(v)).z());
+          EXPECT_NEAR(lowest, assembly.input_box.lo.z(), 1e-6) << sample << " " << part.name;
+        }
     expect_valid(r.plan, assembly);
     expect_valid(plan_from_json(to_json(r.plan), "plan.json"), assembly);
   }

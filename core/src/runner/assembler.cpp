@@ -125,6 +125,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   const double sagitta = 0.5 * normalizer_.max_travel();
   for (std::size_t p = 0; p < scenery.part_count(); ++p)
     rooms[0].extend(box_of(static_cast<PartId>(p), scenery.poses[0][p]));
+  const Aabb assembled = rooms[0];
   for (std::size_t i = 0; i < n; ++i) {
     const BookedStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
@@ -162,7 +163,10 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
       boxes.push_back(rooms[g]);
       ours.push_back(g);
     }
-  const auto shifts = lay_out(boxes, taken, layout.up, layout.gap);
+  auto shifts = lay_out(boxes, taken, layout.up, layout.gap);
+  // The plane is that on which the assembly stands, however far below parts leave.
+  const int w = static_cast<int>(layout.up);
+  for (auto& shift : shifts) shift[w] += assembled.lo[w] - rooms[0].lo[w];
   for (std::size_t k = 0; k < ours.size(); ++k)
     scenery.place[ours[k]] = Pose{shifts[k], Eigen::Quaterniond::Identity()};
   for (const auto& remark : remarks) context.log(LogLevel::warning, remark);
