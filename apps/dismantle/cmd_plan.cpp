@@ -40,6 +40,11 @@ Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
   };
   out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
   out.path_planner_id = config.path_planner.type;
+  if (config.layout.enabled) {
+    out.transfer_planner =
+        registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
+    out.transfer_planner_id = config.transfer_planner.type;
+  }
   return out;
 }
 
@@ -49,6 +54,7 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
   out.only_part = part;
   out.verify = config.verify;
+  out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
   return out;
 }
@@ -112,6 +118,7 @@ nlohmann::ordered_json result_json(const RunResult& result, int status, const fs
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},
                                 {"unsolved", result.plan.unsolved.size()},
+                                {"assembly", std::string(to_string(result.plan.assembly_status))},
                                 {"plan", plan.string()}};
   if (status == kPluginFailed) out["message"] = "a plugin failed; see 'unsolved' in the plan";
   return out;

@@ -29,12 +29,10 @@ int list(const Plugins& options) {
   Registry registry;
   scan(options, registry);
   std::string out;
-  constexpr PluginKind kinds[] = {PluginKind::simulator, PluginKind::path_planner, PluginKind::sequence_planner,
-                                  PluginKind::importer};
   std::size_t width = 0;
-  for (const PluginKind kind : kinds)
+  for (const PluginKind kind : kPluginKinds)
     for (const RegisteredType* type : registry.types(kind)) width = std::max(width, type->type.id.size());
-  for (const PluginKind kind : kinds)
+  for (const PluginKind kind : kPluginKinds)
     for (const RegisteredType* type : registry.types(kind))
       out += fmt::format("{:<{}}  {:<16}  {}\n{:<{}}  {:<16}  {} {}, {}\n", type->type.id, width, to_string(kind),
                          type->type.summary, "", width, "", type->file->id, type->file->version,

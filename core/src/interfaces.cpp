@@ -5,6 +5,7 @@
 #include "dismantle/path_planner.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
+#include "dismantle/transfer_planner.h"
 
 namespace dismantle {
 
@@ -13,6 +14,7 @@ Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
 PathPlanner::~PathPlanner() = default;
 PathOracle::~PathOracle() = default;
+TransferPlanner::~TransferPlanner() = default;
 SequenceObserver::~SequenceObserver() = default;
 SequencePlanner::~SequencePlanner() = default;
 Importer::~Importer() = default;

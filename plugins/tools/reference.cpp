@@ -11,15 +11,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const dismantle::PluginKind kKinds[] = {dismantle::PluginKind::simulator, dismantle::PluginKind::path_planner,
-                                        dismantle::PluginKind::sequence_planner, dismantle::PluginKind::importer};
-
 /// File name -> content.
 std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
   std::map<std::string, std::string> all;
   std::string index =
       "# Reference\n\nGenerated from the plugins' own declarations: `cmake --build BUILD --target reference`.\n";
-  for (const auto kind : kKinds) {
+  for (const auto kind : dismantle::kPluginKinds) {
     const std::string name(dismantle::to_string(kind));
     const auto types = registry.types(kind);
     if (types.empty()) continue;
@@ -30,7 +27,7 @@ std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
       all[file] = dismantle::describe_markdown(type->type, *type->file);
     }
   }
-  index += "\n## configuration\n\n- [sections](sections.md): `assembly`, `run`, `verify`\n";
+  index += "\n## configuration\n\n- [sections](sections.md): `assembly`, `layout`, `run`, `verify`\n";
   index += "- [dismantle.schema.json](dismantle.schema.json): JSON Schema for editors\n";
   all["README.md"] = index;
   all["sections.md"] = dismantle::describe_sections_markdown();

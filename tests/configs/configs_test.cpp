@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(CONFIGS_FOLDER))
+  for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -49,6 +49,12 @@ TEST(Configs, EachResolvedFileLoads) {
     EXPECT_EQ(config.simulator.params, again.simulator.params) << file;
     EXPECT_EQ(config.path_planner.params, again.path_planner.params) << file;
     EXPECT_EQ(config.sequence_planner.params, again.sequence_planner.params) << file;
+    EXPECT_EQ(config.transfer_planner.params, again.transfer_planner.params) << file;
+    ASSERT_EQ(config.layout.poses.size(), again.layout.poses.size()) << file;
+    for (const auto& [part, pose] : config.layout.poses) {
+      EXPECT_EQ(pose.t, again.layout.poses.at(part).t) << file;
+      EXPECT_EQ(pose.q.coeffs(), again.layout.poses.at(part).q.coeffs()) << file;
+    }
   }
   fs::remove(scratch);
 }
@@ -65,6 +71,8 @@ TEST(Configs, DefaultSaysWhatIsTheDefault) {
   EXPECT_EQ(none.path_planner.params, file.path_planner.params);
   EXPECT_EQ(none.sequence_planner.type, file.sequence_planner.type);
   EXPECT_EQ(none.sequence_planner.params, file.sequence_planner.params);
+  EXPECT_EQ(none.transfer_planner.type, file.transfer_planner.type);
+  EXPECT_EQ(none.transfer_planner.params, file.transfer_planner.params);
 }
 
 }  // namespace

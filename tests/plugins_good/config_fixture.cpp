@@ -27,6 +27,12 @@ class NoSequence : public SequencePlanner {
   SequenceResult plan(const Assembly&, PathOracle&, SequenceObserver&, RunContext&) override { return {}; }
 };
 
+class NoTransfer : public TransferPlanner {
+ public:
+  Capabilities needs() const noexcept override { return {}; }
+  PathResult plan(const TransferQuery&, RunContext&) override { return {}; }
+};
+
 struct SimulatorParams {
   double contact_stiffness = 1e6;
   double time_step = 1e-3;
@@ -92,4 +98,5 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<PathPlanner, NoPath>("pairs", "Moves two parts.", {.needs = {.distance = true, .max_moving = 2}});
   r.add<SequencePlanner, NoSequence>("progressive", "Deepens by and by.", {.source = "Algorithm 2"});
   r.add<SequencePlanner, NoSequence, RandomParams>("random", "Any order.");
+  r.add<TransferPlanner, NoTransfer>("rrt_connect", "Two trees.");
 }

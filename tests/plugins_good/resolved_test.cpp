@@ -24,6 +24,13 @@ class Resolved : public testing_support::Scratch {
     EXPECT_EQ(a.path_planner.params, b.path_planner.params);
     EXPECT_EQ(a.sequence_planner.type, b.sequence_planner.type);
     EXPECT_EQ(a.sequence_planner.params, b.sequence_planner.params);
+    EXPECT_EQ(a.transfer_planner.type, b.transfer_planner.type);
+    EXPECT_EQ(a.transfer_planner.params, b.transfer_planner.params);
+    ASSERT_EQ(a.layout.poses.size(), b.layout.poses.size());
+    for (const auto& [part, pose] : a.layout.poses) {
+      EXPECT_EQ(pose.t, b.layout.poses.at(part).t);
+      EXPECT_EQ(pose.q.coeffs(), b.layout.poses.at(part).q.coeffs());
+    }
     EXPECT_EQ(a.sections, b.sections);
     EXPECT_EQ(a.run.seed, b.run.seed);
     EXPECT_EQ(a.verify.max_penetration, b.verify.max_penetration);
@@ -115,6 +122,10 @@ TEST_F(Resolved, RandomValuesRoundTrip) {
     fill(registry_.find("sdf_penalty").type.params, config.simulator.params);
     fill(registry_.find(config.path_planner.type).type.params, config.path_planner.params);
     fill(registry_.find(config.sequence_planner.type).type.params, config.sequence_planner.params);
+    for (auto n = rng.below(3); n > 0; --n)
+      config.layout.poses["part \"" + std::to_string(rng.below(9)) + "\"\n: x"] = {
+          {rng.normal(), 1e9 * rng.normal(), rng.normal()},
+          rotation_from_vector({rng.normal(), rng.normal(), rng.normal()})};
     config.run.seed = std::get<std::int64_t>(config.sections["run"]["seed"]);
     config.verify.max_penetration = std::get<double>(config.sections["verify"]["max_penetration"]);
     const std::string text = resolved(config);

@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "dismantle/export.h"
+#include "dismantle/layout.h"
 #include "dismantle/model/assembly.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/plan/plan.h"
 #include "dismantle/run_context.h"
 #include "dismantle/sequence_planner.h"
+#include "dismantle/transfer_planner.h"
 #include "dismantle/verify/verifier.h"
 
 namespace dismantle {
@@ -23,6 +25,8 @@ struct Ingredients {
   std::function<std::shared_ptr<PathPlanner>()> path_planner;
   std::shared_ptr<SequencePlanner> sequence_planner;  ///< unused when `only_part` is set
   std::string path_planner_id;
+  std::shared_ptr<TransferPlanner> transfer_planner;  ///< null: assembly steps begin where the disassembly ended
+  std::string transfer_planner_id;
 };
 
 struct RunOptions {
@@ -30,6 +34,7 @@ struct RunOptions {
   std::uint64_t path_steps = 0;     ///< simulated steps per attempt, 0 = none
   std::string only_part;            ///< plan just this part's path, all others still
   VerifyOptions verify;
+  LayoutOptions layout;             ///< used when there is a transfer planner
   std::uint64_t seed = 1;
 };
 

@@ -130,6 +130,17 @@ Json primitive(const Part& part, const Normalization& units, const Eigen::Vector
   return {{"attributes", std::move(attributes)}, {"indices", indices}, {"material", material_index}};
 }
 
+/// When each step of an animation happens, for viewers that show steps.
+Json step_times(const Timeline& line, const Assembly& assembly) {
+  Json steps = Json::array();
+  for (const StepTime& s : line.steps) {
+    Json parts = Json::array();
+    for (const PartId id : s.parts) parts.push_back(assembly.parts[id].name);
+    steps.push_back({{"step", s.step}, {"begin", s.begin}, {"end", s.end}, {"parts", std::move(parts)}});
+  }
+  return steps;
+}
+
 /// Channels that move `node` along `track`. Node translations are relative to `origin`.
 void animate(const Track& track, std::size_t node, const Eigen::Vector3d& center, const Eigen::Vector3d& origin,
              Buffer& buffer, std::map<std::vector<float>, std::size_t>& clocks, Json& samplers, Json& channels) {
@@ -185,7 +196,6 @@ std::vector<std::uint8_t> pack(const Json& json, std::vector<std::uint8_t> binar
 std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
   Buffer buffer;
   Json nodes = Json::array(), meshes = Json::array(), materials = Json::array();
-  Json samplers = Json::array(), channels = Json::array();
 
   // Single precision counts from the middle of the assembly: input far from its origin keeps its digits, since
   // the root's translation is applied in the viewer's own precision.
@@ -217,8 +227,20 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
   nodes[0] = std::move(root);
 
   std::map<std::vector<float>, std::size_t> clocks;
-  for (const Track& track : timeline(plan, assembly))
-    animate(track, 1 + track.part, centers[track.part], origin, buffer, clocks, samplers, channels);
+  Json animations = Json::array();
+  const auto add_animation = [&](const char* name, const std::vector<PlanStep>& steps) {
+    Json samplers = Json::array(), channels = Json::array();
+    const Timeline line = timeline(steps, assembly);
+    for (const Track& track : line.tracks)
+      animate(track, 1 + track.part, centers[track.part], origin, buffer, clocks, samplers, channels);
+    if (channels.empty()) return;
+    animations.push_back({{"name", name},
+                          {"channels", std::move(channels)},
+                          {"samplers", std::move(samplers)},
+                          {"extras", {{"kind", name}, {"steps", step_times(line, assembly)}}}});
+  };
+  add_animation("disassembly", plan.disassembly);
+  add_animation("assembly", plan.assembly_steps);
 
   Json json;
   json["asset"] = {{"version", "2.0"}, {"generator", plan.generator_name + " " + plan.generator_version}};
@@ -229,9 +251,7 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
     json["meshes"] = std::move(meshes);
     json["materials"] = std::move(materials);
   }
-  if (!channels.empty())
-    json["animations"] =
-        Json::array({{{"name", "disassembly"}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}}});
+  if (!animations.empty()) json["animations"] = std::move(animations);
   if (!buffer.bytes().empty()) {
     json["accessors"] = buffer.accessors();
     json["bufferViews"] = buffer.views();

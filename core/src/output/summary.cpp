@@ -97,6 +97,11 @@ std::string summary_text(const Plan& plan) {
   if (!plan.disassembly.empty())
     out += fmt::format("every step is verified: penetration <= {:.2g} of {:.2g} allowed (assembly units)\n", worst,
                        plan.verified_max_penetration);
+  if (plan.assembly_status == AssemblyStatus::complete)
+    out +=
+        fmt::format("assembly: {} from the layout, verified likewise\n", counted(plan.assembly_steps.size(), "step"));
+  if (plan.assembly_status == AssemblyStatus::partial)
+    out += fmt::format("assembly: partial: {}\n", plan.assembly_message);
   if (!plan.remaining.empty()) out += fmt::format("stays: {}\n", joined(plan.remaining));
   out += excluded_text(a.excluded);
   for (const auto& u : plan.unsolved) {

@@ -56,12 +56,13 @@ void append(std::vector<Key>& keys, double time, Pose pose) {
 
 }  // namespace
 
-std::vector<Track> timeline(const Plan& plan, const Assembly& assembly) {
+Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) {
+  Timeline out;
   const auto known = bodies_of(assembly);
   const double size = std::max(assembly.input_box.size().maxCoeff(), 1e-300);
   std::map<PartId, Track> tracks;
   double now = kLead;
-  for (const PlanStep& step : plan.disassembly) {
+  for (const PlanStep& step : steps) {
     if (step.moves.empty()) continue;
     std::vector<Body> bodies;
     for (const PlanMove& move : step.moves) {
@@ -81,12 +82,13 @@ std::vector<Track> timeline(const Plan& plan, const Assembly& assembly) {
         append(track.keys, now + duration * share, step.moves[m].poses[k]);
       }
     }
+    out.steps.push_back({step.step, static_cast<float>(now), static_cast<float>(now + duration), {}});
+    for (const Body& body : bodies) out.steps.back().parts.push_back(body.id);
     now += duration + kPause;
   }
-  std::vector<Track> out;
   for (auto& [id, track] : tracks) {
     append(track.keys, now - kPause + kEndPause, track.keys.back().pose);
-    out.push_back(std::move(track));
+    out.tracks.push_back(std::move(track));
   }
   return out;
 }

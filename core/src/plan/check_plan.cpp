@@ -30,6 +30,7 @@ class Checker {
   PlanCheck run() {
     check_names();
     result_.step_penetration.assign(plan_.disassembly.size(), 0);
+    passed_.resize(plan_.disassembly.size());
     const std::size_t total = plan_.disassembly.size() + plan_.assembly_steps.size();
     std::size_t done = 0;
     for (std::size_t i = 0; i < plan_.disassembly.size() && !stopped(); ++i) {
@@ -110,7 +111,8 @@ class Checker {
     if (group == state_.groups.end()) {
       problem("it moves parts that do not belong together any more");
     } else {
-      motion_holds(*motion, without(*group, motion->moving), "", result_.step_penetration[index]);
+      passed_[index] = without(*group, motion->moving);
+      motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
     }
     for (std::size_t i = 0; i < motion->moving.size(); ++i) state_.place[motion->moving[i]] = motion->path.back()[i];
     if (group != state_.groups.end()) separate_groups(step, static_cast<std::size_t>(group - state_.groups.begin()));
@@ -184,46 +186,40 @@ class Checker {
   /// with twelve digits or more. Far below what the certificate of a motion resolves.
   double rounding() const { return 1e-3 * state_.tolerance(); }
 
-  /// Is `back` the checked step `index` backwards? Poses count as motions, not as numbers: q and -q are one rotation,
+  /// Is `back`, from its pose `transfer` on, the checked step `index` backwards? Poses count as motions, not as numbers: q and -q are one rotation,
   /// and no corner of the part's box may be off by more than rounding(). What that could add to the penetration must
   /// fit under the tolerance beside what was certified.
   bool is_reverse(std::size_t index, const PlanStep& back) const {
     std::vector<std::string> found;
     const auto a = state_.read(plan_.disassembly[index].moves, found), b = state_.read(back.moves, found);
-    if (!a || !b || a->path.size() != b->path.size() || a->moving.size() != b->moving.size()) return false;
+    if (!a || !b || a->path.size() + back.transfer != b->path.size() || a->moving.size() != b->moving.size()) return false;
     if (result_.step_penetration[index] + 2 * rounding() > verifier_.options().max_penetration) return false;
-    const std::size_t last = a->path.size() - 1;
+    const std::size_t last = b->path.size() - 1;
     for (std::size_t i = 0; i < a->moving.size(); ++i) {
       const auto at = std::find(b->moving.begin(), b->moving.end(), a->moving[i]);
       if (at == b->moving.end()) return false;
       const auto k = static_cast<std::size_t>(at - b->moving.begin());
-      for (std::size_t n = 0; n <= last; ++n)
+      for (std::size_t n = 0; n < a->path.size(); ++n)
         if (state_.offset(a->moving[i], a->path[n][i], b->path[last - n][k]) > rounding()) return false;
     }
     return true;
   }
 
-  /// Are the assembly steps, all of them, the checked disassembly backwards? Then the same parts pass each other the same
-  /// way, with the same parts standing by, and no second look is needed. If but one step differs, other parts may stand
-  /// in the way of the rest.
-  bool is_disassembly_reversed() const {
-    const std::size_t count = plan_.assembly_steps.size();
-    if (!result_.problems.empty() || count != plan_.disassembly.size()) return false;
-    for (std::size_t i = 0; i < count; ++i)
-      if (!is_reverse(count - 1 - i, plan_.assembly_steps[i])) return false;
-    return true;
-  }
-
-  /// Algorithm 3: each part comes from anywhere; obstacles are the parts that have been put in place.
+  /// Algorithm 3: each part comes from the layout, or from anywhere if there is none. What moves is checked against all
+  /// parts that are anywhere: those in place, and those that still lie in the layout.
   void assembly_steps(std::size_t done, std::size_t total) {
+    claims();
     if (plan_.assembly_steps.empty()) return;
-    constexpr const char* kWhat = "assembly step: ";
-    const bool checked = is_disassembly_reversed();
+    const bool disassembly_holds = result_.problems.empty();
     state_ = PlanState(assembly_);
-    std::vector<bool> in_place(assembly_.parts.size(), true), met(assembly_.parts.size(), false);
-    for (const auto& step : plan_.assembly_steps)
-      for (const auto& move : step.moves)
-        if (const auto id = state_.find(move.part)) in_place[*id] = false;
+    std::vector<bool> present(assembly_.parts.size(), true);
+    for (auto step = plan_.assembly_steps.rbegin(); step != plan_.assembly_steps.rend(); ++step)
+      for (const auto& move : step->moves)
+        if (const auto id = state_.find(move.part); id && !move.poses.empty()) {
+          const Pose& first = move.poses.front();
+          state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
+          present[*id] = step->transfer > 0;
+        }
 
     const std::size_t count = plan_.assembly_steps.size();
     for (std::size_t i = 0; i < count && !stopped(); ++i) {
@@ -232,22 +228,19 @@ class Checker {
       context_.progress("verify", done++, total, title(step));
       const auto motion = read(step, kWhat);
       if (!motion) continue;
-      for (std::size_t k = 0; k < motion->moving.size(); ++k) {
-        const PartId id = motion->moving[k];
-        if (!met[id]) state_.place[id] = motion->path.front()[k];
-        met[id] = true;
-        if (const auto wrong = state_.wrong_start(id, motion->path.front()[k])) problem(kWhat + *wrong);
-      }
-      if (!checked) {
-        Group others;
-        for (PartId id = 0; id < in_place.size(); ++id)
-          if (in_place[id] && !contains(motion->moving, id)) others.push_back(id);
-        double bound = 0;
-        motion_holds(*motion, others, kWhat, bound);
-      }
+      for (std::size_t k = 0; k < motion->moving.size(); ++k)
+        if (const auto wrong = state_.wrong_start(motion->moving[k], motion->path.front()[k])) problem(kWhat + *wrong);
+      Group others;
+      for (PartId id = 0; id < present.size(); ++id)
+        if (present[id] && !contains(motion->moving, id)) others.push_back(id);
+      if (step.transfer >= motion->path.size())
+        problem(fmt::format("{}its transfer ends beyond its poses", kWhat));
+      else
+        check_way(*motion, others, step,
+                  disassembly_holds && count == plan_.disassembly.size() ? count - 1 - i : count);
       for (std::size_t k = 0; k < motion->moving.size(); ++k) {
         state_.place[motion->moving[k]] = motion->path.back()[k];
-        in_place[motion->moving[k]] = true;
+        present[motion->moving[k]] = true;
       }
     }
     step_ = 0;
@@ -258,12 +251,46 @@ class Checker {
                             state_.name(0)));
   }
 
+  /// `there`: the disassembly step that this one may be the reverse of, if there is one.
+  void check_way(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
+    double bound = 0;
+    if (there >= plan_.disassembly.size() || !is_reverse(there, step)) {
+      motion_holds(motion, others, kWhat, bound);
+      return;
+    }
+    // A way in that is a checked step backwards needs no second look at what it passed then: the same parts pass
+    // each other the same way.
+    const auto at = motion.path.begin() + static_cast<std::ptrdiff_t>(step.transfer);
+    if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound))
+      return;
+    const Group unmet = without(others, passed_[there]);
+    if (!unmet.empty()) motion_holds({motion.moving, {at, motion.path.end()}}, unmet, kWhat, bound);
+  }
+
+  /// A plan that calls its assembly complete brings every part that was removed, from the layout.
+  void claims() {
+    if (plan_.assembly_status != AssemblyStatus::complete) return;
+    std::set<std::string> brought;
+    for (const auto& step : plan_.assembly_steps) {
+      if (step.transfer == 0)
+        problem(fmt::format("the plan calls its assembly complete, but assembly step {} does not begin in the layout",
+                            step.step));
+      for (const auto& move : step.moves) brought.insert(move.part);
+    }
+    for (const auto& step : plan_.disassembly)
+      for (const auto& move : step.moves)
+        if (brought.insert(move.part).second)
+          problem(fmt::format("the plan calls its assembly complete, but has no assembly step for '{}'", move.part));
+  }
+
+  static constexpr const char* kWhat = "assembly step: ";
   const Plan& plan_;
   const Assembly& assembly_;
   RunContext& context_;
   Verifier verifier_;
   PlanState state_;
   PlanCheck result_;
+  std::vector<Group> passed_;  // by disassembly step: what its parts were checked against
   unsigned step_ = 0;
 };
 

@@ -217,11 +217,18 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   if (kind == StepKind::disassembly)
     place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
   else
-    place.object({"step", "moves"}, {"separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
+    place.object({"step", "moves"},
+                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
   PlanStep s;
   s.step = place.at("step").small_count();
   if (s.step != number) place.at("step").fail(fmt::format("expected {}: steps are numbered in order", number));
   s.moves = read_moves(place.at("moves"), parts);
+  if (place.has("transfer")) {
+    s.transfer = place.at("transfer").small_count();
+    if (s.transfer >= s.moves.front().poses.size())
+      place.at("transfer")
+          .fail(fmt::format("expected less than {}, the number of poses", s.moves.front().poses.size()));
+  }
   if (place.has("separates"))
     for (const Place& group : place.at("separates").items()) {
       s.separates.push_back(read_group(group, parts));
@@ -256,6 +263,13 @@ PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
   return u;
 }
 
+AssemblyStatus read_assembly_status(const Place& place) {
+  const std::string text = place.text();
+  for (const auto s : {AssemblyStatus::complete, AssemblyStatus::partial, AssemblyStatus::reversed})
+    if (text == to_string(s)) return s;
+  place.fail("expected \"complete\", \"partial\" or \"reversed\"");
+}
+
 /// Parses; a key that stands twice in one object is an error, since the library would keep the last silently.
 Json parse(const std::string& text, const std::string& source) {
   std::vector<std::set<std::string>> keys;
@@ -287,7 +301,8 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   if (const auto version = root.at("version").count(); version != 1)
     root.at("version").fail(fmt::format("this program reads version 1 of the plan format, not {}", version));
   root.object({"format", "version", "generator", "assembly", "status", "seed", "verified_max_penetration",
-               "disassembly", "assembly_steps", "remaining", "unsolved"});
+               "disassembly", "assembly_steps", "remaining", "unsolved"},
+              {"assembly_status", "assembly_message"});
 
   Plan plan;
   Names parts;
@@ -303,6 +318,8 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   plan.verified_max_penetration = root.at("verified_max_penetration").positive();
   plan.disassembly = read_steps(root.at("disassembly"), StepKind::disassembly, parts);
   plan.assembly_steps = read_steps(root.at("assembly_steps"), StepKind::assembly, parts);
+  if (root.has("assembly_status")) plan.assembly_status = read_assembly_status(root.at("assembly_status"));
+  if (root.has("assembly_message")) plan.assembly_message = root.at("assembly_message").text();
   plan.remaining = read_group(root.at("remaining"), parts);
   for (const Place& item : root.at("unsolved").items()) plan.unsolved.push_back(read_unsolved(item, parts));
   return plan;

@@ -34,10 +34,11 @@ Json poses_json(const std::vector<Pose>& poses) {
   return out;
 }
 
-Json step_json(const PlanStep& s) {
+Json step_json(const PlanStep& s, bool assembly) {
   Json moves = Json::array();
   for (const PlanMove& m : s.moves) moves.push_back({{"part", m.part}, {"poses", poses_json(m.poses)}});
   Json out = {{"step", s.step}, {"moves", std::move(moves)}};
+  if (assembly) out["transfer"] = s.transfer;
   out["separates"] = s.separates;
   out["max_penetration"] = s.max_penetration;
   out["seconds"] = s.seconds;
@@ -47,9 +48,9 @@ Json step_json(const PlanStep& s) {
   return out;
 }
 
-Json steps_json(const std::vector<PlanStep>& steps) {
+Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
   Json out = Json::array();
-  for (const PlanStep& s : steps) out.push_back(step_json(s));
+  for (const PlanStep& s : steps) out.push_back(step_json(s, assembly));
   return out;
 }
 
@@ -74,6 +75,18 @@ Json assembly_json(const PlanAssembly& a) {
 
 }  // namespace
 
+std::string_view to_string(AssemblyStatus status) {
+  switch (status) {
+    case AssemblyStatus::complete:
+      return "complete";
+    case AssemblyStatus::partial:
+      return "partial";
+    case AssemblyStatus::reversed:
+      return "reversed";
+  }
+  return "reversed";
+}
+
 std::string to_json(const Plan& plan) {
   Json unsolved = Json::array();
   for (const PlanUnsolved& u : plan.unsolved)
@@ -90,8 +103,10 @@ std::string to_json(const Plan& plan) {
   out["status"] = plan.status == PlanStatus::complete ? "complete" : "partial";
   out["seed"] = plan.seed;
   out["verified_max_penetration"] = plan.verified_max_penetration;
-  out["disassembly"] = steps_json(plan.disassembly);
-  out["assembly_steps"] = steps_json(plan.assembly_steps);
+  out["disassembly"] = steps_json(plan.disassembly, false);
+  out["assembly_steps"] = steps_json(plan.assembly_steps, true);
+  out["assembly_status"] = std::string(to_string(plan.assembly_status));
+  out["assembly_message"] = plan.assembly_message;
   out["remaining"] = plan.remaining;
   out["unsolved"] = std::move(unsolved);
   return json_text(out) + "\n";

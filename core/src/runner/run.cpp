@@ -9,6 +9,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/runner.h"
+#include "runner/assembler.h"
 #include "runner/oracle.h"
 #include "runner/step_ledger.h"
 
@@ -18,6 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kSequenceStream = 0x73657175656e6365;  // "sequence": apart from the attempts' streams
+
+constexpr std::uint64_t kTransferStream = 0x7472616e73666572;  // "transfer"
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -164,6 +167,8 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   check(assembly, ingredients, options);
   const bool only_one = !options.only_part.empty();
   const PartId part = only_one ? part_named(assembly, options.only_part) : 0;
+  if (ingredients.transfer_planner && options.layout.enabled)
+    for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
 
@@ -203,6 +208,12 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   }
   for (const auto& [a, b] : precedence_of(oracle.failed(), ledger.left_in_order(), assembly.parts.size()))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
+  if (prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty()) {
+    own.rng = Rng(options.seed).fork(kTransferStream);
+    AssemblyPlan back = Assembler(assembly, *prepared, ingredients, options, verifier)
+                            .put_together(ledger.booked(), ledger.plan().disassembly, own);
+    ledger.set_assembly(std::move(back.steps), back.status, std::move(back.message));
+  }
   result.plan = ledger.plan();
   result.counts = oracle.counts();
   result.plan_seconds = seconds_since(begin);

@@ -99,6 +99,7 @@ void StepLedger::book(const Removal& removal) {
     poses_[id] = removal.attempt->result.path.back()[i];
     if (std::find(order_.begin(), order_.end(), id) == order_.end()) order_.push_back(id);
   }
+  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path});
   group = std::move(rest);
   groups_.push_back(removal.parts);
   refresh_status();
@@ -135,6 +136,12 @@ void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved) {
     entry.message = u.message;
     plan_.unsolved.push_back(std::move(entry));
   }
+}
+
+void StepLedger::set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message) {
+  plan_.assembly_steps = std::move(steps);
+  plan_.assembly_status = status;
+  plan_.assembly_message = std::move(message);
 }
 
 PlanStep reversed(const PlanStep& step) {

@@ -11,6 +11,13 @@
 
 namespace dismantle {
 
+/// A step that was booked. Step i makes group i + 1; group 0 is what was never left.
+struct BookedStep {
+  std::vector<PartId> parts;
+  std::size_t from = 0;        ///< the group that they left
+  const Path* path = nullptr;  ///< of the oracle's answer
+};
+
 /// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
 /// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
 /// sequence planner does.
@@ -23,6 +30,7 @@ class StepLedger {
   void book(const Removal& removal);
 
   const Plan& plan() const { return plan_; }
+  const std::vector<BookedStep>& booked() const { return booked_; }
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
   bool complete() const;
@@ -30,6 +38,8 @@ class StepLedger {
   const std::vector<PartId>& left_in_order() const { return order_; }
   /// Sets plan().unsolved.
   void set_unsolved(const std::vector<Unsolved>& unsolved);
+  /// Sets plan().assembly_steps in place of the disassembly backwards.
+  void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
  private:
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
@@ -43,6 +53,7 @@ class StepLedger {
   std::vector<Pose> poses_;                  // by part id
   std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left
   std::vector<PartId> order_;
+  std::vector<BookedStep> booked_;
 };
 
 /// The disassembly step run backwards (Algorithm 3 from the disassembled poses).

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dismantle/export.h"
+#include "dismantle/layout.h"
 #include "dismantle/parameters.h"
 #include "dismantle/prepare/prepare.h"
 #include "dismantle/registry.h"
@@ -27,7 +28,7 @@ struct RunSettings {
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
-/// One of the three chosen plugins. `params` is complete.
+/// One of the chosen plugins. `params` is complete.
 struct PluginChoice {
   std::string type;
   ParamSet params;
@@ -35,13 +36,14 @@ struct PluginChoice {
 
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
-  PluginChoice simulator, path_planner, sequence_planner;
+  PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
+  LayoutOptions layout;
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
-  /// The untyped values of the sections `assembly`, `run`, `verify`; complete.
+  /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
   std::map<std::string, ParamSet> sections;
   /// "run.seed" -> "configs/a.yaml:4", "<--set>:1", "<--seed>" or "default".
   std::map<std::string, std::string> origins;
@@ -70,7 +72,7 @@ DISMANTLE_API RunConfig load_config(const ConfigSource& source, Registry& regist
 DISMANTLE_API std::string resolved_yaml(const RunConfig& config, const Registry& registry,
                                         const std::filesystem::path& folder);
 
-/// The sections with fixed parameters: name and declarations of `assembly`, `run`, `verify`.
+/// The sections with fixed parameters: name and declarations of `assembly`, `layout`, `run`, `verify`.
 DISMANTLE_API const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections();
 /// The sections that choose a plugin, with the id that is taken when none is named.
 struct PluginSection {

@@ -20,10 +20,16 @@
 #include "dismantle/plugin/abi.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
+#include "dismantle/transfer_planner.h"
 
 namespace dismantle {
 
-enum class PluginKind { simulator, path_planner, sequence_planner, importer };
+enum class PluginKind { simulator, path_planner, sequence_planner, transfer_planner, importer };
+
+/// All kinds, in the order in which they are shown.
+inline constexpr PluginKind kPluginKinds[] = {PluginKind::simulator, PluginKind::path_planner,
+                                              PluginKind::sequence_planner, PluginKind::transfer_planner,
+                                              PluginKind::importer};
 
 template <class Interface>
 struct PluginKindOf;
@@ -40,6 +46,10 @@ struct PluginKindOf<SequencePlanner> {
   static constexpr PluginKind value = PluginKind::sequence_planner;
 };
 template <>
+struct PluginKindOf<TransferPlanner> {
+  static constexpr PluginKind value = PluginKind::transfer_planner;
+};
+template <>
 struct PluginKindOf<Importer> {
   static constexpr PluginKind value = PluginKind::importer;
 };
@@ -52,7 +62,7 @@ struct NoParams {
 /// Facts about a type that can be read without making one.
 struct TypeTraits {
   std::string source{};        ///< paper section or reference
-  Capabilities needs = {};     ///< path planners: what the simulator must have
+  Capabilities needs = {};     ///< path and transfer planners: what the simulator must have
   Capabilities provides = {};  ///< simulators
 };
 

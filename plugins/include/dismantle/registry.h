@@ -15,7 +15,8 @@
 
 namespace dismantle {
 
-/// The key of the kind in a configuration: "simulator", "path_planner", "sequence_planner", "importer".
+/// The key of the kind in a configuration: "simulator", "path_planner", "sequence_planner",
+/// "transfer_planner", "importer".
 DISMANTLE_API std::string_view to_string(PluginKind kind);
 
 /// A plugin file that was accepted.

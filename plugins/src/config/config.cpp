@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "config/bind.h"
 #include "config/layers.h"
@@ -24,8 +26,15 @@ class Loader {
     for (const auto& section : plugin_sections()) choose(section);
     collect_homes();
     for (const auto& section : plugin_sections()) bind_plugin(section);
-    for (const auto& [name, specs] : fixed_sections())
-      config_.sections[name] = bind_section(specs, node(name), {name, "", ""}, homes_, config_.origins, problems_);
+    for (const auto& [name, specs] : fixed_sections()) {
+      const ConfigNode* section = node(name);
+      ConfigNode plain;
+      if (name == "layout" && section != nullptr && section->is_map()) {
+        plain = without_poses(*section);
+        section = &plain;
+      }
+      config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
+    }
     check_capabilities();
     return std::move(config_);
   }
@@ -117,7 +126,8 @@ class Loader {
 
   PluginChoice& choice(PluginKind kind) {
     if (kind == PluginKind::simulator) return config_.simulator;
-    return kind == PluginKind::path_planner ? config_.path_planner : config_.sequence_planner;
+    if (kind == PluginKind::path_planner) return config_.path_planner;
+    return kind == PluginKind::sequence_planner ? config_.sequence_planner : config_.transfer_planner;
   }
 
   void collect_homes() {
@@ -129,6 +139,7 @@ class Loader {
     }
     for (const auto& [name, specs] : fixed_sections())
       for (const auto& spec : specs) homes_[spec.name].push_back(name);
+    homes_["poses"].push_back("layout");
     for (const auto& [member, known] : unknown_top_)
       problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
     for (const auto* member : unknown_plugins_)
@@ -152,20 +163,64 @@ class Loader {
   }
 
   void check_capabilities() {
-    const auto* planner = chosen_["path_planner"].type;
     const auto* simulator = chosen_["simulator"].type;
-    if (planner == nullptr || simulator == nullptr) return;
-    const Capabilities& needs = planner->type.traits.needs;
-    const Capabilities& has = simulator->type.traits.provides;
-    const auto report = [&](const std::string& what) {
-      problems_.push_back(chosen_["path_planner"].mark.error(
-          fmt::format("path_planner '{}' needs a simulator with {}, which '{}' does not have", planner->type.id, what,
-                      simulator->type.id)));
+    if (simulator == nullptr) return;
+    for (const char* section : {"path_planner", "transfer_planner"}) {
+      const Chosen& chosen = chosen_[section];
+      if (chosen.type == nullptr) continue;
+      const Capabilities& needs = chosen.type->type.traits.needs;
+      const Capabilities& has = simulator->type.traits.provides;
+      const auto report = [&](const std::string& what) {
+        problems_.push_back(chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
+                                                          section, chosen.type->type.id, what, simulator->type.id)));
+      };
+      if (needs.dynamics && !has.dynamics) report("dynamics");
+      if (needs.contacts && !has.contacts) report("contacts");
+      if (needs.distance && !has.distance) report("distance queries");
+      if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    }
+  }
+
+  /// `layout.poses`: a map from part names to poses. Taken out of the section, whose other keys are plain parameters.
+  ConfigNode without_poses(const ConfigNode& layout) {
+    ConfigNode rest = layout;
+    const ConfigMember* poses = layout.find("poses");
+    if (poses == nullptr) return rest;
+    rest.erase("poses");
+    if (!poses->value.is_map()) {
+      problems_.push_back(poses->value.mark.error(
+          fmt::format("layout.poses must be a map from part names to poses, not {}", poses->value.kind_name())));
+      return rest;
+    }
+    for (const auto& member : poses->value.members)
+      if (const auto pose = read_pose(member.value)) {
+        config_.layout.poses[member.key] = *pose;
+        config_.origins["layout.poses." + member.key] = member.value.mark.text();
+      }
+    return rest;
+  }
+
+  std::optional<Pose> read_pose(const ConfigNode& list) {
+    const auto fail = [&](const std::string& what) {
+      problems_.push_back(
+          list.mark.error(fmt::format("a pose must be seven numbers [x, y, z, qw, qx, qy, qz]{}", what)));
+      return std::nullopt;
     };
-    if (needs.dynamics && !has.dynamics) report("dynamics");
-    if (needs.contacts && !has.contacts) report("contacts");
-    if (needs.distance && !has.distance) report("distance queries");
-    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    if (list.kind != ConfigNode::Kind::sequence) return fail(fmt::format(", not {}", list.kind_name()));
+    if (list.items.size() != 7) return fail(fmt::format(", got {}", list.items.size()));
+    double n[7] = {};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const ConfigNode& item = list.items[i];
+      const char* end = item.scalar.data() + item.scalar.size();
+      const auto read = std::from_chars(item.scalar.data(), end, n[i]);
+      if (!item.is_scalar() || item.quoted || read.ec != std::errc{} || read.ptr != end || !std::isfinite(n[i]))
+        return fail(fmt::format("; '{}' is none", item.scalar));
+    }
+    Pose pose{{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
+    const double norm = pose.q.norm();
+    if (!(std::abs(norm - 1) <= 1e-3)) return fail(fmt::format("; the quaternion has length {:.6g}, expected 1", norm));
+    if (std::abs(norm - 1) > 1e-12) pose.q.normalize();
+    return pose;
   }
 
   const ConfigNode& root_;
@@ -202,6 +257,9 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
     throw ConfigError(std::move(problems));
   }
   config.assembly = Schema<PrepareOptions>().bind(config.sections.at("assembly"));
+  auto poses = std::move(config.layout.poses);
+  config.layout = Schema<LayoutOptions>().bind(config.sections.at("layout"));
+  config.layout.poses = std::move(poses);
   config.run = Schema<RunSettings>().bind(config.sections.at("run"));
   config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
   return config;

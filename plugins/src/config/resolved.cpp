@@ -59,6 +59,17 @@ class Writer {
     line(row);
   }
 
+  void pose(const std::string& part, const Pose& p) {
+    std::string numbers;
+    for (const double x : {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()})
+      numbers += (numbers.empty() ? "" : ", ") + to_text(ParamValue{x});
+    std::string row = fmt::format("    {}: [{}]", quoted(part), numbers);
+    const auto origin = config_.origins.find("layout.poses." + part);
+    if (origin != config_.origins.end())
+      row = fmt::format("{:<{}}  # {}", row, kCommentColumn, one_line(origin->second));
+    line(row);
+  }
+
   void values(const std::string& section, const std::vector<ParamSpec>& specs, const ParamSet& params) {
     for (const auto& spec : specs) {
       const auto it = params.find(spec.name);
@@ -116,8 +127,14 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
     }
   };
   fixed("assembly");
-  const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner};
+  const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
+                                   &config.transfer_planner};
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i], registry);
+  fixed("layout");
+  if (!config.layout.poses.empty()) {
+    writer.line("  poses:");
+    for (const auto& [part, pose] : config.layout.poses) writer.pose(part, pose);
+  }
   fixed("run");
   fixed("verify");
   return writer.take();

@@ -35,6 +35,7 @@ void RunSettings::describe(Schema<RunSettings>& s) {
 const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections() {
   static const std::vector<std::pair<std::string, std::vector<ParamSpec>>> sections = {
       {"assembly", Schema<PrepareOptions>().specs()},
+      {"layout", Schema<LayoutOptions>().specs()},
       {"run", Schema<RunSettings>().specs()},
       {"verify", Schema<VerifySettings>().specs()}};
   return sections;
@@ -44,7 +45,8 @@ const std::vector<PluginSection>& plugin_sections() {
   static const std::vector<PluginSection> sections = {
       {"simulator", PluginKind::simulator, "sdf_penalty"},
       {"path_planner", PluginKind::path_planner, "bfs"},
-      {"sequence_planner", PluginKind::sequence_planner, "progressive"}};
+      {"sequence_planner", PluginKind::sequence_planner, "progressive"},
+      {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
   return sections;
 }
 

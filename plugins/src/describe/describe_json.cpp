@@ -29,7 +29,8 @@ Json parameter(const ParamSpec& spec) {
 std::string describe_json(const PluginType& type, const PluginFile& file) {
   Json json = {
       {"id", type.id}, {"kind", to_string(type.kind)}, {"summary", type.summary}, {"source", type.traits.source}};
-  if (type.kind == PluginKind::path_planner) json["needs"] = capabilities(type.traits.needs);
+  if (type.kind == PluginKind::path_planner || type.kind == PluginKind::transfer_planner)
+    json["needs"] = capabilities(type.traits.needs);
   if (type.kind == PluginKind::simulator) json["provides"] = capabilities(type.traits.provides);
   json["parameters"] = Json::array();
   for (const auto& spec : type.params) json["parameters"].push_back(parameter(spec));

@@ -71,6 +71,11 @@ std::string json_schema(const Registry& registry) {
                                     {"description", "Folders of plugins, relative to this file."}}}});
   for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry);
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs));
+  properties["layout"]["properties"]["poses"] = {
+      {"type", "object"},
+      {"description",
+       "Where parts lie, by name: [x, y, z, qw, qx, qy, qz], acting on input coordinates, in input units."},
+      {"additionalProperties", {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 7}, {"maxItems", 7}}}};
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Dismantle configuration"}};
   schema.update(object(std::move(properties)));
   schema["required"] = {"schema"};

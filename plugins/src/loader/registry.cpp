@@ -39,6 +39,8 @@ std::string_view to_string(PluginKind kind) {
       return "path_planner";
     case PluginKind::sequence_planner:
       return "sequence_planner";
+    case PluginKind::transfer_planner:
+      return "transfer_planner";
     case PluginKind::importer:
       return "importer";
   }

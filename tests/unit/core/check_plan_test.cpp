@@ -72,6 +72,17 @@ class CheckPlan : public ::testing::Test {
     }
   }
 
+  /// Displacement with which the disassembly left what assembly step `step` brings, and where that is when assembled.
+  Vec3 bare_goal(std::size_t step) const {
+    const auto& back = plan_.assembly_steps[step];
+    return assembly_.normalization.pose_to_internal(back.moves[0].poses[back.transfer]).t;
+  }
+  Vec3 bare_place(std::size_t step) const {
+    for (const auto& p : assembly_.parts)
+      if (p.name == plan_.assembly_steps[step].moves[0].part) return p.mesh->box().center();
+    return Vec3::Zero();
+  }
+
   Assembly assembly_;
   Plan plan_;
 };
@@ -237,6 +248,45 @@ TEST_F(CheckPlan, AReverseCountsOnlyIfTheSamePartsStandBy) {
   // The first step alone is the last one backwards, but here part2 never left and stands where part1 goes through.
   plan_.assembly_steps[1].moves[0] = {"part1", {Pose{}, Pose{}}};
   expect_problem(1, "assembly step");
+}
+
+/// Both parts lie in a layout beside the rest: each is in the way of whatever runs into it.
+TEST_F(CheckPlan, WhatLiesInTheLayoutIsInTheWay) {
+  reverse_into_assembly();
+  ASSERT_EQ(plan_.assembly_steps.size(), 2u);
+  const auto bring = [&](std::size_t step, const Vec3& from) {  // straight to where the way in begins
+    auto& back = plan_.assembly_steps[step];
+    const Pose start = assembly_.normalization.pose_to_internal(back.moves[0].poses.front());
+    std::vector<Pose> way = poses(start.t - from, shift(from));
+    way.pop_back();
+    back.transfer = way.size();
+    back.moves[0].poses.insert(back.moves[0].poses.begin(), way.begin(), way.end());
+  };
+  const Plan bare = plan_;
+  const Vec3 first = bare_goal(0) + Vec3(0, 40, 0), second = bare_goal(1) + Vec3(0, -40, 0);
+  bring(0, first);
+  bring(1, second);
+  plan_.assembly_status = AssemblyStatus::complete;
+  for (const auto& p : check().problems) ADD_FAILURE() << p.step << ": " << p.message;
+  EXPECT_TRUE(check().complete);
+  const Plan good = plan_;
+
+  // The second lies where the first comes along.
+  plan_ = bare;
+  bring(0, first);
+  bring(1, bare_goal(0) + Vec3(0, 20, 0) + (bare_place(0) - bare_place(1)));
+  plan_.assembly_status = AssemblyStatus::complete;
+  expect_problem(1, "assembly step");
+
+  plan_ = good;
+  plan_.assembly_steps[1].transfer = 0;
+  expect_problem(0, "does not begin in the layout");
+  plan_ = good;
+  plan_.assembly_steps.pop_back();
+  expect_problem(0, "has no assembly step for");
+  plan_ = good;
+  plan_.assembly_steps[0].transfer = plan_.assembly_steps[0].moves[0].poses.size();
+  expect_problem(1, "beyond its poses");
 }
 
 TEST_F(CheckPlan, StopsWhenAsked) {

@@ -201,7 +201,9 @@ class Glb {
   }
 
   void check_animation() {
-    ASSERT_EQ(json["animations"].size(), 1u);
+    for (const Json& later : json["animations"])
+      for (const Json& s : later["samplers"])
+        used.insert({s["input"].get<std::size_t>(), s["output"].get<std::size_t>()});
     const Json& animation = json["animations"][0];
     EXPECT_EQ(animation["name"], "disassembly");
     double end = -1;
@@ -252,6 +254,33 @@ std::vector<Pose> straight(const Eigen::Vector3d& way, std::size_t n) {
   std::vector<Pose> out(n);
   for (std::size_t i = 0; i < n; ++i) out[i].t = way * (double(i) / double(n - 1));
   return out;
+}
+
+TEST(Glb, AssemblyIsTheSecondAnimation) {
+  const Assembly assembly = assembly_of(
+      {{"a", box_mesh({-1, -1, -1}, {1, 1, 1})}, {"base", box_mesh({-5, -5, -2}, {5, 5, -1})}}, 1, {0, 0, 0});
+  Plan plan;
+  plan.disassembly = {step_of(1, {{"a", straight({0, 0, 9}, 5)}})};
+  EXPECT_EQ(Glb(to_glb(plan, assembly)).json["animations"].size(), 1u);
+  plan.assembly_steps = plan.disassembly;
+  auto& poses = plan.assembly_steps[0].moves[0].poses;
+  std::reverse(poses.begin(), poses.end());
+  poses.insert(poses.begin(), Pose{{12, 0, 0}, Eigen::Quaterniond::Identity()});
+  const Glb glb(to_glb(plan, assembly));
+  ASSERT_EQ(glb.json["animations"].size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Json& animation = glb.json["animations"][i];
+    EXPECT_EQ(animation["name"], i == 0 ? "disassembly" : "assembly");
+    EXPECT_EQ(animation["extras"]["kind"], animation["name"]);
+    ASSERT_EQ(animation["extras"]["steps"].size(), 1u);
+    const Json& step = animation["extras"]["steps"][0];
+    EXPECT_EQ(step["step"], 1);
+    EXPECT_EQ(step["parts"], Json::array({"a"}));
+    EXPECT_LT(step["begin"], step["end"]);
+  }
+  // It begins where the part lies; nodes count from the middle of the assembly, half a unit below the part's.
+  const Json& sampler = glb.json["animations"][1]["samplers"][0];
+  EXPECT_EQ(vector_of(Json(glb.read(sampler["output"]))), Eigen::Vector3d(12, 0, 0.5));
 }
 
 TEST(Glb, EveryKeyPutsTheGeometryWhereThePlanSays) {

@@ -74,6 +74,9 @@ Plan any_plan(Rng& rng) {
   };
   plan.disassembly = steps();
   plan.assembly_steps = steps();
+  for (auto& s : plan.assembly_steps) s.transfer = rng.below(s.moves.front().poses.size());
+  plan.assembly_status = static_cast<AssemblyStatus>(rng.below(3));
+  plan.assembly_message = rng.below(2) ? "no way for 'x'" : "";
   plan.status = rng.below(2) ? PlanStatus::complete : PlanStatus::partial;
   plan.seed = rng.next();
   plan.verified_max_penetration = rng.uniform() + 1e-6;
@@ -136,6 +139,10 @@ TEST(PlanIo, ReadingGivesBackWhatWasWritten) {
     EXPECT_EQ(a.remaining, b.remaining);
     expect_same(a.disassembly, b.disassembly);
     expect_same(a.assembly_steps, b.assembly_steps);
+    for (std::size_t i = 0; i < a.assembly_steps.size(); ++i)
+      EXPECT_EQ(a.assembly_steps[i].transfer, b.assembly_steps[i].transfer);
+    EXPECT_EQ(a.assembly_status, b.assembly_status);
+    EXPECT_EQ(a.assembly_message, b.assembly_message);
     ASSERT_EQ(a.unsolved.size(), b.unsolved.size());
     for (std::size_t i = 0; i < a.unsolved.size(); ++i) {
       EXPECT_EQ(a.unsolved[i].outcome, b.unsolved[i].outcome);

@@ -11,7 +11,8 @@
 
 namespace dismantle {
 
-/// plan.glb: one node per part named like the part, one animation over all steps, glTF 2.0.
+/// plan.glb: one node per part named like the part, glTF 2.0. Two animations: "disassembly", and after
+/// it "assembly" with the assembly steps; `extras` of each: `kind` (its name) and `steps`, when each step happens.
 /// Geometry in input units, in the input's axes.
 DISMANTLE_API std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly);
 

@@ -29,6 +29,9 @@ struct PlanStep {
   std::string planner;
   unsigned depth = 0;
   std::vector<std::string> contacts;  ///< parts touched on the way
+  /// Assembly steps: index of the pose at which the way from the layout ends and the disassembly path backwards begins.
+  /// 0 = there is no such way, the step begins where the disassembly ended.
+  std::size_t transfer = 0;
 };
 
 struct PlanUnsolved {
@@ -63,6 +66,13 @@ struct PlanAssembly {
 
 enum class PlanStatus { complete, partial };
 
+/// What `assembly_steps` are.
+enum class AssemblyStatus {
+  complete,  ///< each step that there is in the disassembly, from the layout on
+  partial,   ///< no way from the layout was found for some; `assembly_message` says for which
+  reversed,  ///< the disassembly backwards and nothing more: no layout was asked for
+};
+
 struct Plan {
   std::string generator_name = "dismantle";
   std::string generator_version;
@@ -72,10 +82,13 @@ struct Plan {
   double verified_max_penetration = 0.01;  ///< the tolerance that every step was judged by
   std::vector<PlanStep> disassembly;
   std::vector<PlanStep> assembly_steps;
+  AssemblyStatus assembly_status = AssemblyStatus::reversed;
+  std::string assembly_message;  ///< why partial; else empty
   std::vector<std::string> remaining;
   std::vector<PlanUnsolved> unsolved;
 };
 
+DISMANTLE_API std::string_view to_string(AssemblyStatus status);
 /// Same plan, same bytes. Times are the only fields that vary between runs.
 DISMANTLE_API std::string to_json(const Plan& plan);
 /// @throws InputError naming `source` and the place of what is wrong.

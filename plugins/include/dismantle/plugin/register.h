@@ -11,7 +11,7 @@ namespace dismantle::abi {
 inline constexpr std::uint64_t kBoundaryLayout =
     layout_hash<Mesh, Pose, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, RawPart, Importer,
                 Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
-                Prepared, Simulator, Effort, Verdict, PathQuery, PathResult, PathPlanner, Attempt, AttemptResult,
+                Prepared, Simulator, Effort, Verdict, PathQuery, PathResult, PathPlanner, TransferQuery, TransferPlanner, Attempt, AttemptResult,
                 OracleCounts, PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner,
                 Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec,
                 TypeTraits, PluginType, Registrar>();

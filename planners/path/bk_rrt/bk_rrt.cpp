@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/plugin.h"
+#include "random_tree.h"
+
+namespace dismantle::bk_rrt {
+namespace {
+
+constexpr Capabilities kNeeds{.dynamics = true};
+/// Simulated steps of the first turn of a tree where two grow in turn; each round doubles it.
+constexpr std::uint64_t kFirstTurn = 4'000;
+
+class BkRrt final : public PathPlanner {
+ public:
+  explicit BkRrt(const Parameters& parameters) : parameters_(parameters) {}
+  Capabilities needs() const noexcept override { return kNeeds; }
+
+  PathResult plan(const PathQuery& query, RunContext& context) override {
+    PathResult result;
+    const Capabilities has = query.simulator.capabilities();
+    if (!has.dynamics || has.max_moving < query.cast.moving.size()) {
+      result.outcome = Outcome::unsupported;
+      result.message = "needs a simulator with dynamics for all moving parts";
+      return result;
+    }
+    const Deadline deadline = query.effort.timeout > 0
+                                  ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+                                  : context.deadline;
+    std::vector<std::unique_ptr<RandomTree>> trees;
+    const auto add = [&](MotionSpace motion, std::uint64_t stream) {
+      trees.push_back(std::make_unique<RandomTree>(query, motion, parameters_, context.rng.fork(stream)));
+    };
+    if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
+    if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
+    if (trees.front()->starts_out()) {
+      result.outcome = Outcome::start_is_goal;
+      result.path = {trees.front()->farthest(), trees.front()->farthest()};
+      return result;
+    }
+
+    const std::uint64_t budget = query.effort.max_steps > 0 ? query.effort.max_steps : kNone;
+    const std::uint64_t level = level_limit(query.effort);
+    const auto used = [&] {
+      std::uint64_t steps = 0;
+      for (const auto& t : trees) steps += t->steps();
+      return steps;
+    };
+    bool solved = false, stopped = false;
+    for (std::uint64_t turn = kFirstTurn; !solved && !stopped && used() < level; turn *= 2)
+      for (const auto& tree : trees) {
+        const std::uint64_t until = trees.size() > 1 ? std::min(level, used() + turn) : level;
+        while (!solved && used() < until) {
+          if (stopped = context.should_stop() || deadline.passed() || used() >= budget; stopped) break;
+          solved = tree->iterate(result);
+        }
+        if (solved || stopped) break;
+      }
+    if (!solved) {
+      result.outcome = !stopped                     ? Outcome::depth_limit
+                       : context.cancel.cancelled() ? Outcome::cancelled
+                                                    : Outcome::timeout;
+      const auto& best = *std::max_element(trees.begin(), trees.end(), [](const auto& a, const auto& b) {
+        return a->farthest_way() < b->farthest_way();
+      });
+      result.best_pose = best->farthest();
+    }
+    finish(trees, result);
+    return result;
+  }
+
+ private:
+  static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+
+  std::uint64_t level_limit(const Effort& effort) const {
+    if (effort.max_depth == 0) return kNone;
+    const double steps =
+        std::ldexp(static_cast<double>(parameters_.level_steps), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
+    return steps < 1e18 ? static_cast<std::uint64_t>(steps) : kNone;
+  }
+
+  static void finish(const std::vector<std::unique_ptr<RandomTree>>& trees, PathResult& result) {
+    std::map<PartId, std::uint64_t> touched;
+    for (const auto& tree : trees) {
+      result.counts["nodes"] += static_cast<double>(tree->size());
+      result.counts["steps"] += static_cast<double>(tree->steps());
+      result.counts["refused"] += static_cast<double>(tree->refused());
+      for (const auto& [part, times] : tree->touched()) touched[part] += times;
+    }
+    std::vector<std::pair<std::uint64_t, PartId>> order;
+    for (const auto& [part, times] : touched) order.emplace_back(times, part);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+      return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    for (const auto& o : order) result.blocked_by.push_back(o.second);
+  }
+
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::bk_rrt
+
+DISMANTLE_PLUGIN("dismantle.bk_rrt", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::PathPlanner, dismantle::bk_rrt::BkRrt, dismantle::bk_rrt::Parameters>(
+      "bk_rrt", "Behavioural kinodynamic RRT: random actions in a physics simulator.",
+      {.source = "Zickler and Veloso 2009; Tian et al. 2022, Algorithm 4", .needs = dismantle::bk_rrt::kNeeds});
+}

@@ -1,0 +1,55 @@
+/// Parameters of the bk_rrt path planner.
+#pragma once
+
+#include "dismantle/parameters.h"
+
+namespace dismantle::bk_rrt {
+
+enum class Motion { translation, rotation, automatic };
+enum class Actions { sphere, axes };
+
+struct Parameters {
+  Motion motion = Motion::automatic;
+  // Table 6.
+  double time_step = 0.1;
+  double force = 100;
+  // Where Algorithm 4 leaves a choice; see README.md.
+  Actions actions = Actions::sphere;
+  double thinning = 1e-4;
+  std::int64_t level_steps = 20'000;
+
+  static void describe(Schema<Parameters>& s) {
+    s.add_choice<Motion>("motion", &Parameters::motion,
+                         {{"translation", Motion::translation, "forces, orientation locked"},
+                          {"rotation", Motion::rotation, "forces and torques in SE(3)"},
+                          {"auto", Motion::automatic, "a tree of each kind, which grow in turn"}},
+                         "State space of the search.");
+    s.add("time_step", &Parameters::time_step,
+          {.unit = "s",
+           .min = 1e-3,
+           .max = 10,
+           .doc = "Planning time step: how long a random action is applied (table 6)."});
+    s.add("force", &Parameters::force,
+          {.unit = "N",
+           .min = 0,
+           .min_open = true,
+           .doc = "Force of each action; torques are this times the part's radius (table 6)."});
+    s.add_choice<Actions>(
+        "actions", &Parameters::actions,
+        {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
+         {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
+        "What a random action is drawn from.");
+    s.add("thinning", &Parameters::thinning,
+          {.unit = "unit",
+           .min = 0,
+           .max = 0.01,
+           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+    s.add("level_steps", &Parameters::level_steps,
+          {.unit = "1",
+           .min = 1,
+           .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
+                  "level doubles them."});
+  }
+};
+
+}  // namespace dismantle::bk_rrt

@@ -1,0 +1,86 @@
+/// OMPL state space of a part's (or rigid group's) displacement, in our units and with our metric.
+#pragma once
+
+#include <ompl/base/StateSpace.h>
+
+#include <Eigen/Geometry>
+
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/geometry/pose.h"
+#include "dismantle/run_context.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle::sampling {
+
+/// What moves: its centre in the world at the start, and the largest distance of its points from there (assembly
+/// units).
+struct Mover {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+
+/// R3 or SE(3). A state is where the mover's centre is and how the mover is turned since the start.
+///
+/// Metric (assembly units): way of the centre plus radius times angle of turn. No point of the mover travels further
+/// on the motion between two states, in which the centre moves on a line while the mover turns at constant speed
+/// (OMPL's interpolation for SE(3)). So a step in this metric is a step of the part, wherever one looks.
+///
+/// Draws nothing from OMPL's process-wide sequence of seeds unless asked for a sampler by OMPL itself.
+class DisplacementSpace final : public ompl::base::StateSpace {
+ public:
+  struct StateType final : ompl::base::State {
+    StateType() = default;
+    StateType(const StateType& other) : State(), center(other.center), turn(other.turn) {}  // OMPL's base has no copy
+    StateType& operator=(const StateType& other) {
+      center = other.center;
+      turn = other.turn;
+      return *this;
+    }
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  };
+
+  /// `bounds`: of the centre, world.
+  DisplacementSpace(const Mover& mover, MotionSpace motion, const Aabb& bounds);
+
+  const Mover& mover() const { return mover_; }
+  MotionSpace motion() const { return motion_; }
+  const Aabb& bounds() const { return bounds_; }
+
+  /// Displacement since the start: x' = R x + t for every point where it stood at the start.
+  Pose displacement(const StateType& state) const { return {state.center - state.turn * mover_.center, state.turn}; }
+  StateType start() const;
+  /// Uniform in the bounds; orientation uniform in SO(3) (Shoemake) when it is free.
+  void draw(Rng& rng, StateType& state) const;
+  double distance(const StateType& a, const StateType& b) const;
+  StateType between(const StateType& a, const StateType& b, double u) const;
+
+  unsigned int getDimension() const override { return motion_ == MotionSpace::translation ? 3 : 6; }
+  double getMaximumExtent() const override;
+  double getMeasure() const override;
+  void enforceBounds(ompl::base::State* state) const override;
+  bool satisfiesBounds(const ompl::base::State* state) const override;
+  void copyState(ompl::base::State* to, const ompl::base::State* from) const override;
+  double distance(const ompl::base::State* a, const ompl::base::State* b) const override;
+  bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
+  void interpolate(const ompl::base::State* from, const ompl::base::State* to, double u,
+                   ompl::base::State* state) const override;
+  /// For OMPL's own planners: seeded from `seed_samplers`, each sampler differently.
+  ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;
+  void seed_samplers(const Rng& rng) { sampler_seeds_ = rng; }
+  ompl::base::State* allocState() const override { return new StateType; }
+  void freeState(ompl::base::State* state) const override { delete static_cast<StateType*>(state); }
+
+ private:
+  Mover mover_;
+  MotionSpace motion_;
+  Aabb bounds_;
+  mutable Rng sampler_seeds_{1};
+};
+
+/// The turns of a path's edges, cut so that the screw motions between the poses that come out (which is how everybody
+/// else reads a path) stay within 1e-5 assembly units of the edges. `first` excluded, `last` included.
+void append_edge(const DisplacementSpace& space, const DisplacementSpace::StateType& first,
+                 const DisplacementSpace::StateType& last, std::vector<Pose>& displacements);
+
+}  // namespace dismantle::sampling

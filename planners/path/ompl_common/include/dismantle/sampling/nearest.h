@@ -1,0 +1,37 @@
+/// Nearest neighbours that depend on nothing but what was added, in which order. (OMPL's trees pick their pivots with
+/// generators seeded from a process-wide sequence.)
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace dismantle::sampling {
+
+/// Points with labels 0, 1, 2... in the order in which they are added. Logarithmic method: k-d trees of doubling size.
+class NearestNodes {
+ public:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  std::uint32_t add(const Eigen::Vector3d& point);
+  /// The label counts no more.
+  void remove(std::uint32_t label) { removed_[label] = true; }
+  bool removed(std::uint32_t label) const { return removed_[label]; }
+  /// Label with the least metric(label), of several the lowest; kNone when there is none. The metric must not be
+  /// below the distance from `point` to the label's point.
+  std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
+  std::size_t size() const { return points_.size(); }
+
+ private:
+  using Tree = std::vector<std::uint32_t>;  ///< implicit: the middle of each range splits it
+  void build(Tree& tree, std::size_t first, std::size_t last, int axis) const;
+  struct Search;
+  void visit(const Tree& tree, std::size_t first, std::size_t last, int axis, Search& search) const;
+
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<bool> removed_;
+  std::vector<Tree> forest_;  ///< forest_[k] is empty or has 2^k entries
+};
+
+}  // namespace dismantle::sampling

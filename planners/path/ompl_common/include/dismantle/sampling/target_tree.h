@@ -1,0 +1,86 @@
+/// A rapidly-exploring random tree as an OMPL planner, with the choice of goals left open: what `rrt` and `t_rrt`
+/// share.
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dismantle/sampling/nearest.h"
+#include "dismantle/sampling/scene.h"
+
+namespace dismantle::sampling {
+
+class TargetTree;
+
+/// Where the tree grows when it does not grow towards a random state.
+class TargetRule {
+ public:
+  using StateType = Scene::StateType;
+  struct Target {
+    std::uint32_t node = 0;  ///< grows
+    StateType state;         ///< towards this
+  };
+  virtual ~TargetRule() = default;
+  /// Nothing: this time there is no goal worth trying, take a random state.
+  virtual std::optional<Target> target(TargetTree& tree, Rng& rng) = 0;
+};
+
+/// LaValle 1998: in each iteration draw a state (or, with probability goal_bias, take a goal), and extend the nearest
+/// node towards it. What is free of an extension is kept up to the first state that is not. Towards a random state an
+/// extension is `range` long at most; towards a goal it goes on until it is blocked, with a node every `range`.
+///
+/// Ends as soon as a node satisfies the problem's goal. solve() may be called again: it goes on with the same tree.
+/// All random numbers come from the generator given.
+class TargetTree final : public ompl::base::Planner {
+ public:
+  using StateType = Scene::StateType;
+  struct Settings {
+    double goal_bias = 0.05;
+    double range = 1;  ///< assembly units
+  };
+
+  TargetTree(Scene& scene, const Settings& settings, std::unique_ptr<TargetRule> rule, const Rng& rng);
+
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
+  void clear() override;
+  void getPlannerData(ompl::base::PlannerData& data) const override;
+
+  /// Nodes from the root to the one that solve() ended with; empty before.
+  const std::vector<std::uint32_t>& solution() const { return solution_; }
+  /// Takes a node and all that grew from it out of the tree. Not for the root.
+  void discard(std::uint32_t node);
+
+  Scene& scene() { return scene_; }
+  const StateType& state(std::uint32_t node) const { return nodes_[node].state; }
+  std::size_t size() const { return nodes_.size(); }
+  std::uint64_t iterations() const { return iterations_; }
+  std::uint32_t nearest(const StateType& state) const;
+  /// The node whose centre went furthest from the start.
+  std::uint32_t farthest() const { return farthest_; }
+
+ private:
+  struct Node {
+    StateType state;
+    std::uint32_t parent = 0;
+  };
+  std::uint32_t add(const StateType& state, std::uint32_t parent);
+  std::optional<std::uint32_t> extend(std::uint32_t node, const StateType& target, bool greedy,
+                                      const ompl::base::PlannerTerminationCondition& stop);
+  void report(std::uint32_t node);
+
+  Scene& scene_;
+  Settings settings_;
+  std::unique_ptr<TargetRule> rule_;
+  Rng rng_;
+  std::vector<Node> nodes_;
+  NearestNodes near_;
+  std::uint64_t iterations_ = 0;
+  std::uint32_t farthest_ = 0;
+  std::vector<std::uint32_t> solution_;
+};
+
+}  // namespace dismantle::sampling

@@ -1,0 +1,57 @@
+#include <set>
+
+#include "dismantle/plugin.h"
+#include "dismantle/sampling/tree_planner.h"
+
+namespace dismantle::rrt {
+namespace {
+
+using sampling::Scene;
+using sampling::TargetRule;
+using sampling::TargetTree;
+
+struct Parameters : sampling::TreeParameters {
+  static void describe(Schema<Parameters>& s) {
+    sampling::describe_tree(s, "Probability of extending towards the goal, one disassembled state drawn at random.");
+  }
+};
+
+/// One goal for the whole search (section 6.1), grown to from the node nearest to it.
+class OneGoal final : public TargetRule {
+ public:
+  OneGoal(Scene& scene, Rng rng) : goal_(scene.draw_disassembled(rng)) {}
+
+  std::optional<Target> target(TargetTree& tree, Rng&) override {
+    if (!goal_) return std::nullopt;
+    const std::uint32_t node = tree.nearest(*goal_);
+    // The same extension again would end at the same place.
+    if (!tried_.insert(node).second) return std::nullopt;
+    return Target{node, *goal_};
+  }
+
+ private:
+  std::optional<StateType> goal_;
+  std::set<std::uint32_t> tried_;
+};
+
+class Rrt final : public PathPlanner {
+ public:
+  explicit Rrt(const Parameters& parameters) : parameters_(parameters) {}
+  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
+  PathResult plan(const PathQuery& query, RunContext& context) override {
+    return sampling::plan_by_trees(query, context, parameters_,
+                                   [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::rrt
+
+DISMANTLE_PLUGIN("dismantle.rrt", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::PathPlanner, dismantle::rrt::Rrt, dismantle::rrt::Parameters>(
+      "rrt", "Rapidly-exploring random tree towards a disassembled state drawn at random.",
+      {.source = "LaValle 1998; Tian et al. 2022, appendix C.1", .needs = dismantle::sampling::kTreeNeeds});
+}

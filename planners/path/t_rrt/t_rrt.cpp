@@ -1,0 +1,38 @@
+#include "dismantle/plugin.h"
+#include "dismantle/sampling/targetless.h"
+#include "dismantle/sampling/tree_planner.h"
+
+namespace dismantle::t_rrt {
+namespace {
+
+struct Parameters : sampling::TreeParameters {
+  Parameters() { goal_bias = 0.2; }
+  static void describe(Schema<Parameters>& s) {
+    sampling::describe_tree(
+        s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
+  }
+};
+
+class TargetlessRrt final : public PathPlanner {
+ public:
+  explicit TargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
+  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
+  PathResult plan(const PathQuery& query, RunContext& context) override {
+    return sampling::plan_by_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
+      return std::make_unique<sampling::NearestExit>(scene);
+    });
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::t_rrt
+
+DISMANTLE_PLUGIN("dismantle.t_rrt", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::PathPlanner, dismantle::t_rrt::TargetlessRrt, dismantle::t_rrt::Parameters>(
+      "t_rrt", "Targetless-RRT: a random tree whose goals are the nearest states outside the box of the rest.",
+      {.source = "Aguinaga, Borro and Matey 2008; Tian et al. 2022, appendix C.1",
+       .needs = dismantle::sampling::kTreeNeeds});
+}

@@ -1,0 +1,173 @@
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/goals/GoalState.h>
+
+#include <algorithm>
+
+#include "dismantle/plugin.h"
+#include "dismantle/sampling/connect_trees.h"
+#include "straight.h"
+
+namespace dismantle::rrt_connect {
+namespace {
+
+namespace ob = ompl::base;
+using sampling::Budget;
+using sampling::ConnectTrees;
+using sampling::Scene;
+
+/// State checks without turns where nothing else limits them.
+constexpr std::uint64_t kFirstTurn = 10'000;
+/// Paths that the judge may refuse: simulator and judge differ there, and more of the same will not help.
+constexpr int kMostRefused = 10;
+
+struct Parameters {
+  bool straight_first = true;
+  double clearance = 0.1;
+  double range = 2;
+  double step = 0.05;
+  double max_penetration = 0.004;
+  bool simplify = true;
+  std::int64_t max_checks = 30'000;
+
+  static void describe(Schema<Parameters>& s) {
+    s.add("straight_first", &Parameters::straight_first,
+          {.doc = "Try to lift the part, turn it, carry it over everything and put it down before any tree is grown."});
+    s.add("clearance", &Parameters::clearance,
+          {.unit = "unit", .min = 0, .doc = "What a part that is carried over others keeps off them."});
+    s.add("range", &Parameters::range,
+          {.unit = "unit", .min = 0, .min_open = true, .doc = "Longest extension of a tree."});
+    s.add("step", &Parameters::step,
+          {.unit = "unit",
+           .min = 1e-5,
+           .max = 1,
+           .doc = "Extensions are checked every so far; largest way of any point of the part."});
+    s.add("max_penetration", &Parameters::max_penetration,
+          {.unit = "unit", .min = 0, .max = 1, .doc = "Depth at which a state counts as colliding."});
+    s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
+    s.add("max_checks", &Parameters::max_checks,
+          {.unit = "1", .min = 0, .doc = "State checks for one transfer; 0 = no limit but those of the run."});
+  }
+};
+
+class RrtConnect final : public TransferPlanner {
+ public:
+  explicit RrtConnect(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// None: straight ways need no simulator. Trees do, and say so.
+  Capabilities needs() const noexcept override { return {}; }
+
+  PathResult plan(const TransferQuery& query, RunContext& context) override {
+    PathResult result;
+    Pose goal;
+    if (!displacement_to_goal(query, goal)) {
+      result.outcome = Outcome::unsupported;
+      result.message = "the group would have to change its shape on the way";
+      return result;
+    }
+    if (parameters_.straight_first && goes_straight(query, context, result)) return result;
+    const Capabilities has = query.simulator.capabilities();
+    if (!has.distance || has.max_moving < query.cast.moving.size()) {
+      result.outcome = Outcome::unsupported;
+      result.message = "no straight way, and trees need a simulator with distance queries for all moving parts";
+      return result;
+    }
+    grow(query, goal, context, result);
+    return result;
+  }
+
+ private:
+  bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) const {
+    for (Path& path : straight_ways(query, parameters_.clearance)) {
+      if (context.should_stop()) break;
+      ++result.counts["straight"];
+      const Verdict verdict = query.judge(path);
+      if (verdict.accepted) {
+        result.outcome = Outcome::solved;
+        result.depth = static_cast<unsigned>(path.size() - 1);
+        result.path = std::move(path);
+        result.message.clear();
+        return true;
+      }
+      result.message = verdict.reason;
+    }
+    return false;
+  }
+
+  void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
+    PathQuery removal{query.assembly, query.simulator, query.prepared, query.cast, query.effort, query.judge};
+    const auto own = static_cast<std::uint64_t>(parameters_.max_checks);
+    std::uint64_t& most = removal.effort.max_steps;
+    if (own > 0) most = most > 0 ? std::min(most, own) : own;
+    Budget budget(removal, context);
+
+    // Without a turn to make, a quarter of the budget goes to searching without turns.
+    const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
+    result.outcome = Outcome::timeout;
+    for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
+      if (motion == MotionSpace::translation && turns) continue;
+      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kFirstTurn;
+      Scene scene(removal, motion, parameters_.max_penetration, parameters_.step, budget, goal);
+      ConnectTrees trees(scene, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
+      auto problem = std::make_shared<ob::ProblemDefinition>(scene.information());
+      const auto start = scene.space().start();
+      const auto end = scene.state_after(goal);
+      problem->addStartState(&start);
+      auto target = std::make_shared<ob::GoalState>(scene.information());
+      target->setState(&end);
+      problem->setGoal(target);
+      trees.setProblemDefinition(problem);
+      const ob::PlannerTerminationCondition stop(
+          [&] { return budget.spent() || (limit > 0 && budget.checks >= limit); });
+      ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
+      for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
+        status = trees.solve(stop);
+        if (status != ob::PlannerStatus::EXACT_SOLUTION || accepted(scene, trees.solution(), query, result)) break;
+      }
+      result.counts["nodes"] += static_cast<double>(trees.nodes());
+      if (result.outcome != Outcome::solved) result.blocked_by = scene.blockers();
+      if (result.outcome == Outcome::solved) break;
+      if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
+        result.outcome = Outcome::invalid_start;
+        result.message = status == ob::PlannerStatus::INVALID_START ? "the part collides where it lies in the layout"
+                                                                    : "the part collides where it is to be put in";
+        break;
+      }
+    }
+    if (result.outcome == Outcome::timeout && context.cancel.cancelled()) result.outcome = Outcome::cancelled;
+    result.counts["checks"] = static_cast<double>(budget.checks);
+  }
+
+  bool accepted(Scene& scene, const std::vector<Scene::StateType>& states, const TransferQuery& query,
+                PathResult& result) const {
+    std::vector<std::vector<Scene::StateType>> forms;
+    if (parameters_.simplify && states.size() > 2) forms.push_back(scene.shortcut(states));
+    forms.push_back(states);
+    for (const auto& form : forms) {
+      Path path = scene.path(form);
+      path.back() = query.goal;
+      const Verdict verdict = query.judge(path);
+      if (verdict.accepted) {
+        result.outcome = Outcome::solved;
+        result.depth = static_cast<unsigned>(form.size() - 1);
+        result.path = std::move(path);
+        result.message.clear();
+        result.blocked_by.clear();
+        return true;
+      }
+      ++result.counts["refused"];
+      result.message = verdict.reason;
+    }
+    return false;
+  }
+
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::rrt_connect
+
+DISMANTLE_PLUGIN("dismantle.rrt_connect", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::TransferPlanner, dismantle::rrt_connect::RrtConnect, dismantle::rrt_connect::Parameters>(
+      "rrt_connect", "Straight over everything if that is free, else two trees that grow towards each other.",
+      {.source = "Kuffner and LaValle 2000; Tian et al. 2022, section 4.4, Algorithm 3"});
+}

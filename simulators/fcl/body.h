@@ -1,0 +1,72 @@
+/// What the fcl simulator keeps of a part, computed once per distinct shape.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "collision_mesh.h"
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/model/assembly.h"
+#include "dismantle/sdf/solid.h"
+#include "dismantle/sdf/surface_query.h"
+
+namespace dismantle::mesh_collision {
+
+struct EdgeGraph {
+  std::vector<std::array<std::uint32_t, 2>> edges;        ///< vertices, the lower first
+  std::vector<std::array<std::uint32_t, 3>> of_triangle;  ///< edge k joins corners k and k + 1
+  std::vector<std::uint32_t> vertex_begin, vertex_edges;  ///< edges at each vertex; one entry more than vertices
+  std::vector<std::uint32_t> shell_vertex;                ///< one vertex of each connected shell
+};
+EdgeGraph edge_graph(const Mesh& mesh);
+
+/// One outer shell with its voids.
+struct SolidPart {
+  Mesh mesh;
+  Aabb box;
+  std::unique_ptr<const sdf::SurfaceQuery> surface;
+};
+
+/// A copy of a surface every point of which lies at most `depth` from the original, as far inside as that allows.
+struct Inset {
+  double depth = 0;
+  CollisionMesh surface;
+  std::vector<Eigen::Vector3d> shell_points;  ///< one point of each connected shell
+};
+
+/// In the frame in which the first part of this shape stands when assembled.
+struct Body {
+  Mesh mesh;  ///< flat faces merged (flat_faces.h) where that is worth while
+  Aabb box;
+  std::vector<SolidPart> solids;
+  EdgeGraph graph;
+  CollisionMesh surface;
+  std::vector<Eigen::Vector3d> hull;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< centre of mass
+  double radius = 0;                                 ///< largest distance of a vertex from `center`
+  std::map<double, Inset> insets;                    ///< by depth, assembly units
+};
+
+/// Shape and where it stands when assembled: `rest` takes shape frame to assembled frame.
+struct PlacedBody {
+  std::shared_ptr<const Body> body;
+  Pose rest;
+};
+
+/// `depths`: of the insets wanted. @throws InputError (naming `part`) when it encloses no volume.
+std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths);
+
+/// Displacement of each vertex into the mesh, at most `depth` long: into all faces around it at once, and no longer
+/// than a quarter of the material there is in that direction. Zero where no direction leads into all faces.
+std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::vector<SolidPart>& solids, double depth);
+
+/// Signed distance to the union of the solids, cut off at `limit` (shape frame, < 0 inside).
+double signed_distance(const std::vector<SolidPart>& solids, const Eigen::Vector3d& p,
+                       double limit = std::numeric_limits<double>::infinity());
+
+}  // namespace dismantle::mesh_collision

@@ -1,0 +1,91 @@
+#include "simulator.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "dismantle/errors.h"
+#include "dismantle/sdf/shape.h"
+#include "world.h"
+
+namespace dismantle::mesh_collision {
+namespace {
+
+/// Parts with the same triangles up to a rigid motion are one shape if they agree this well (assembly units).
+constexpr double kSameShape = 1e-7;
+
+/// Calls work(k) for k in [0, count) on several threads; the first exception in order of k is thrown on.
+void in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work) {
+  std::vector<std::exception_ptr> failure(count);
+  std::atomic<std::size_t> next{0};
+  const auto loop = [&] {
+    for (std::size_t k; (k = next.fetch_add(1)) < count;) try {
+        work(k);
+      } catch (...) {
+        failure[k] = std::current_exception();
+      }
+  };
+  std::vector<std::thread> helpers;
+  for (unsigned t = 1; t < std::min<std::size_t>(threads, count); ++t) helpers.emplace_back(loop);
+  loop();
+  for (auto& t : helpers) t.join();
+  for (const auto& f : failure)
+    if (f) std::rethrow_exception(f);
+}
+
+}  // namespace
+
+std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, RunContext& context) {
+  auto prepared = std::make_shared<PreparedBodies>();
+  const std::size_t n = assembly.parts.size();
+  prepared->placed.resize(n);
+  std::vector<std::size_t> model(n), distinct;
+  for (std::size_t i = 0; i < n; ++i) {
+    model[i] = i;
+    for (const std::size_t d : distinct)
+      if (const auto pose = sdf::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSameShape)) {
+        model[i] = d;
+        prepared->placed[i].rest = *pose;
+        break;
+      }
+    if (model[i] == i) distinct.push_back(i);
+  }
+  // What overlaps when assembled needs copies that are shrunken by that much more.
+  std::vector<std::set<double>> depths(n);
+  for (std::size_t i = 0; i < n && parameters_.certified_depth > 0; ++i)
+    depths[model[i]].insert(parameters_.certified_depth);
+  for (const auto& o : assembly.overlaps) {
+    prepared->overlaps[{o.a, o.b}] = o.depth;
+    if (parameters_.certified_depth > 0)
+      for (const PartId p : {o.a, o.b}) depths[model[p]].insert(o.depth + parameters_.certified_depth);
+  }
+  std::mutex progress;
+  std::size_t done = 0;
+  in_parallel(distinct.size(), context.threads, [&](std::size_t k) {
+    const std::size_t i = distinct[k];
+    if (context.should_stop()) return;
+    prepared->placed[i].body = make_body(assembly.parts[i], std::vector<double>(depths[i].begin(), depths[i].end()));
+    const std::lock_guard lock(progress);
+    context.progress("hierarchies", ++done, distinct.size(), assembly.parts[i].name);
+  });
+  for (std::size_t i = 0; i < n; ++i) prepared->placed[i].body = prepared->placed[model[i]].body;
+  return prepared;
+}
+
+std::unique_ptr<World> FclSimulator::world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+                                           MotionSpace space) const {
+  const auto& bodies = dynamic_cast<const PreparedBodies&>(prepared);
+  for (const auto* group : {&cast.moving, &cast.still})
+    for (const PlacedPart& p : *group)
+      if (p.part >= bodies.placed.size() || !bodies.placed[p.part].body)
+        throw InputError(
+            p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
+            "was not prepared (the preparation was interrupted)");
+  return std::make_unique<MeshWorld>(bodies, cast, space, parameters_);
+}
+
+}  // namespace dismantle::mesh_collision

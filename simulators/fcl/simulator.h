@@ -1,0 +1,26 @@
+/// Geometry only: who collides, and how deep.
+#pragma once
+
+#include <memory>
+
+#include "dismantle/simulator.h"
+#include "parameters.h"
+
+namespace dismantle::mesh_collision {
+
+constexpr Capabilities kProvides{.dynamics = false, .contacts = false, .distance = true, .max_moving = 64};
+
+class FclSimulator final : public Simulator {
+ public:
+  explicit FclSimulator(const Parameters& parameters) : parameters_(parameters) {}
+
+  Capabilities capabilities() const noexcept override { return kProvides; }
+  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) override;
+  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+                               MotionSpace space) const override;
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace dismantle::mesh_collision

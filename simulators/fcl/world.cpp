@@ -1,0 +1,90 @@
+#include "world.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "dismantle/geometry/hull.h"
+
+namespace dismantle::mesh_collision {
+namespace {
+
+/// Hulls count as apart from this gap on: above rounding, below any step of a path.
+constexpr double kSeparationGap = 1e-4;
+
+}  // namespace
+
+MeshWorld::MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters)
+    : cast_(cast), space_(space), depth_limit_(parameters.depth_limit), check_(parameters) {
+  if (cast.moving.empty()) throw std::invalid_argument("a world needs a part that moves");
+  const auto member = [&](const PlacedPart& p) {
+    const PlacedBody& placed = prepared.placed[p.part];
+    const Pose pose = p.pose * placed.rest;
+    return Member{p.part, &placed, pose, moved_box(placed.body->box, pose)};
+  };
+  for (const auto& m : cast.moving) moving_.push_back(member(m));
+  for (const auto& s : cast.still) still_.push_back(member(s));
+  for (const auto& m : moving_) {
+    for (const auto& s : still_) allowed_.push_back(prepared.overlap(m.part, s.part));
+    for (const auto& n : moving_) allowed_.push_back(prepared.overlap(m.part, n.part));
+  }
+  for (const auto& s : still_)
+    for (const auto& corner : s.placed->body->hull) {
+      rest_hull_.push_back(s.pose * corner);
+      rest_box_.extend(rest_hull_.back());
+    }
+}
+
+State MeshWorld::initial_state() const {
+  State s;
+  for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  return s;
+}
+
+StepReport MeshWorld::advance(State&, const Action&, double, Trace*) {
+  throw std::logic_error("the fcl simulator has no dynamics: it tells what collides, not what moves");
+}
+
+void MeshWorld::contacts(const State&, std::vector<Contact>&) {
+  throw std::logic_error("the fcl simulator has no contacts: it tells how deep parts penetrate");
+}
+
+void MeshWorld::place(const State& state) {
+  if (state.bodies.size() != moving_.size()) throw std::invalid_argument("a state needs one entry per moving part");
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    moving_[i].pose = state.bodies[i].pose * moving_[i].placed->rest;
+    moving_[i].box = moved_box(moving_[i].placed->body->box, moving_[i].pose);
+  }
+}
+
+double MeshWorld::penetration(const State& state) {
+  place(state);
+  double deepest = 0;
+  const std::size_t others = still_.size() + moving_.size();
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const Member& m = moving_[i];
+    const auto against = [&](const Member& other, std::size_t column) {
+      if (deepest >= depth_limit_ || !m.box.overlaps(other.box)) return;  // beyond it, one pair says enough
+      deepest = std::max(deepest, check_.depth(*m.placed->body, m.pose, *other.placed->body, other.pose,
+                                               allowed_[i * others + column]));
+    };
+    for (std::size_t s = 0; s < still_.size(); ++s) against(still_[s], s);
+    for (std::size_t n = i + 1; n < moving_.size(); ++n) against(moving_[n], still_.size() + n);
+  }
+  return deepest;
+}
+
+bool MeshWorld::separated(const State& state) {
+  if (rest_hull_.empty()) return true;
+  place(state);
+  Aabb box;
+  for (const auto& m : moving_) box.extend(m.box);
+  // Far out, boxes say it already.
+  const Eigen::Vector3d gap = (box.lo - rest_box_.hi).cwiseMax(rest_box_.lo - box.hi);
+  if (gap.maxCoeff() > kSeparationGap) return true;
+  moving_hull_.clear();
+  for (const auto& m : moving_)
+    for (const auto& corner : m.placed->body->hull) moving_hull_.push_back(m.pose * corner);
+  return separate(moving_hull_, rest_hull_, kSeparationGap).has_value();
+}
+
+}  // namespace dismantle::mesh_collision

@@ -1,0 +1,93 @@
+/// The scene of one attempt: who meets whom, and how deep.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "body.h"
+#include "dismantle/simulator.h"
+#include "edge_depth.h"
+#include "parameters.h"
+
+namespace dismantle::mesh_collision {
+
+class PreparedBodies final : public Prepared {
+ public:
+  std::vector<PlacedBody> placed;                        ///< by part
+  std::map<std::pair<PartId, PartId>, double> overlaps;  ///< a < b: depth when assembled, as measured here or by the
+                                                         ///< preparation, whichever is more; assembly units
+  double overlap(PartId a, PartId b) const {
+    const auto found = overlaps.find(std::minmax(a, b));
+    return found == overlaps.end() ? 0.0 : found->second;
+  }
+};
+
+/// Collision and depth between placed bodies, with the buffers for both. One per thread.
+class PairCheck {
+ public:
+  explicit PairCheck(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// Do the parts share a point? Exact for the triangles given (touching counts), containment included.
+  bool collide(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b);
+  /// Depth beyond `allowed`, >= 0. At most Parameters::certified_depth where that could be proved, else measured.
+  double depth(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double allowed);
+  /// Measured only: the deepest point of the edges of one in the other, both ways. Ends early at `enough`.
+  double measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough);
+  /// True proves that no surface point of one is deeper in the other than `depth`. Bodies without an inset of that
+  /// depth prove nothing.
+  bool certify(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth);
+
+ private:
+  bool contained(const Body& a, const Pose& a_to_b, const Body& b);
+  bool inset_is_clear(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth);
+
+  Parameters parameters_;
+  Collider collider_;
+  DepthGauge gauge_;
+  std::vector<TrianglePair> pairs_;
+  std::vector<std::uint32_t> corners_;
+};
+
+class MeshWorld final : public World {
+ public:
+  MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters);
+
+  const Cast& cast() const override { return cast_; }
+  MotionSpace space() const override { return space_; }
+  State initial_state() const override;
+  Eigen::Vector3d center(std::size_t body) const override {
+    return moving_[body].placed->rest * moving_[body].placed->body->center;
+  }
+  double radius(std::size_t body) const override { return moving_[body].placed->body->radius; }
+  double torque_arm(std::size_t body) const override { return radius(body); }
+  [[noreturn]] StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;
+  double penetration(const State& state) override;
+  [[noreturn]] void contacts(const State& state, std::vector<Contact>& out) override;
+  bool separated(const State& state) override;
+  void learn(PartId, PartId, const Eigen::Vector3d&) override {}  // nothing is sampled that could be added to
+
+ private:
+  struct Member {
+    PartId part = 0;
+    const PlacedBody* placed = nullptr;
+    Pose pose;  ///< shape frame to world: now (moving) or for good (still)
+    Aabb box;   ///< world, likewise
+  };
+  void place(const State& state);
+
+  Cast cast_;
+  MotionSpace space_;
+  double depth_limit_ = 0;
+  PairCheck check_;
+  std::vector<Member> moving_, still_;
+  std::vector<double> allowed_;  ///< [moving * (still + moving) + other]
+  std::vector<Eigen::Vector3d> rest_hull_;
+  Aabb rest_box_;
+  std::vector<Eigen::Vector3d> moving_hull_;  // scratch
+};
+
+/// Box of a box after a rigid motion.
+Aabb moved_box(const Aabb& box, const Pose& pose);
+
+}  // namespace dismantle::mesh_collision

@@ -1,0 +1,139 @@
+// Laws: each baseline solves what a planner of its kind should, alone and under each sequence planner; the same seed
+// gives the same plan on any number of threads; planners that need dynamics are not to be combined with `fcl`.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dismantle/config.h"
+#include "dismantle/errors.h"
+#include "dismantle/runner.h"
+#include "dismantle/samples.h"
+
+namespace dismantle {
+namespace {
+
+using Settings = std::vector<std::string>;
+
+RunConfig config_of(const std::string& planner, const std::string& simulator, Settings set, Registry& registry) {
+  set.insert(set.end(), {"simulator.type=" + simulator, "path_planner.type=" + planner});
+  return load_config({{}, set, {}}, registry);
+}
+
+/// The simulator that a planner is meant for.
+std::string home_of(const std::string& planner) { return planner == "bk_rrt" ? "sdf_penalty" : "fcl"; }
+
+RunResult plan(const std::string& sample, const ParamSet& parameters, const std::string& planner, const Settings& set,
+               unsigned threads = 1) {
+  Registry registry;
+  const RunConfig config = config_of(planner, home_of(planner), set, registry);
+  RunContext context;
+  context.threads = threads;
+  PrepareReport report;
+  const Assembly assembly =
+      prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
+  Ingredients ingredients;
+  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
+  ingredients.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.params); };
+  ingredients.sequence_planner =
+      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
+  ingredients.path_planner_id = planner;
+  RunOptions options;
+  options.path_timeout = 0;
+  options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
+  options.seed = static_cast<std::uint64_t>(config.run.seed);
+  context.rng = Rng(options.seed);
+  return run(assembly, ingredients, options, context);
+}
+
+/// Blocked parts shall not cost a test much.
+Settings brief(const std::string& planner, const std::string& steps) {
+  return {"run.path_steps=" + steps,
+          planner == "bk_rrt" ? "path_planner.level_steps=2000" : "path_planner.level_checks=300"};
+}
+
+const ParamSet kSmallBox = {{"count", std::int64_t{1}}, {"clearance", 0.5}, {"size", 20.0}};
+
+class EachPlanner : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EachPlanner, SolvesPegWithGenerousClearance) {
+  const RunResult r =
+      plan("peg_in_hole", {{"clearance", 0.5}, {"size", 10.0}, {"length", 12.0}, {"segments", std::int64_t{16}}},
+           GetParam(), {"run.path_steps=200000"});
+  EXPECT_EQ(r.plan.status, PlanStatus::complete);
+}
+
+TEST_P(EachPlanner, SolvesBoxWithLid) {
+  const RunResult r =
+      plan("stacked_box", {{"count", std::int64_t{1}}, {"clearance", 0.5}}, GetParam(), brief(GetParam(), "200000"));
+  EXPECT_EQ(r.plan.status, PlanStatus::complete);
+}
+
+TEST_P(EachPlanner, SolvesSlotWithOneBend) {
+  const RunResult r = plan("l_slot", {{"clearance", 0.5}, {"travel", 10.0}}, GetParam(), {"run.path_steps=400000"});
+  EXPECT_EQ(r.plan.status, PlanStatus::complete);
+}
+
+/// Two threads and one give the same plan; another seed gives another.
+TEST_P(EachPlanner, PlanDependsOnTheSeedAlone) {
+  const auto text = [&](unsigned threads) {
+    RunResult r = plan("stacked_box", kSmallBox, GetParam(), brief(GetParam(), "200000"), threads);
+    EXPECT_EQ(r.plan.status, PlanStatus::complete);
+    for (auto& step : r.plan.disassembly) step.seconds = 0;
+    return to_json(r.plan);
+  };
+  EXPECT_EQ(text(1), text(3));
+}
+
+TEST_P(EachPlanner, WorksUnderEachSequencePlanner) {
+  for (const std::string sequence : {"progressive", "queue", "random"}) {
+    const std::string planner = GetParam();
+    Settings set = brief(planner, planner == "bk_rrt" ? "6000" : planner == "rrt" ? "3000" : "800");
+    set.push_back("sequence_planner.type=" + sequence);
+    const RunResult r = plan("stacked_box", kSmallBox, GetParam(), set);
+    EXPECT_EQ(r.plan.status, PlanStatus::complete) << sequence;
+  }
+}
+
+/// What cannot leave is given up when the budget is spent, and what is in its way is named.
+TEST_P(EachPlanner, GivesUpOnAClosedBox) {
+  const RunResult r = plan("closed_box", {}, GetParam(), {"run.path_steps=300", "sequence_planner.type=queue"});
+  EXPECT_EQ(r.plan.status, PlanStatus::partial);
+  ASSERT_FALSE(r.plan.unsolved.empty());
+  EXPECT_EQ(r.plan.unsolved[0].outcome, Outcome::timeout);
+}
+
+INSTANTIATE_TEST_SUITE_P(Baselines, EachPlanner, ::testing::Values("rrt", "t_rrt", "mv_t_rrt", "bk_rrt"),
+                         [](const auto& i) { return std::string(i.param); });
+
+/// Found before anything runs, with the place in the file.
+TEST(Baselines, DynamicsWithFclIsAConfigurationError) {
+  for (const std::string planner : {"bfs", "bk_rrt"}) {
+    Registry registry;
+    try {
+      config_of(planner, "fcl", {}, registry);
+      ADD_FAILURE() << planner << " was accepted";
+    } catch (const ConfigError& e) {
+      EXPECT_NE(std::string(e.what()).find("needs a simulator with dynamics, which 'fcl' does not have"),
+                std::string::npos)
+          << e.what();
+    }
+  }
+}
+
+TEST(Baselines, GeometricPlannersTakeAnySimulatorWithDistance) {
+  for (const std::string planner : {"rrt", "t_rrt", "mv_t_rrt"})
+    for (const std::string simulator : {"fcl", "sdf_penalty"}) {
+      Registry registry;
+      EXPECT_NO_THROW(config_of(planner, simulator, {}, registry)) << planner << " on " << simulator;
+    }
+}
+
+/// A mating vector that no axis comes near to leads straight out.
+TEST(Baselines, MatingVectorsFindAnInclinedShaft) {
+  const RunResult r = plan("inclined_washer", {}, "mv_t_rrt", {"run.path_steps=20000", "path_planner.goal_bias=0.0"});
+  ASSERT_EQ(r.plan.status, PlanStatus::complete);
+  EXPECT_EQ(r.plan.disassembly[0].depth, 1u);
+}
+
+}  // namespace
+}  // namespace dismantle
