@@ -21,6 +21,6 @@ struct DeepPoint {
 /// Such a point locks the two. Fix it to `a`: when they are apart it is outside `b`, so on the way it passed through
 /// the surface of `b`; there and then that surface was so deep in `a`.
 std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
-                                           double limit, std::uint64_t most_cubes = 20'000);
+                                           double limit, std::uint64_t most_cubes = 1000);
 
 }  // namespace dismantle::verify

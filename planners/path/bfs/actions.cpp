@@ -22,6 +22,7 @@ constexpr std::size_t kMostNormals = 16, kMostDirections = 8;
 constexpr double kInto = 0.02;
 /// Leaning: sideways share of the push, and how square to the way a wall has to be.
 constexpr double kLean = 0.5, kBeside = 0.3;
+constexpr std::size_t kMostLeaning = 32;
 
 bool moves(const std::vector<PlacedPart>& moving, PartId part) {
   return std::any_of(moving.begin(), moving.end(), [part](const PlacedPart& m) { return m.part == part; });
@@ -134,7 +135,8 @@ std::vector<Vec3> leaning(const Freedom& freedom) {
   std::vector<Vec3> directions;
   for (const Vec3& d : freedom.directions)
     for (const Vec3& n : freedom.normals)
-      if (std::abs(d.dot(n)) < kBeside) directions.push_back((d - kLean * n).normalized());
+      if (std::abs(d.dot(n)) < kBeside && directions.size() < kMostLeaning)
+        directions.push_back((d - kLean * n).normalized());
   return directions;
 }
 

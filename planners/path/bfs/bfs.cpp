@@ -41,7 +41,7 @@ class Bfs final : public PathPlanner {
     Search translation(query, MotionSpace::translation, parameters_, context);
     const auto level = static_cast<std::uint64_t>(depth);
     limits.expansions = static_cast<std::uint64_t>(parameters_.translation_nodes) * level;
-    limits.rank = Search::kFirstRank + depth - 1;
+    limits.rank = depth;  // the first level: what the contacts leave free, and the axes
     PathResult first = translation.run(limits);
     if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
     if (depth == 1) {

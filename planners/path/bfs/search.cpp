@@ -54,8 +54,10 @@ Search::Search(const PathQuery& query, MotionSpace space, const Parameters& para
       fine_(bodies_, kSameShare * parameters.similarity_translation, kSameShare * parameters.similarity_rotation),
       places_(bodies_, kPlaceShare * parameters.similarity_translation, parameters.similarity_rotation) {
   const bool translating = space == MotionSpace::translation;
-  if (translating && parameters.proposals) stages_ = {Stage::free, Stage::leaning};
+  const bool proposals = translating && parameters.proposals;
+  if (proposals) stages_.push_back(Stage::free);
   stages_.push_back(Stage::axes);
+  if (proposals) stages_.push_back(Stage::leaning);
   if (parameters.diagonals) stages_.push_back(translating ? Stage::diagonals : Stage::screws);
 }
 

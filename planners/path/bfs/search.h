@@ -48,7 +48,7 @@ class Search {
     bool middle = false;    ///< of a run
   };
   /// What to push with, from stage to stage.
-  enum class Stage { free, leaning, axes, diagonals, screws };
+  enum class Stage { free, axes, leaning, diagonals, screws };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
   struct Middle {
     std::int32_t from;
