@@ -128,7 +128,9 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       EXPECT_EQ(r.best_pose.size(), cast.moving.size());
     }
     if (effort.max_steps > 0) {
-      EXPECT_LE(run.counted.steps, effort.max_steps + kLook);
+      // Between two looks at the budget; and without dynamics a path that was found within it may still be simplified.
+      constexpr std::uint64_t kSimplify = 300;
+      EXPECT_LE(run.counted.steps, effort.max_steps + kLook + (run.judged.empty() ? 0 : kSimplify));
     }
     for (const auto& [path, accepted] : run.judged) {
       ASSERT_GE(path.size(), 2u);

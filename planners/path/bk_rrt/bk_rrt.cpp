@@ -66,7 +66,7 @@ class BkRrt final : public PathPlanner {
       });
       result.best_pose = best->farthest();
     }
-    finish(trees, result);
+    finish(trees, query.cast.moving, result);
     return result;
   }
 
@@ -80,7 +80,8 @@ class BkRrt final : public PathPlanner {
     return steps < 1e18 ? static_cast<std::uint64_t>(steps) : kNone;
   }
 
-  static void finish(const std::vector<std::unique_ptr<RandomTree>>& trees, PathResult& result) {
+  static void finish(const std::vector<std::unique_ptr<RandomTree>>& trees, const std::vector<PlacedPart>& moving,
+                     PathResult& result) {
     std::map<PartId, std::uint64_t> touched;
     for (const auto& tree : trees) {
       result.counts["nodes"] += static_cast<double>(tree->size());
@@ -93,7 +94,9 @@ class BkRrt final : public PathPlanner {
     std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
       return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
-    for (const auto& o : order) result.blocked_by.push_back(o.second);
+    for (const auto& o : order)
+      if (std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == o.second; }))
+        result.blocked_by.push_back(o.second);
   }
 
   Parameters parameters_;

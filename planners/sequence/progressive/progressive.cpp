@@ -17,6 +17,9 @@ void ProgressiveParams::describe(Schema<ProgressiveParams>& schema) {
               .max = 1e6,
               .doc = "Largest depth of the path search; 0 = none, rounds go on until nothing is to be gained by more "
                      "depth."});
+  schema.add("deepen_always", &ProgressiveParams::deepen_always,
+             {.doc = "Go deeper with every round, as Algorithm 2 does. Off: only after a round in which no part left, since "
+                     "most parts leave by a simple motion once others are out of their way."});
   schema.add(
       "last_pair_unlimited", &ProgressiveParams::last_pair_unlimited,
       {.doc = "When two parts are left and max_depth is 0, the search for the way of either has no depth limit: there "

@@ -207,14 +207,18 @@ void Scene::note_blocked(const StateType& state) {
 }
 
 std::vector<PartId> Scene::blockers() const {
+  constexpr std::size_t kMostReplays = 64;  // checks of their own, beyond the budget
   std::vector<std::pair<std::size_t, PartId>> hits;
+  const std::size_t states =
+      std::min(blocked_states_.size(),
+               std::max<std::size_t>(1, kMostReplays / std::max<std::size_t>(1, query_.cast.still.size())));
+  const auto end = blocked_states_.begin() + static_cast<std::ptrdiff_t>(states);
   for (const auto& still : query_.cast.still) {
     const auto alone =
         query_.simulator.world(query_.assembly, query_.prepared, {query_.cast.moving, {still}}, world_->space());
-    const auto count =
-        static_cast<std::size_t>(std::count_if(blocked_states_.begin(), blocked_states_.end(), [&](const StateType& s) {
-          return alone->penetration(world_state(s)) > allowed_;
-        }));
+    const auto count = static_cast<std::size_t>(std::count_if(blocked_states_.begin(), end, [&](const StateType& s) {
+      return alone->penetration(world_state(s)) > allowed_;
+    }));
     if (count > 0) hits.emplace_back(count, still.part);
   }
   std::sort(hits.begin(), hits.end(),
