@@ -7,9 +7,9 @@
 namespace dismantle::samples {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kPieces = 12;                 // pieces of each side of the twisted square
-constexpr double kLayer = 2.5 * kPi / 180;  // twist from layer to layer
+constexpr double kLayer = 2.5 * pi / 180;  // twist from layer to layer
 
 struct InterlockParams {
   double size = 12, turn = 180, clearance = 0.2;
@@ -49,7 +49,7 @@ Model interlock3(const InterlockParams& p) {
   Model model;
   model.clearance = p.clearance;
   const double s = p.size, c = p.clearance, half = s / 2, corner = half * std::numbers::sqrt2;
-  const double rate = kPi / (2.5 * s), travel = p.turn * kPi / 180 / rate;
+  const double rate = pi / (2.5 * s), travel = p.turn * pi / 180 / rate;
   const double block_height = 0.6 * s, block_half = 1.3 * s, wall = 0.4 * s;
   const double flange = 0.95 * s, flange_height = 0.4 * s, neck = 0.45 * s;
   const double lip = flange_height + c + 0.4 * s;  // top of the lip; its underside is c above the flange

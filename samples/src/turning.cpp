@@ -8,7 +8,7 @@
 namespace dismantle::samples {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 struct BoltParams {
   double diameter = 10, pitch = 1.5, turns = 4, clearance = 0.07;
@@ -57,7 +57,7 @@ Model bolt_and_nut(const BoltParams& p) {
 
   // Flanks lean 30 degrees, so a radial shift s moves them apart by s / 2; the lead angle costs a little more,
   // and straight faces between the points of the helix cut into the nut's bore.
-  const double lead = std::atan2(p.pitch, 2 * kPi * external.root_radius);
+  const double lead = std::atan2(p.pitch, 2 * pi * external.root_radius);
   const double shift = 2.02 * p.clearance / std::cos(lead) + 0.002 * p.pitch;
   const double nut_bottom = shank + gap, nut_top = nut_bottom + nut_height;
   const double half_gap = thread_wall(external, nut_bottom, nut_top, p.segments).half_gap;
@@ -70,7 +70,7 @@ Model bolt_and_nut(const BoltParams& p) {
   add_part(model, "nut", nut.strip(reversed(nut_wall.mesh), nut_wall.top, nut_wall.bottom).ring());
 
   const double turns = p.turns + (nut_height + 0.2 * d) / p.pitch;
-  model.truth.steps.push_back({{{"nut", {Point::UnitZ(), Point::Zero(), 2 * kPi * turns, turns * p.pitch}}}, "nut"});
+  model.truth.steps.push_back({{{"nut", {Point::UnitZ(), Point::Zero(), 2 * pi * turns, turns * p.pitch}}}, "nut"});
   return model;
 }
 
@@ -94,7 +94,7 @@ Loop tube_section(double bend_radius, double r, double angle, int segments) {
   Loop loop;
   const Point outward(std::cos(angle), std::sin(angle), 0);
   for (int i = 0; i < segments; ++i) {
-    const double a = 2 * kPi * i / segments;
+    const double a = 2 * pi * i / segments;
     loop.push_back((bend_radius + r * std::sin(a)) * outward + r * std::cos(a) * Point::UnitZ());
   }
   return loop;
@@ -102,7 +102,7 @@ Loop tube_section(double bend_radius, double r, double angle, int segments) {
 
 /// Adds sections from `from` to `to` (rad) at most 1.5 degrees apart.
 void tube(Loft& loft, const RingParams& p, double r, double from, double to) {
-  const int pieces = static_cast<int>(std::ceil(std::abs(to - from) / (1.5 * kPi / 180)));
+  const int pieces = static_cast<int>(std::ceil(std::abs(to - from) / (1.5 * pi / 180)));
   for (int i = 0; i <= pieces; ++i)
     loft.to(tube_section(p.bend_radius, r, from + (to - from) * i / pieces, p.segments));
 }
@@ -110,7 +110,7 @@ void tube(Loft& loft, const RingParams& p, double r, double from, double to) {
 Model ring_on_curved_tube(const RingParams& p) {
   Model model;
   model.clearance = p.clearance;
-  const double degree = kPi / 180, arc = p.arc * degree, sleeve_arc = p.sleeve_arc * degree;
+  const double degree = pi / 180, arc = p.arc * degree, sleeve_arc = p.sleeve_arc * degree;
   const double r = p.diameter / 2;
   // Straight pieces stray from the centre line by up to `sag`, the tube's towards the inside of the bend.
   const double sag = p.bend_radius * (1 - std::cos(0.75 * degree));

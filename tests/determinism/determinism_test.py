@@ -8,7 +8,7 @@ import unittest
 PROGRAM = os.environ["DISMANTLE"]
 DATA = os.environ.get("DISMANTLE_DATA") or os.path.join(os.path.dirname(os.path.abspath(os.environ["SOURCE_FOLDER"])), "shared", "data")
 COUNTED = ("--path-timeout", "0", "--timeout", "0")  # no seconds may decide
-SHORT = ("--set", "run.path_steps=3000")
+SHORT = ("--set", "run.path_steps=500")
 FILES = ("plan.json", "plan.glb", "precedence.dot")
 
 
@@ -44,7 +44,7 @@ class Samples(Determinism):
         self.same_every_time(name, *options)
 
     def test_machine(self):
-        self.sample("machine", parts=6)
+        self.sample("machine", parts=4)
 
     def test_stacked_box(self):
         self.sample("stacked_box")
@@ -56,10 +56,10 @@ class Samples(Determinism):
         self.sample("peg_in_hole", "--set", "path_planner.motion=rotation")
 
     def test_random_order(self):
-        self.sample("machine", "--sequence-planner", "random", *SHORT, parts=5)
+        self.sample("machine", "--sequence-planner", "random", *SHORT, parts=4)
 
     def test_queue(self):
-        self.sample("machine", "--sequence-planner", "queue", *SHORT, parts=5)
+        self.sample("machine", "--sequence-planner", "queue", *SHORT, parts=4)
 
     def test_what_does_not_come_out(self):
         self.sample("closed_box", *SHORT)

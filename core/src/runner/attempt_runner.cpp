@@ -7,13 +7,14 @@
 #include <exception>
 #include <utility>
 
+#include "runner/stopwatch.h"
+
 namespace dismantle {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 bool same_path(const Path& a, const Path& b) {
   const auto same_pose = [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); };

@@ -12,6 +12,7 @@
 #include "runner/assembler.h"
 #include "runner/oracle.h"
 #include "runner/step_ledger.h"
+#include "runner/stopwatch.h"
 
 namespace dismantle {
 
@@ -21,8 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kSequenceStream = 0x73657175656e6365;  // "sequence": apart from the attempts' streams
 
 constexpr std::uint64_t kTransferStream = 0x7472616e73666572;  // "transfer"
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 Outcome why_stopped(const RunContext& context) {
   return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;

@@ -28,7 +28,7 @@ std::string table(const std::vector<ParamSpec>& specs) {
   return out;
 }
 
-std::string fact(const std::string& name, const std::string& value) {
+std::string markdown_fact(const std::string& name, const std::string& value) {
   return value.empty() ? "" : fmt::format("- {}: {}\n", name, value);
 }
 
@@ -36,12 +36,12 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string describe_markdown(const PluginType& type, const PluginFile& file) {
   std::string out = fmt::format("# {}\n\n{}\n\n", type.id, type.summary);
-  out += fact("kind", fmt::format("`{}`", to_string(type.kind)));
-  out += fact("source", type.traits.source);
-  out += fact("needs", joined(capability_words(type.traits.needs)));
-  out += fact("provides", joined(capability_words(type.traits.provides)));
+  out += markdown_fact("kind", fmt::format("`{}`", to_string(type.kind)));
+  out += markdown_fact("source", type.traits.source);
+  out += markdown_fact("needs", joined(capability_words(type.traits.needs)));
+  out += markdown_fact("provides", joined(capability_words(type.traits.provides)));
   out +=
-      fact("plugin", fmt::format("{} {} ({}), {}", file.id, file.version, file.licence, file.path.filename().string()));
+      markdown_fact("plugin", fmt::format("{} {} ({}), {}", file.id, file.version, file.licence, file.path.filename().string()));
   out += "\n## Parameters\n\n";
   return out + (type.params.empty() ? "None.\n" : table(type.params));
 }

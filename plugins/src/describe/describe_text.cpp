@@ -26,11 +26,11 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
   return out;
 }
 
-std::string fact(const std::string& name, const std::string& value) {
+std::string text_fact(const std::string& name, const std::string& value) {
   return value.empty() ? "" : fmt::format("  {:<10}{}\n", name, value);
 }
 
-std::string parameter(const ParamSpec& spec) {
+std::string parameter_text(const ParamSpec& spec) {
   std::string head = fmt::format("  {} = {}", spec.name, default_text(spec));
   if (!spec.unit.empty() && spec.unit != "1") head += " " + spec.unit;
   head += fmt::format("   ({}", type_name(spec.type));
@@ -45,17 +45,17 @@ std::string parameter(const ParamSpec& spec) {
 
 std::string describe_text(const PluginType& type, const PluginFile& file) {
   std::string out = fmt::format("{} ({})\n", type.id, to_string(type.kind)) + wrapped(type.summary, 2, 100) + "\n";
-  out += fact("source", type.traits.source);
-  out += fact("needs", joined(capability_words(type.traits.needs)));
-  out += fact("provides", joined(capability_words(type.traits.provides)));
-  out += fact("plugin",
+  out += text_fact("source", type.traits.source);
+  out += text_fact("needs", joined(capability_words(type.traits.needs)));
+  out += text_fact("provides", joined(capability_words(type.traits.provides)));
+  out += text_fact("plugin",
               fmt::format("{} {} ({}){}", file.id, file.version, file.licence, file.built_in ? ", built in" : ""));
-  out += fact("url", file.url);
-  out += fact("file", file.path.string());
+  out += text_fact("url", file.url);
+  out += text_fact("file", file.path.string());
   out += "\n";
   if (type.params.empty()) return out + "No parameters.\n";
   out += "Parameters:\n";
-  for (const auto& spec : type.params) out += parameter(spec);
+  for (const auto& spec : type.params) out += parameter_text(spec);
   return out;
 }
 

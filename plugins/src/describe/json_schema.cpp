@@ -7,7 +7,7 @@
 namespace dismantle {
 namespace {
 
-Json parameter(const ParamSpec& spec) {
+Json parameter_schema(const ParamSpec& spec) {
   Json json;
   switch (spec.type) {
     case ParamType::boolean:
@@ -40,7 +40,7 @@ Json object(Json properties) {
 
 Json properties_of(const std::vector<ParamSpec>& specs) {
   Json properties = Json::object();
-  for (const auto& spec : specs) properties[spec.name] = parameter(spec);
+  for (const auto& spec : specs) properties[spec.name] = parameter_schema(spec);
   return properties;
 }
 

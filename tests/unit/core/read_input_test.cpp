@@ -35,7 +35,7 @@ std::vector<std::string> names(const InputParts& in) {
   return out;
 }
 
-using Names = std::vector<std::string>;
+using NameList = std::vector<std::string>;
 
 TEST(NaturalOrder, IsAStrictTotalOrderWithNumbers) {
   EXPECT_TRUE(natural_less("2", "10"));
@@ -70,7 +70,7 @@ TEST(ReadInput, FolderGivesOnePartPerFileInNaturalOrder) {
   folder.write("readme.txt", "hello");
   folder.write(".hidden.box", "x\n");
   const auto in = read_input(folder.path(), importers());
-  EXPECT_EQ(names(in), (Names{"2", "10", "Schräge Welle 1"}));
+  EXPECT_EQ(names(in), (NameList{"2", "10", "Schräge Welle 1"}));
   EXPECT_EQ(in.parts[0].mesh.triangles.size(), 24u);
   EXPECT_EQ(in.parts[0].file, "2.box");
   EXPECT_TRUE(in.warnings.empty());
@@ -92,14 +92,14 @@ TEST(ReadInput, FilesOfOneStemGetTheirEndings) {
   folder.write("a.cube", "x");
   folder.write("b.box", "x");
   const auto in = read_input(folder.path(), importers());
-  EXPECT_EQ(names(in), (Names{"a.box", "a.cube", "b"}));
+  EXPECT_EQ(names(in), (NameList{"a.box", "a.cube", "b"}));
   EXPECT_TRUE(any_contains(in.warnings, "several files are called 'a'"));
 }
 
 TEST(ReadInput, NodesOfOneNameAreNumbered) {
   const TempFolder folder;
   const auto in = read_input(folder.write("a.box", "nut\nnut\nnut#2\n\nnut\n"), importers());
-  EXPECT_EQ(names(in), (Names{"nut", "nut#3", "nut#2", "a", "nut#4"}));
+  EXPECT_EQ(names(in), (NameList{"nut", "nut#3", "nut#2", "a", "nut#4"}));
   EXPECT_TRUE(any_contains(in.warnings, "renamed to 'nut#3'"));
 }
 
@@ -143,7 +143,7 @@ TEST(ReadInput, PipesSubFoldersAndOtherFormatsAreLeftAside) {
   fs::create_directory_symlink(folder.path(), folder / "loop");
   ASSERT_EQ(::mkfifo((folder / "pipe.box").c_str(), 0600), 0);
   const auto in = read_input(folder.path(), importers());
-  EXPECT_EQ(names(in), (Names{"1"}));
+  EXPECT_EQ(names(in), (NameList{"1"}));
   EXPECT_TRUE(any_contains(in.warnings, "sub-folders are not read: 2 of them"));
   EXPECT_TRUE(any_contains(in.warnings, "'pipe.box' is no regular file"));
   EXPECT_TRUE(any_contains(in.warnings, "no importer reads '.step'"));

@@ -40,10 +40,10 @@ Pose turn(double angle, const Vec3& axis, const Vec3& about = Vec3::Zero()) {
   return {about - q * about, q};
 }
 
-const Mesh kUnit = shapes::box({-.5, -.5, -.5}, {.5, .5, .5});
+const Mesh kCube = shapes::box({-.5, -.5, -.5}, {.5, .5, .5});
 
 TEST(Verifier, FreeMotionIsAcceptedWithATinyBound) {
-  const MotionCheck c = check(kUnit, shapes::box({5, 5, 5}, {6, 6, 6}), {shift({0, 0, 0}), shift({0, 9, 0})});
+  const MotionCheck c = check(kCube, shapes::box({5, 5, 5}, {6, 6, 6}), {shift({0, 0, 0}), shift({0, 9, 0})});
   EXPECT_TRUE(c.valid);
   EXPECT_LE(c.max_penetration, 1e-4);
   EXPECT_FALSE(c.violation.has_value());
@@ -112,9 +112,9 @@ TEST(Verifier, FirstContactOfMovingBoxesIsFoundWhereItMustBe) {
 
 TEST(Verifier, TunnellingBetweenTwoPosesIsRefused) {
   const Mesh wall = shapes::box({2, -5, -5}, {2.03, 5, 5});
-  const MotionCheck c = check(kUnit, wall, {Pose{}, shift({4, 0, 0})});
+  const MotionCheck c = check(kCube, wall, {Pose{}, shift({4, 0, 0})});
   EXPECT_FALSE(c.valid);
-  const MotionCheck thinner = check(kUnit, shapes::box({2, -5, -5}, {2.003, 5, 5}), {Pose{}, shift({4, 0, 0})});
+  const MotionCheck thinner = check(kCube, shapes::box({2, -5, -5}, {2.003, 5, 5}), {Pose{}, shift({4, 0, 0})});
   EXPECT_FALSE(thinner.valid);
 }
 
@@ -212,13 +212,13 @@ TEST(Verifier, ScrewMotionFollowsAThreadLikeGroove) {
 }
 
 TEST(Verifier, MovingPartsAreJudgedAgainstEachOther) {
-  const Mesh left = shapes::moved(kUnit, shift({-.5, 0, 0})), right = shapes::moved(kUnit, shift({.5, 0, 0}));
+  const Mesh left = shapes::moved(kCube, shift({-.5, 0, 0})), right = shapes::moved(kCube, shift({.5, 0, 0}));
   const Verifier verifier(assembly_of({left, right, shapes::box({-1, -1, -2}, {1, 1, -.5})}), {0.01});
   const std::vector<PlacedPart> base = {{2, Pose{}}};
   const Path together = {{Pose{}, Pose{}}, {shift({0, 0, 3}), shift({0, 0, 3})}};
   EXPECT_TRUE(verifier.check_motion({0, 1}, base, together).valid);
   // The two overlap, but do not move relative to each other: no pair to judge. Also while they turn.
-  const Verifier overlapping(assembly_of({left, kUnit, shapes::box({-1, -1, -2}, {1, 1, -.5})}), {0.01});
+  const Verifier overlapping(assembly_of({left, kCube, shapes::box({-1, -1, -2}, {1, 1, -.5})}), {0.01});
   EXPECT_TRUE(overlapping.check_motion({0, 1}, base, together).valid);
   const Pose lift = shift({0, 0, 3}), twist = turn(1.0, Vec3::UnitY()) * lift;
   EXPECT_TRUE(overlapping.check_motion({0, 1}, base, {{Pose{}, Pose{}}, {lift, lift}, {twist, twist}}).valid);
@@ -294,7 +294,7 @@ TEST(Verifier, SameQuestionSameAnswerOnAnyThread) {
 
 TEST(Verifier, ApartMeansHullsApart) {
   const Mesh ring = shapes::tube(1, 1.2, -.1, .1, 24);
-  const Verifier verifier(assembly_of({ring, shapes::tube(0, .5, -.1, .1, 24), kUnit}), {0.01});
+  const Verifier verifier(assembly_of({ring, shapes::tube(0, .5, -.1, .1, 24), kCube}), {0.01});
   EXPECT_FALSE(verifier.apart({{1, Pose{}}}, {{0, Pose{}}}));  // free, but within the hull
   EXPECT_FALSE(verifier.apart({{1, shift({0, 0, .2})}}, {{0, Pose{}}}));
   EXPECT_TRUE(verifier.apart({{1, shift({0, 0, .201})}}, {{0, Pose{}}}));
@@ -305,8 +305,8 @@ TEST(Verifier, ApartMeansHullsApart) {
 }
 
 TEST(Verifier, BadQuestionsThrow) {
-  EXPECT_THROW(Verifier(assembly_of({kUnit, kUnit}), {0}), std::invalid_argument);
-  const Verifier verifier(assembly_of({kUnit, shapes::moved(kUnit, shift({3, 0, 0}))}), {0.01});
+  EXPECT_THROW(Verifier(assembly_of({kCube, kCube}), {0}), std::invalid_argument);
+  const Verifier verifier(assembly_of({kCube, shapes::moved(kCube, shift({3, 0, 0}))}), {0.01});
   EXPECT_THROW(verifier.check_motion({0}, {}, path_of({Pose{}})), std::invalid_argument);
   EXPECT_THROW(verifier.check_motion({0, 1}, {}, path_of({Pose{}, Pose{}})), std::invalid_argument);
   Pose broken;

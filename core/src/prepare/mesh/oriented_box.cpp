@@ -4,6 +4,7 @@
 
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "prepare/mesh/cross2.h"
 #include "prepare/mesh/edges.h"
 
 namespace dismantle {
@@ -12,7 +13,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Counter-clockwise convex hull (monotone chain).
 std::vector<Vector2d> hull_2d(std::vector<Vector2d> p) {
@@ -22,12 +22,12 @@ std::vector<Vector2d> hull_2d(std::vector<Vector2d> p) {
   std::vector<Vector2d> h(2 * p.size());
   std::size_t k = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    while (k >= 2 && cross(h[k - 1] - h[k - 2], p[i] - h[k - 2]) <= 0) --k;
+    while (k >= 2 && cross2(h[k - 1] - h[k - 2], p[i] - h[k - 2]) <= 0) --k;
     h[k++] = p[i];
   }
   const std::size_t lower = k + 1;
   for (std::size_t i = p.size() - 1; i-- > 0;) {
-    while (k >= lower && cross(h[k - 1] - h[k - 2], p[i] - h[k - 2]) <= 0) --k;
+    while (k >= lower && cross2(h[k - 1] - h[k - 2], p[i] - h[k - 2]) <= 0) --k;
     h[k++] = p[i];
   }
   h.resize(k > 1 ? k - 1 : k);

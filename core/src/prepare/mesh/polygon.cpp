@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dismantle/geometry/mesh_measure.h"
+#include "prepare/mesh/cross2.h"
 #include "prepare/mesh/edges.h"
 
 namespace dismantle {
@@ -10,7 +11,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The polygon seen along its mean normal (Newell), so that it turns counter-clockwise; empty without area.
 std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
@@ -63,7 +63,7 @@ class EarClipper {
     for (std::size_t k = 0; k < ring_.size(); ++k) {
       const std::size_t i = (start + k) % ring_.size();
       const Vector2d &a = p_[at(i, -1)], &b = p_[at(i, 0)], &c = p_[at(i, 1)];
-      const double area = cross(b - a, c - b);
+      const double area = cross2(b - a, c - b);
       if (!(area > least) || !empty_ear(i)) continue;
       if (!best_of_all) return i;
       const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
@@ -83,7 +83,7 @@ class EarClipper {
       if (j == ia || j == ib || j == ic) continue;
       const Vector2d& q = p_[j];
       if (q == a || q == b || q == c) continue;
-      if (cross(b - a, q - a) >= -flat_ && cross(c - b, q - b) >= -flat_ && cross(a - c, q - c) >= flat_) return false;
+      if (cross2(b - a, q - a) >= -flat_ && cross2(c - b, q - b) >= -flat_ && cross2(a - c, q - c) >= flat_) return false;
     }
     return true;
   }
