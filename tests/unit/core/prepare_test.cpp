@@ -13,15 +13,15 @@ namespace {
 
 using namespace shapes;
 
-struct Prepared {
+struct PreparedRun {
   Assembly assembly;
   PrepareReport report;
 };
 
-Prepared prepare(std::vector<RawPart> raw, const PrepareOptions& options = {}, unsigned threads = 1) {
+PreparedRun prepare(std::vector<RawPart> raw, const PrepareOptions& options = {}, unsigned threads = 1) {
   RunContext context;
   context.threads = threads;
-  Prepared out;
+  PreparedRun out;
   out.assembly = prepare_assembly(std::move(raw), "made up", "0", options, context, out.report);
   return out;
 }
