@@ -177,4 +177,10 @@ inline std::string text(const ParamSet& values) {
   return out;
 }
 
+inline std::vector<std::string> sample_names() {
+  std::vector<std::string> names;
+  for (const Sample& s : list()) names.push_back(s.name);
+  return names;
+}
+
 }  // namespace dismantle::samples

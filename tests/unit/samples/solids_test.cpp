@@ -143,12 +143,6 @@ TEST_P(EverySample, RotateSeedTurnsTheWholeAssembly) {
       ASSERT_LT((rotation * plain[i].mesh.vertices[k] - turned[i].mesh.vertices[k]).norm(), 1e-6);
 }
 
-std::vector<std::string> sample_names() {
-  std::vector<std::string> names;
-  for (const Sample& s : list()) names.push_back(s.name);
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, EverySample, ::testing::ValuesIn(sample_names()),
                          [](const auto& test) { return test.param; });
 

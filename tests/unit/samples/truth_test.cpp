@@ -124,12 +124,6 @@ TEST_P(EveryTruth, MatchesWhatTheSampleSays) {
   EXPECT_EQ(sample.one_at_a_time, !together);
 }
 
-std::vector<std::string> sample_names() {
-  std::vector<std::string> names;
-  for (const Sample& s : list()) names.push_back(s.name);
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, EveryTruth, ::testing::ValuesIn(sample_names()),
                          [](const auto& test) { return test.param; });
 
