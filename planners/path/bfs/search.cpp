@@ -12,6 +12,8 @@ constexpr double kSameShare = 0.2;
 constexpr double kPlaceShare = 5;
 /// Beyond this rank one state waits no longer than another.
 constexpr unsigned kMostRank = 4;
+/// States in the middle of runs wait until the ends have been given all their actions.
+constexpr unsigned kMiddleRank = 2;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
 constexpr std::uint64_t kStrictNodes = 24;
 
@@ -97,10 +99,11 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 }
 
 unsigned Search::rank(const Node& node) const {
-  if (!parameters_.novelty) return 0;
+  const unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
+  if (!parameters_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
   // A state is in its own place once it has been searched from.
-  return near - (node.stage > 0 && near > 0 ? 1 : 0);
+  return stage + near - (node.stage > 0 && near > 0 ? 1 : 0);
 }
 
 void Search::enqueue(std::int32_t id) {
@@ -109,7 +112,7 @@ void Search::enqueue(std::int32_t id) {
     ++beyond_limit_;
     return;
   }
-  waiting_.insert({rank(node) + static_cast<unsigned>(node.stage) + (node.middle ? 1 : 0), node.depth, id});
+  waiting_.insert({rank(node), node.depth, id});
 }
 
 Path Search::path_to(std::int32_t node) const {
@@ -274,7 +277,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
     if (next.rank > limits_.rank) return RunEnd::blocked;
     waiting_.erase(waiting_.begin());
     const Node& node = nodes_[static_cast<std::size_t>(next.node)];
-    const unsigned now = rank(node) + static_cast<unsigned>(node.stage) + (node.middle ? 1 : 0);
+    const unsigned now = rank(node);
     if (now > next.rank) {  // its place has been searched from since
       waiting_.insert({now, next.depth, next.node});
       continue;

@@ -21,16 +21,18 @@ struct Edge {
 
 struct Creases {
   std::vector<Edge> convex;
+  std::vector<bool> sheltered;                   ///< per vertex: in a sharp fold, and at no sharp edge
   std::vector<std::vector<std::uint32_t>> ends;  ///< per vertex: other ends of its bent edges, convex or not
 };
 
-Creases find_creases(const Mesh& mesh) {
+Creases find_creases(const Mesh& mesh, double sharp_angle) {
   struct Side {
     std::uint32_t triangle = 0;
     int corner = 0;
   };
   Creases result;
   result.ends.resize(mesh.vertices.size());
+  std::vector<bool> folded(mesh.vertices.size()), sharp(mesh.vertices.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Side> open;
   const auto normal = [&](std::size_t t) -> Eigen::Vector3d {
     return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
@@ -53,8 +55,12 @@ Creases find_creases(const Mesh& mesh) {
       result.ends[to].push_back(from);
       // Convex: the neighbour's apex lies below this triangle's plane.
       const Eigen::Vector3d& apex = mesh.vertex(u.triangle, (u.corner + 2) % 3);
-      if (nt.dot(apex - mesh.vertex(t, k)) < 0) result.convex.push_back({from, to, bend});
+      const bool convex = nt.dot(apex - mesh.vertex(t, k)) < 0;
+      if (convex) result.convex.push_back({from, to, bend});
+      if (bend > sharp_angle) (convex ? sharp : folded)[from] = (convex ? sharp : folded)[to] = true;
     }
+  result.sheltered.resize(mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) result.sheltered[v] = folded[v] && !sharp[v];
   return result;
 }
 
@@ -131,10 +137,10 @@ ContactPoints make_blocks(std::vector<Eigen::Vector3d> points) {
 }
 
 ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions& options) {
-  const Creases creases = find_creases(mesh);
+  const Creases creases = find_creases(mesh, options.sharp_angle);
   std::vector<Eigen::Vector3d> points;
   for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    if (is_corner(mesh, creases.ends[v], v)) points.push_back(mesh.vertices[v]);
+    if (!creases.sheltered[v] && is_corner(mesh, creases.ends[v], v)) points.push_back(mesh.vertices[v]);
 
   double sharp_length = 0;
   for (const Edge& e : creases.convex)
@@ -151,7 +157,8 @@ ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions&
       const int pieces = std::max(1, static_cast<int>(std::ceil((b - a).norm() / spacing)));
       for (int i = 0; i <= pieces; ++i) {
         const bool end = i == 0 || i == pieces;
-        if (end && is_corner(mesh, creases.ends[i == 0 ? e.from : e.to], i == 0 ? e.from : e.to)) continue;
+        const std::uint32_t v = i == 0 ? e.from : e.to;
+        if (end && (creases.sheltered[v] || is_corner(mesh, creases.ends[v], v))) continue;
         const Eigen::Vector3d p = a + (b - a) * (static_cast<double>(i) / pieces);
         if ((want_sharp ? sharp : smooth).keep(p)) points.push_back(p);
       }

@@ -8,16 +8,39 @@ namespace {
 
 /// Beyond this distance a query gives up and the block sleeps for that long.
 constexpr double kReach = 0.5;
-/// Beyond this a bound on the distance is as good as the distance; well above any margin.
-constexpr double kFarEnough = 0.1;
+/// Beyond so many margins a bound on the distance is as good as the distance.
+constexpr double kFarEnough = 2;
 /// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
 /// below what the verifier lets pass.
 constexpr double kOnEdge = 2e-4;
+/// Distances that are linear over less than this are not worth remembering.
+constexpr double kLeastFlat = 5e-4;
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
   const Eigen::Vector3d center = pose * local.center();
   const Eigen::Vector3d half = pose.q.toRotationMatrix().cwiseAbs() * (0.5 * local.size());
   return {center - half, center + half};
+}
+
+/// Is p where the distance is known to be linear?
+bool recall(const DirectedContacts& set, const SurfaceQuery& surface, std::uint32_t place, const Eigen::Vector3d& p,
+            Sample& sample) {
+  if (place == 0) return false;
+  const LinearDistance& known = set.known[place - 1];
+  if ((p - known.point).squaredNorm() >= known.squared_radius) return false;
+  sample.value = surface.plane_distance(p, known.triangle);
+  sample.normal = known.normal;
+  sample.triangle = known.triangle;
+  sample.flat_radius = std::sqrt(known.squared_radius);
+  return true;
+}
+
+void remember(DirectedContacts& set, std::uint32_t& place, const Eigen::Vector3d& p, const Sample& sample) {
+  if (place == 0) {
+    set.known.emplace_back();
+    place = static_cast<std::uint32_t>(set.known.size());
+  }
+  set.known[place - 1] = {p, sample.normal, sample.flat_radius * sample.flat_radius, sample.triangle};
 }
 
 double box_gap(const Aabb& a, const Aabb& b) { return (a.lo - b.hi).cwiseMax(b.lo - a.hi).cwiseMax(0.0).norm(); }
@@ -56,29 +79,33 @@ void ContactScene::add_point(PartId part, PartId other, const Eigen::Vector3d& p
   }
 }
 
-double ContactScene::signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
-                                     std::uint32_t& hint, Sample& sample) {
+Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
+                                     const FlatnessWanted& flatness, std::uint32_t& hint) {
   ++queries_;
-  sample.triangle = kNoTriangle;
-  if (model_ == DistanceModel::grid) return sample.value = field.grid->value(p, sample.normal);
+  Sample rough;
+  if (model_ == DistanceModel::grid) {
+    rough.value = field.grid->value(p, rough.normal);
+    return rough;
+  }
   // Clearly too far to matter: the grid's bound will do. Else the grid tells how far to search.
   const double bound = field.grid->lower_bound(p);
-  if (bound > kFarEnough) return std::min(bound, limit);
+  rough.value = std::min(bound, limit);
+  if (bound > kFarEnough * margin_) return rough;
   const double first =
       hint == kNoTriangle ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
-  Sample s = field.surface->sample(p, first, hint);
-  if (s.triangle == kNoTriangle && first < limit) s = field.surface->sample(p, limit, hint);
+  Sample s = field.surface->sample(p, first, hint, flatness);
+  if (s.triangle == kNoTriangle && first < limit) s = field.surface->sample(p, limit, hint, flatness);
   if (s.triangle != kNoTriangle) {
     hint = s.triangle;
-    sample = s;
-    return s.value;
+    return s;
   }
   // Nothing within the limit: far outside, or deep inside, which only the grid can tell.
+  rough.value = limit;
   if (field.box.contains(p)) {
-    const double rough = field.grid->value(p, sample.normal);
-    if (rough < 0) return sample.value = std::min(rough, -limit);
+    const double inside = field.grid->value(p, rough.normal);
+    if (inside < 0) rough.value = std::min(inside, -limit);
   }
-  return limit;
+  return rough;
 }
 
 void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface,
@@ -90,6 +117,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     set.wake.assign(points.points.blocks.size(), -1.0);
     set.point_wake.assign(points.points.points.size(), -1.0);
     set.hint.assign(points.points.points.size() * solids, kNoTriangle);
+    set.linear.assign(points.points.points.size() * solids, 0);
     if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
     set.ready = true;
   }
@@ -113,7 +141,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     c.surface = surface < moving_ ? static_cast<int>(surface) : -1;
     c.owner_part = members_[owner].part;
     c.surface_part = members_[surface].part;
-    if (touch.sample.triangle != kNoTriangle) {
+    if (touch.sample.triangle != kNoTriangle && touch.sample.flat_radius == 0) {
       c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, kOnEdge + allowed, c.planes);
       for (int i = 0; i < c.plane_count; ++i) {
         c.planes[i].normal = to_world * c.planes[i].normal;
@@ -122,15 +150,19 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     }
     out.push_back(c);
   };
-  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint) {
+  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, std::uint32_t* linear, double allowed) {
+    const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, kOnEdge + allowed};
     Touch best;
     for (std::size_t s = 0; s < solids; ++s) {
       // Box distance bounds the signed distance from below outside: most solids drop out here.
       const Aabb& box = target.solids[s].box;
       if (best.distance <= 0 ? !box.contains(p) : box.squared_distance(p) >= best.distance * best.distance) continue;
       Sample sample;
-      const double d = signed_distance(target.solids[s], p, kReach, hint[s], sample);
-      if (d < best.distance) best = {d, s, sample};
+      if (linear == nullptr || !recall(set, *target.solids[s].surface, linear[s], p, sample)) {
+        sample = signed_distance(target.solids[s], p, kReach, flatness, hint[s]);
+        if (linear != nullptr && sample.flat_radius > kLeastFlat) remember(set, linear[s], p, sample);
+      }
+      if (sample.value < best.distance) best = {sample.value, s, sample};
     }
     return best;
   };
@@ -158,8 +190,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
           continue;
         }
         const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
-        const Touch touch = nearest(p, &set.hint[i * solids]);
         const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
+        const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed);
         const double beyond = touch.distance + allowed - margin;
         set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
         slack = std::min(slack, beyond);
@@ -171,8 +203,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
   for (std::size_t i = 0; i < set.extra.size(); ++i) {
     const Eigen::Vector3d p = rotation * set.extra[i] + shift;
-    const Touch touch = nearest(p, &set.extra_hint[i * solids]);
     const double allowed = local ? std::max<double>(pair.everywhere, set.extra_own[i]) : pair.everywhere;
+    const Touch touch = nearest(p, &set.extra_hint[i * solids], nullptr, allowed);
     if (touch.distance + allowed < margin) emit(p, touch, allowed);
   }
 }
@@ -264,7 +296,14 @@ bool ContactScene::strict() const {
 
 void ContactScene::relax() {
   rest_ = nullptr;
-  for (auto& pair : pairs_) pair.everywhere = pair.allowed;
+  for (auto& pair : pairs_) {
+    pair.everywhere = pair.allowed;
+    // What was remembered kept away from edges by less.
+    for (DirectedContacts* set : {&pair.ab, &pair.ba}) {
+      std::fill(set->linear.begin(), set->linear.end(), 0U);
+      set->known.clear();
+    }
+  }
 }
 
 }  // namespace dismantle::sdf

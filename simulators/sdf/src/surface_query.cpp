@@ -54,6 +54,10 @@ constexpr double kNearSurface = 0.12;
 constexpr std::size_t kMostCandidates = 256;
 /// Rounding of distances and of their storage as float, for coordinates of up to some tens.
 constexpr double kRounding = 1e-5;
+/// Nobody stays linear for longer than this.
+constexpr double kMostFlat = 0.1;
+/// Corners that are less than this off a plane lie in it: what single precision leaves of a flat face.
+constexpr double kCoplanar = 2e-6;
 
 }  // namespace
 
@@ -75,6 +79,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
   }
+  find_faces(solid);
   find_convex_features(solid);
   Aabb box = solid.mesh.box();
   if (n == 0) return;
@@ -90,6 +95,7 @@ CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
   list.center = center;
   const Sample closest_to_center = sample(center);
   const double reach = std::abs(closest_to_center.value) + 2 * cells_->half_diagonal() + kRounding;
+  list.reach = reach - kRounding;
   std::vector<std::uint32_t> todo{0};
   while (!todo.empty()) {
     const std::uint32_t id = todo.back();
@@ -115,13 +121,52 @@ CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
         list.usable = false;
         return list;
       }
-      list.candidates.push_back({static_cast<float>(d - kRounding), s});
+      Candidate candidate{static_cast<float>(d - kRounding), s, {}, {}};
+      const Corner& c = corners_[s];
+      for (int k = 0; k < 3; ++k) {
+        const double b = c.a[k] + c.ab[k], e = c.a[k] + c.ac[k];
+        candidate.lo[k] = below(std::min({c.a[k], b, e}));
+        candidate.hi[k] = above(std::max({c.a[k], b, e}));
+      }
+      list.candidates.push_back(candidate);
     }
   }
   std::sort(list.candidates.begin(), list.candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.from_center != b.from_center ? a.from_center < b.from_center : a.slot < b.slot;
   });
   return list;
+}
+
+void SurfaceQuery::find_faces(const Solid& solid) {
+  const Mesh& mesh = solid.mesh;
+  const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
+  for (std::uint32_t t = 0; t < n; ++t)
+    for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
+  face_of_.assign(n, kNoTriangle);
+  std::vector<std::uint32_t> todo;
+  for (std::uint32_t seed = 0; seed < n; ++seed) {
+    if (face_of_[seed] != kNoTriangle) continue;
+    const auto id = static_cast<std::uint32_t>(planes_.size());
+    const Plane plane{face_[seed], face_[seed].dot(mesh.vertex(seed, 0))};
+    planes_.push_back(plane);
+    face_of_[seed] = id;
+    todo.assign(1, seed);
+    while (!todo.empty()) {
+      const std::uint32_t t = todo.back();
+      todo.pop_back();
+      for (const std::uint32_t v : mesh.triangles[t])
+        for (const std::uint32_t u : around[v]) {
+          if (face_of_[u] != kNoTriangle || face_[u].dot(plane.normal) < 0.5) continue;
+          bool flat = true;
+          for (int k = 0; k < 3 && flat; ++k)
+            flat = std::abs(plane.normal.dot(mesh.vertex(u, k)) - plane.offset) <= kCoplanar;
+          if (!flat) continue;
+          face_of_[u] = id;
+          todo.push_back(u);
+        }
+    }
+  }
 }
 
 void SurfaceQuery::find_convex_features(const Solid& solid) {
@@ -240,16 +285,41 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, std::uint32_t slot)
   const bool inside = c.offset.dot(pseudo) < 0;
   s.value = inside ? -distance : distance;
   // On a face the normal is known better than p - q tells; on the surface itself p - q says nothing.
-  if (f == 0)
-    s.normal = face_[t];
-  else if (distance > 1e-9)
+  if (f == 0) {
+    s.normal = planes_[face_of_[t]].normal;
+    s.value = plane_distance(p, t);
+  } else if (distance > 1e-9)
     s.normal = (inside ? -1.0 : 1.0) / distance * c.offset;
   else
     s.normal = pseudo.stableNormalized();
   return s;
 }
 
-Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint) const {
+/// Where the closest point lies inside a face, it stays in the plane of that face until another one comes as near: not
+/// before the point has gone half of the difference between the two distances.
+double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
+                                 double from_edge) const {
+  const std::uint32_t slot = slot_[sample.triangle];
+  const Corner& own = corners_[slot];
+  if (closest(p, own.a, own.ab, own.ac).feature != Feature::face) return 0;
+  const double distance = std::abs(sample.value), off = (p - list.center).norm();
+  const auto alone = [&](double other) { return 0.5 * (other - distance) - from_edge; };
+  double radius = std::min(kMostFlat, alone(list.reach - off));
+  for (const Candidate& candidate : list.candidates) {
+    if (radius <= 0) return 0;
+    if (alone(candidate.from_center - off) >= radius) break;
+    if (candidate.slot == slot) continue;
+    const double limit = distance + 2 * (radius + from_edge);
+    if (candidate.squared_distance(p) >= limit * limit) continue;
+    const Corner& k = corners_[candidate.slot];
+    if (face_of_[triangle_[candidate.slot]] == face_of_[sample.triangle]) continue;
+    radius = std::min(radius, alone(std::sqrt(closest(p, k.a, k.ab, k.ac).squared)));
+  }
+  return std::max(radius, 0.0);
+}
+
+Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint,
+                            const FlatnessWanted& flatness) const {
   if (nodes_.empty()) return {};
   double best = limit * limit;
   std::uint32_t best_slot = kNoTriangle;
@@ -269,6 +339,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
       for (const Candidate& candidate : list.candidates) {
         const double least = candidate.from_center - off;
         if (least > 0 && least * least > best) break;
+        if (candidate.squared_distance(p) > best) continue;
         const Corner& k = corners_[candidate.slot];
         const Closest c = closest(p, k.a, k.ab, k.ac);
         if (c.squared < best || (c.squared == best && candidate.slot < best_slot)) {
@@ -276,7 +347,9 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
           best_slot = candidate.slot;
         }
       }
-      return signed_sample(p, best_slot);
+      Sample s = signed_sample(p, best_slot);
+      if (std::abs(s.value) < flatness.within) s.flat_radius = flat_radius(p, s, list, flatness.from_edge);
+      return s;
     }
   }
   const double px = p.x(), py = p.y(), pz = p.z();

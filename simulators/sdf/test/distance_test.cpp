@@ -23,8 +23,9 @@ std::vector<Case> cases() {
       {"torus", test::torus(1.5, 0.4)},
       {"thin ring", test::torus(1.5, 0.03, 64, 8)},
       {"thread thinner than a cell", test::threaded_rod(0.4, 0.03, 1.2, 12)},
-      {"hollow box", test::joined(test::box(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)),
-                                  test::inside_out(test::box(Vector3d(-0.97, -0.97, -0.97), Vector3d(0.97, 0.97, 0.97))))},
+      {"hollow box",
+       test::joined(test::box(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)),
+                    test::inside_out(test::box(Vector3d(-0.97, -0.97, -0.97), Vector3d(0.97, 0.97, 0.97))))},
   };
 }
 
@@ -48,6 +49,42 @@ TEST(SurfaceQuery, ValueIsTheSignedDistanceWhateverTheHint) {
       const Sample t = query.sample(p, 1e9, hint);
       ASSERT_EQ(s.value, t.value);
       ASSERT_EQ(s.triangle, t.triangle);
+    }
+  }
+}
+
+TEST(SurfaceQuery, WithinTheFlatRadiusDistanceIsLinearAndNoConvexEdgeNear) {
+  constexpr double kFromEdge = 2e-4;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    Rng rng(10);
+    std::size_t flat = 0;
+    for (int i = 0; i < 600; ++i) {
+      // Near the surface, on either side; a hint is what brings the lists into play.
+      const std::size_t t = rng.below(c.mesh.triangles.size());
+      const double u = rng.uniform(0, 1), v = rng.uniform(0, 1 - u);
+      Eigen::Vector3d p = c.mesh.vertex(t, 0) + u * (c.mesh.vertex(t, 1) - c.mesh.vertex(t, 0)) +
+                          v * (c.mesh.vertex(t, 2) - c.mesh.vertex(t, 0));
+      for (int k = 0; k < 3; ++k) p[k] += rng.uniform(-0.02, 0.02);
+      const auto hint = query.sample(p).triangle;
+      const Sample s = query.sample(p, 0.5, hint, {0.05, kFromEdge});
+      ASSERT_EQ(s.value, query.sample(p).value);
+      ASSERT_EQ(query.sample(p, 0.5, hint).flat_radius, 0.0) << "not asked for";
+      if (s.flat_radius == 0) continue;
+      ++flat;
+      FacePlane planes[kMaxPlanes];
+      for (int j = 0; j < 20; ++j) {
+        Eigen::Vector3d way(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+        way *= rng.uniform(0, 0.999) * s.flat_radius / std::max(1e-12, way.norm());
+        const Sample other = query.sample(p + way);
+        ASSERT_NEAR(other.value, s.value + s.normal.dot(way), 1e-6) << "flat radius " << s.flat_radius;
+        ASSERT_EQ(query.planes(p + way, other, kFromEdge, planes), 0);
+      }
+    }
+    if (std::string(c.name) == "box") {
+      EXPECT_GT(flat, 300u);
     }
   }
 }
@@ -188,7 +225,7 @@ TEST(SplitSolids, OverlappingShellsAreSeparateSolidsAndVoidsStayWithTheirs) {
     const Vector3d p = test::random_point(rng, around);
     double d = 1e9;
     for (const auto& q : queries) d = std::min(d, q.sample(p).value);
-    EXPECT_EQ(d < 0, test::winding(two, p) > 0.5) << p.transpose();
+    EXPECT_EQ(d<0, test::winding(two, p)> 0.5) << p.transpose();
   }
 }
 

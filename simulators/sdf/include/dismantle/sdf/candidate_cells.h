@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -16,11 +17,22 @@ namespace dismantle::sdf {
 struct Candidate {
   float from_center = 0;  ///< a distance that it is not nearer to the cell's centre than
   std::uint32_t slot = 0;
+  float lo[3], hi[3];  ///< a box that holds it
+
+  double squared_distance(const Eigen::Vector3d& p) const {  ///< to the box
+    double squared = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double d = std::max(std::max(lo[k] - p[k], p[k] - hi[k]), 0.0);
+      squared += d * d;
+    }
+    return squared;
+  }
 };
 
 /// One cell: candidates by growing distance, or `usable` false where there would be too many.
 struct CandidateList {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double reach = 0;  ///< triangles that are not listed are further from the centre
   bool usable = true;
   std::vector<Candidate> candidates;
 };

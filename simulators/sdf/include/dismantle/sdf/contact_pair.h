@@ -29,12 +29,21 @@ struct ContactPoint {
   FacePlane planes[kMaxPlanes];  ///< normals in world axes, gaps as above
 };
 
+/// Around this point the signed distance is that from the plane of one triangle.
+struct LinearDistance {
+  Eigen::Vector3d point, normal;  ///< frame of the surface
+  double squared_radius = 0;
+  std::uint32_t triangle = kNoTriangle;
+};
+
 /// Points of one member against the solids of another.
 struct DirectedContacts {
   bool ready = false;
   std::vector<double> wake;            ///< per block: odometer reading at which it may matter
   std::vector<double> point_wake;      ///< per point: likewise
   std::vector<std::uint32_t> hint;     ///< per point and solid: last closest triangle
+  std::vector<std::uint32_t> linear;   ///< per point and solid: 1 + place in `known`; 0 = nowhere
+  std::vector<LinearDistance> known;   ///< distances that need not be asked for as long as the point stays near
   std::vector<Eigen::Vector3d> extra;  ///< learned points, owner's shape frame
   std::vector<std::uint32_t> extra_hint;
   std::vector<float> own, extra_own;  ///< per point: depth when assembled, where that exceeds ContactPair::everywhere

@@ -32,7 +32,7 @@ struct ContactPointOptions {
 ///  - points along convex edges, at most `spacing` apart on sharp edges, as dense per area elsewhere.
 /// Two polyhedra that penetrate have an edge of one going through a face of the other, so vertices and
 /// edges of both sides together see every contact down to the spacing. Vertices inside flat faces or on
-/// straight edges, slivers and concave edges add nothing and are left out, however finely the mesh is cut.
+/// straight edges or in folds, slivers and concave edges add nothing and are left out, however finely the mesh is cut.
 ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions& options);
 
 /// Reorders `points` into blocks.

@@ -75,8 +75,8 @@ class ContactScene {
                         const Eigen::Vector3d& point) const;
   void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
                           const Member& surface) const;
-  double signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit, std::uint32_t& hint,
-                         Sample& sample);
+  Sample signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
+                         const FlatnessWanted& flatness, std::uint32_t& hint);
 
   DistanceModel model_;
   double margin_, threshold_, slack_;

@@ -19,6 +19,15 @@ struct Sample {
   double value = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   std::uint32_t triangle = kNoTriangle;  ///< closest triangle; kNoTriangle: nothing within the limit
+  /// Within this distance of the point asked for, `value` is linear: its change is normal . displacement, and no convex
+  /// edge is near. 0 where that is not known.
+  double flat_radius = 0;
+};
+
+/// Asks for Sample::flat_radius.
+struct FlatnessWanted {
+  double within = 0;     ///< of points nearer to the surface than this; 0: of none
+  double from_edge = 0;  ///< convex edges have to stay so far away
 };
 
 /// Half-space whose plane passes through a face: a point is outside the solid near a convex edge or corner
@@ -38,13 +47,20 @@ class SurfaceQuery {
   /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle.
   /// `hint`: a triangle that is probably close (from the last query of a moving point); only affects speed.
   Sample sample(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity(),
-                std::uint32_t hint = kNoTriangle) const;
+                std::uint32_t hint = kNoTriangle, const FlatnessWanted& flatness = {}) const;
 
   /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
   /// edge: the planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: none, the
   /// sample's own plane is all there is). Parts that stand flush make such contacts by the hundred, and a
   /// single normal would hold them in directions that are free.
   int planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const;
+
+  /// Signed distance of p from the plane of a triangle. Where the closest point lies inside a face this is `value`, bit
+  /// by bit, for each triangle of that face.
+  double plane_distance(const Eigen::Vector3d& p, std::uint32_t triangle) const {
+    const Plane& plane = planes_[face_of_[triangle]];
+    return plane.normal.dot(p) - plane.offset;
+  }
 
   std::size_t triangle_count() const { return corners_.size(); }
 
@@ -57,10 +73,17 @@ class SurfaceQuery {
   struct Corner {
     Eigen::Vector3d a, ab, ac;
   };
+  /// Triangles that lie in one plane are one face.
+  struct Plane {
+    Eigen::Vector3d normal;
+    double offset = 0;
+  };
+  void find_faces(const Solid& solid);
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes);
   CandidateList candidates_of(const Eigen::Vector3d& center) const;
   Sample signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const;
+  double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list, double from_edge) const;
 
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
@@ -68,6 +91,8 @@ class SurfaceQuery {
   std::vector<std::uint32_t> triangle_;  // slot -> triangle
   std::vector<std::uint32_t> slot_;      // triangle -> slot
   std::vector<Triangle> indices_;        // by triangle
+  std::vector<Plane> planes_;
+  std::vector<std::uint32_t> face_of_;  // triangle -> plane
   std::vector<Eigen::Vector3d> face_, vertex_;
   std::vector<std::array<Eigen::Vector3d, 3>> edge_;
   std::vector<std::array<std::uint32_t, 3>> neighbor_;  // across a convex edge; kNoTriangle: flat or concave
