@@ -242,6 +242,19 @@ double PenaltyWorld::quasi_static_step(const Action& action) const {
   return speed > 0 ? parameters_.max_travel / speed : 0;
 }
 
+/// Second order: how far the action alone carries a body that is at rest.
+double PenaltyWorld::way_from_rest(const Action& action, double duration) const {
+  double way = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    double acceleration = action.wrenches[i].force.norm() / bodies_[i].mass;
+    if (per_body_ == 6)
+      acceleration += action.wrenches[i].torque.norm() * bodies_[i].radius / (bodies_[i].inertia.trace() / 3);
+    way = std::max(way, 0.5 * acceleration * duration * duration);
+  }
+  const double steps = std::max(1.0, duration / parameters_.time_step);
+  return std::min(way, steps * parameters_.max_travel);
+}
+
 /// One implicit step from the contacts of the last update; leaves them updated.
 template <int Dof>
 PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, double* travel) {
@@ -364,7 +377,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     report.travel = std::max(report.travel, screw_travel(begin.bodies[i].pose, state.bodies[i].pose, bodies_[i].center,
                                                          per_body_ == 3 ? 0.0 : bodies_[i].radius));
   // To and fro in place is standing still, too.
-  if (quasi_static && report.travel < kStallShare * parameters_.max_travel * duration / natural) report.stalled = true;
+  const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
+  if (report.travel < kStallShare * free) report.stalled = true;
   return report;
 }
 

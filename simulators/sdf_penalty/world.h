@@ -67,6 +67,7 @@ class PenaltyWorld final : public World {
   template <int Dof>
   double displace(State& state, const typename StepSolver<Dof>::Vector& x) const;
   double quasi_static_step(const Action& action) const;
+  double way_from_rest(const Action& action, double duration) const;
 
   Cast cast_;
   MotionSpace space_;

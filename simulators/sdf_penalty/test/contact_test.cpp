@@ -83,6 +83,23 @@ TEST(Contact, AtRestTheSinkIsForceOverStiffnessAndPoints) {
       }
 }
 
+TEST(Contact, PushedAgainstAWallABodyComesToAStandstillAndSaysSo) {
+  for (const char* name : {"quasi_static", "unit_mass", "density"})
+    for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
+      SCOPED_TRACE(name);
+      const Scene scene(cube_on_plate(), dynamics(name, {}));
+      auto world = scene.world({0}, space);
+      State s = world->initial_state();
+      StepReport report;
+      for (int k = 0; k < 20 && !report.stalled; ++k)
+        report = world->advance(s, push(Vector3d(0, 0, -100)), 0.1, nullptr);
+      EXPECT_TRUE(report.stalled);
+      s = world->initial_state();
+      for (int k = 0; k < 5; ++k)
+        EXPECT_FALSE(world->advance(s, push(Vector3d(0, 0, 100)), 0.1, nullptr).stalled) << "free, " << k;
+    }
+}
+
 TEST(Contact, AtRestAllForcesBalanceWithManyPointsToo) {
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
     const Scene scene(cube_on_plate(), {{"contact_spacing", 0.1}});
