@@ -13,12 +13,14 @@ namespace {
 constexpr double kMarginFactor = 1.25;
 /// Deeper than this after a step means that the linearised contact was too far off: solve again in place.
 constexpr double kSettleDepth = 2e-4;
-constexpr int kSettleRounds = 3;
+constexpr int kSettleRounds = 3, kRetreatRounds = 6;
 /// A step that covers less than this share of a free one counts as standing still.
 constexpr double kStallShare = 0.1;
 /// Way over which contacts are followed by their own linear model before distances are asked for again. The error is
 /// of second order: at a corner a thousandth away 1e-4, over anything smoother far less.
 constexpr double kFollow = 5e-4;
+/// What only asks for penetration need not see further than this.
+constexpr double kSensorMargin = 1e-4;
 constexpr int kStallSteps = 3;
 /// ... and less than this share is standing still for good: there is no inertia that could change it.
 constexpr double kStuckShare = 2e-3;
@@ -135,12 +137,14 @@ void PenaltyWorld::forget_contacts() {
 
 void PenaltyWorld::learn(PartId part, PartId other, const Eigen::Vector3d& point) {
   scene_.add_point(part, other, point);
+  sensor_.reset();
   forget_contacts();
 }
 
 void PenaltyWorld::relax() {
   forget_contacts();
   scene_.relax();
+  sensor_.reset();
 }
 
 void PenaltyWorld::build_rows(const State& state, double dt) {
@@ -200,6 +204,19 @@ double PenaltyWorld::displace(State& state, const typename StepSolver<Dof>::Vect
   return largest;
 }
 
+/// What holds all bodies back alike, whichever way they go.
+template <int Dof>
+typename StepSolver<Dof>::Matrix PenaltyWorld::stay_put(double stiffness) const {
+  const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
+  typename StepSolver<Dof>::Matrix weight = StepSolver<Dof>::Matrix::Zero(n, n);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    for (int k = 0; k < per_body_; ++k) {
+      const auto at = static_cast<Eigen::Index>(i) * per_body_ + k;
+      weight(at, at) = stiffness * (k < 3 ? 1.0 : bodies_[i].radius * bodies_[i].radius);
+    }
+  return weight;
+}
+
 /// Pushes the state out of surfaces that it sank into further than the action's force explains.
 template <int Dof>
 void PenaltyWorld::settle(State& state, double explained) {
@@ -210,12 +227,7 @@ void PenaltyWorld::settle(State& state, double explained) {
     for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
     if (deepest <= kSettleDepth + explained) return;
     build_rows(state, 0);
-    typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
-    for (std::size_t i = 0; i < bodies_.size(); ++i)
-      for (int k = 0; k < per_body_; ++k) {
-        const auto at = static_cast<Eigen::Index>(i) * per_body_ + k;
-        weight(at, at) = 1e-3 * parameters_.contact_stiffness * (k < 3 ? 1.0 : bodies_[i].radius * bodies_[i].radius);
-      }
+    const auto weight = stay_put<Dof>(1e-3 * parameters_.contact_stiffness);
     typename Solver::Vector x(n);
     Solver().solve(weight, Solver::Vector::Zero(n), rows_, per_body_, x);
     if (!x.allFinite()) return;
@@ -230,6 +242,30 @@ void PenaltyWorld::settle(State& state, double explained) {
     if (travel > parameters_.max_travel) x *= parameters_.max_travel / travel;
     follow_contacts<Dof>(state, x, displace<Dof>(state, x));
   }
+}
+
+template <int Dof>
+void PenaltyWorld::keep_off(State& state, double clearance) {
+  using Solver = StepSolver<Dof>;
+  const auto n = static_cast<Eigen::Index>(bodies_.size()) * per_body_;
+  for (int round = 0; round < kRetreatRounds; ++round) {
+    update_contacts(state);
+    build_rows(state, 0);
+    for (auto& row : rows_) row.gap -= clearance;
+    rows_current_ = false;
+    typename Solver::Vector x(n);
+    Solver().solve(stay_put<Dof>(1e-2 * parameters_.contact_stiffness), Solver::Vector::Zero(n), rows_, per_body_, x);
+    if (!x.allFinite() || displace<Dof>(state, x) < kSettleTravel) return;
+  }
+}
+
+void PenaltyWorld::retreat(State& state, double clearance) {
+  if (bodies_.size() > 1)
+    keep_off<Eigen::Dynamic>(state, clearance);
+  else if (per_body_ == 3)
+    keep_off<3>(state, clearance);
+  else
+    keep_off<6>(state, clearance);
 }
 
 double PenaltyWorld::quasi_static_step(const Action& action) const {
@@ -268,7 +304,8 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     const auto at = static_cast<Eigen::Index>(i) * per_body_;
     const Body& body = bodies_[i];
     const BodyState& s = state.bodies[i];
-    const Wrench& wrench = action.wrenches[i];
+    Wrench wrench = action.wrenches[i];
+    if (action.turns_along) wrench = {s.pose.q * wrench.force, s.pose.q * wrench.torque};
     const double r2 = body.radius * body.radius;
     largest_force = std::max(largest_force, wrench.force.norm() + wrench.torque.norm() / body.radius);
     Eigen::Vector3d shift, turn = Eigen::Vector3d::Zero();
@@ -383,9 +420,13 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
 }
 
 double PenaltyWorld::penetration(const State& state) {
-  update_contacts(state);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
+  if (!same_poses(poses_, touching_at_)) {
+    if (!sensor_) sensor_ = std::make_unique<sdf::ContactScene>(scene_.with_margin(kSensorMargin));
+    sensor_->update(poses_, sensed_);
+  }
   double deepest = 0;
-  for (const auto& c : touching_) deepest = std::max(deepest, -c.gap);
+  for (const auto& c : same_poses(poses_, touching_at_) ? touching_ : sensed_) deepest = std::max(deepest, -c.gap);
   return deepest;
 }
 

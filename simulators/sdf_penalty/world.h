@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "dismantle/simulator.h"
@@ -39,6 +40,7 @@ class PenaltyWorld final : public World {
   double torque_arm(std::size_t body) const override { return bodies_[body].radius; }
   StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;
   double penetration(const State& state) override;
+  void retreat(State& state, double clearance) override;
   void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
   void learn(PartId part, PartId other, const Eigen::Vector3d& point) override;
@@ -59,6 +61,10 @@ class PenaltyWorld final : public World {
   Moved step(State& state, const Action& action, double dt, double* travel);
   template <int Dof>
   void settle(State& state, double explained);
+  template <int Dof>
+  typename StepSolver<Dof>::Matrix stay_put(double stiffness) const;
+  template <int Dof>
+  void keep_off(State& state, double clearance);
   void update_contacts(const State& state);
   template <int Dof>
   void follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel);
@@ -73,6 +79,8 @@ class PenaltyWorld final : public World {
   MotionSpace space_;
   Parameters parameters_;
   sdf::ContactScene scene_;
+  std::unique_ptr<sdf::ContactScene> sensor_;  ///< sees penetration only; made when first asked for
+  std::vector<sdf::ContactPoint> sensed_;      // scratch
   std::vector<Body> bodies_;
   int per_body_ = 3;
   std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all still parts, world

@@ -62,6 +62,7 @@ struct Wrench {
 /// One wrench per moving part.
 struct Action {
   std::vector<Wrench> wrenches;
+  bool turns_along = false;  ///< the wrenches turn with their bodies: given in the axes of the part, not of the world
 };
 
 struct Contact {
@@ -108,6 +109,9 @@ class DISMANTLE_API World {
   virtual StepReport advance(State& state, const Action& action, double duration, Trace* trace = nullptr) = 0;
   /// Deepest penetration >= 0 of any pair above what was there when assembled.
   virtual double penetration(const State& state) = 0;
+  /// Moves the bodies, by as little as it takes, so that they keep `clearance` (assembly units, small) from what they
+  /// would touch, or half of what room there is. A world that cannot leaves the state as it is.
+  virtual void retreat(State& state, double clearance) { (void)state, (void)clearance; }
   /// Replaces the content of `out`.
   virtual void contacts(const State& state, std::vector<Contact>& out) = 0;
   /// True when the hulls of all moving parts together are apart from the hull of all still parts

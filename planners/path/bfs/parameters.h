@@ -17,6 +17,7 @@ struct Parameters {
   // Where we go beyond Algorithm 1; see README.md.
   bool proposals = true;
   bool novelty = true;
+  bool twists = true;
   bool diagonals = true;
   std::int64_t intermediate = 256;
   double thinning = 1e-4;
@@ -61,6 +62,8 @@ struct Parameters {
         "diagonals", &Parameters::diagonals,
         {.doc =
              "When the unit actions are exhausted, also push along the 20 diagonals; turning, turn and pull at once."});
+    s.add("twists", &Parameters::twists,
+          {.doc = "Turning, first along the screw motions that the surfaces in contact leave free."});
     s.add("intermediate", &Parameters::intermediate,
           {.unit = "1",
            .min = 0,

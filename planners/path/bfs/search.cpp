@@ -57,6 +57,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Parameters& para
       places_(bodies_, kPlaceShare * parameters.similarity_translation, parameters.similarity_rotation) {
   const bool translating = space == MotionSpace::translation;
   const bool proposals = translating && parameters.proposals;
+  if (!translating && parameters.twists) stages_.push_back(Stage::twists);
   if (proposals) stages_.push_back(Stage::free);
   stages_.push_back(Stage::axes);
   if (proposals) stages_.push_back(Stage::leaning);
@@ -170,9 +171,9 @@ Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& 
 }
 
 /// Applies one action from a node until the state is out, moves no more, or (turning) is similar to a past one.
-Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, PathResult& result) {
+Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsigned depth,
+                              PathResult& result) {
   const auto first_of_run = static_cast<std::uint32_t>(nodes_.size());
-  const unsigned depth = nodes_[static_cast<std::size_t>(from)].depth + 1;
   State state = nodes_[static_cast<std::size_t>(from)].state;
   const State start = state;
   std::int32_t last = from;
@@ -225,6 +226,7 @@ void Search::finish(PathResult& result) const {
   result.counts = {{"nodes", static_cast<double>(nodes_.size())},
                    {"expanded", static_cast<double>(expanded_before_ + expanded_)},
                    {"steps", static_cast<double>(steps_)},
+                   {"looks", static_cast<double>(looks_)},
                    {"refused", static_cast<double>(refused_)}};
   std::vector<std::pair<std::uint64_t, PartId>> order;
   for (const auto& [part, times] : touched_) order.emplace_back(times, part);
@@ -243,6 +245,7 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
       return diagonal_actions(*world_, parameters_.force);
     case Stage::screws:
       return screw_actions(*world_, parameters_.force);
+    case Stage::twists:
     case Stage::free:
     case Stage::leaning:
       break;
@@ -260,10 +263,19 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   ++expanded_;
   const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
-  for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage])) {
-    const RunEnd end = follow(id, action, stages_[stage], result);
-    if (end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned) return end;
-    if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) return RunEnd::refused;
+  const auto over = [&](RunEnd end) {
+    return end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned ||
+           refused_ > static_cast<std::uint64_t>(parameters_.max_refusals);
+  };
+  const unsigned depth = nodes_[static_cast<std::size_t>(id)].depth + 1;
+  if (stages_[stage] == Stage::twists) {
+    for (const Twist& twist : twists_at(nodes_[static_cast<std::size_t>(id)]))
+      if (const RunEnd end = follow_screw(id, twist, depth, result); over(end))
+        return end == RunEnd::blocked ? RunEnd::refused : end;
+  } else {
+    for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage]))
+      if (const RunEnd end = follow(id, action, stages_[stage], depth, result); over(end))
+        return end == RunEnd::blocked ? RunEnd::refused : end;
   }
   if (stage + 1 < stages_.size()) enqueue(id);
   return RunEnd::blocked;

@@ -10,6 +10,7 @@
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
 #include "parameters.h"
+#include "twists.h"
 
 namespace dismantle::bfs {
 
@@ -28,7 +29,7 @@ class Search {
   /// What one call of run() may use.
   struct Limits {
     Deadline deadline;
-    std::uint64_t* steps_left = nullptr;  ///< simulated steps, counted down; nullptr = no limit
+    std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down; nullptr = no limit
     std::uint64_t expansions = 0;         ///< states given actions; 0 = no limit
     unsigned rank = ~0U;                  ///< states that wait longer than this are left waiting
   };
@@ -48,8 +49,17 @@ class Search {
     bool middle = false;    ///< of a run
   };
   /// What to push with, from stage to stage.
-  enum class Stage { free, axes, leaning, diagonals, screws };
+  enum class Stage { twists, free, axes, leaning, diagonals, screws };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
+  /// One action applied from a node, so far.
+  struct Run {
+    State state;
+    std::int32_t last = -1;                              ///< node recorded last
+    std::uint32_t first = 0;                             ///< its first node: the run may come near its own
+    Path way;                                            ///< since then
+    double length = 0;                                   ///< of all glides together
+    std::vector<std::pair<double, std::int32_t>> marks;  ///< lengths at which nodes were recorded
+  };
   struct Middle {
     std::int32_t from;
     unsigned depth;
@@ -63,7 +73,11 @@ class Search {
   RunEnd sweep(std::uint64_t expansions, PathResult& result);
   RunEnd expand(std::int32_t node, PathResult& result);
   std::vector<Action> actions_at(const Node& node, Stage stage);
-  RunEnd follow(std::int32_t from, const Action& action, Stage stage, PathResult& result);
+  std::vector<Twist> twists_at(const Node& node);
+  RunEnd follow(std::int32_t from, const Action& action, Stage stage, unsigned depth, PathResult& result);
+  RunEnd follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result);
+  enum class GlideEnd { blocked, out, known, stop };
+  GlideEnd glide(const Twist& twist, unsigned depth, Run& run);
   RunEnd judge(std::int32_t last, const State& start, PathResult& result);
   void note_contacts(const State& state);
   Path path_to(std::int32_t node) const;
@@ -98,7 +112,7 @@ class Search {
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;
-  std::uint64_t steps_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
+  std::uint64_t steps_ = 0, looks_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
 };
 
 }  // namespace dismantle::bfs

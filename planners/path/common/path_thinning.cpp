@@ -7,6 +7,8 @@
 namespace dismantle::path {
 namespace {
 
+constexpr double kMostTurn = 0.25;  // rad
+
 /// Bound of the distance between where the two poses put any point of the ball.
 double apart(const Pose& a, const Pose& b, const Ball& ball) {
   return (a * ball.center - b * ball.center).norm() + angle_between(a.q, b.q) * ball.radius;
@@ -44,9 +46,9 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
         at = k;
       }
     }
-    // A screw takes the shorter turn: more than a third of a turn at once is not safe to join.
+    // A screw takes the shorter turn; and small turns are verified in far less time than large ones.
     bool turns = false;
-    for (std::size_t i = 0; i < bodies.size(); ++i) turns |= angle_between(path[a][i].q, path[b][i].q) > 2.0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) turns |= angle_between(path[a][i].q, path[b][i].q) > kMostTurn;
     if (worst <= tolerance && !turns) continue;
     if (worst <= tolerance) at = a + (b - a) / 2;
     keep[at] = true;

@@ -8,8 +8,8 @@ namespace {
 
 /// Beyond this distance a query gives up and the block sleeps for that long.
 constexpr double kReach = 0.5;
-/// Beyond so many margins a bound on the distance is as good as the distance.
-constexpr double kFarEnough = 2;
+/// Beyond so many margins, and so many units, a bound on the distance is as good as the distance.
+constexpr double kFarEnough = 2, kGoodBound = 0.05;
 /// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
 /// below what the verifier lets pass.
 constexpr double kOnEdge = 2e-4;
@@ -90,7 +90,7 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   // Clearly too far to matter: the grid's bound will do. Else the grid tells how far to search.
   const double bound = field.grid->lower_bound(p);
   rough.value = std::min(bound, limit);
-  if (bound > kFarEnough * margin_) return rough;
+  if (bound > std::max(kFarEnough * margin_, kGoodBound)) return rough;
   const double first =
       hint == kNoTriangle ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
   Sample s = field.surface->sample(p, first, hint, flatness);
@@ -288,6 +288,22 @@ void ContactScene::measure_own_depths(const ContactPair& pair, DirectedContacts&
     for (std::uint32_t i = block.first; i < block.first + block.count; ++i)
       set.own[i] = assembled_depth(pair, owner, surface, points.points[i]);
   }
+}
+
+ContactScene ContactScene::with_margin(double margin) const {
+  ContactScene other = *this;
+  other.margin_ = margin;
+  other.rest_ = nullptr;
+  for (ContactPair& pair : other.pairs_) {
+    pair.wake = 0;
+    for (DirectedContacts* set : {&pair.ab, &pair.ba}) {
+      DirectedContacts fresh;
+      fresh.extra = std::move(set->extra);
+      fresh.extra_own = std::move(set->extra_own);
+      *set = std::move(fresh);
+    }
+  }
+  return other;
 }
 
 bool ContactScene::strict() const {

@@ -47,6 +47,8 @@ class ContactScene {
     }
   }
   static constexpr double kTight = 0.01;
+  /// The same members, samples and allowances as they are now, with nothing measured yet.
+  ContactScene with_margin(double margin) const;
   bool strict() const;  ///< relax() would grant something
   void relax();
 
