@@ -102,8 +102,8 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   }
 }
 
-/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in a
-/// plan.
+/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in
+/// a plan.
 void open_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd)
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
@@ -139,5 +139,6 @@ int main(int argc, char** argv) {
   add_explain(app, action);
   add_plugins(app, action);
   add_sample(app, action);
+  add_bench(app, action);
   return flushed(run(app, action, argc, argv));
 }
