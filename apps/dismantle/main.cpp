@@ -140,5 +140,6 @@ int main(int argc, char** argv) {
   add_plugins(app, action);
   add_sample(app, action);
   add_bench(app, action);
+  add_report(app, action);
   return flushed(run(app, action, argc, argv));
 }

@@ -4,6 +4,7 @@
 #include <openssl/evp.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
 #include "dismantle/plan/plan.h"
@@ -30,6 +31,18 @@ RunConfig with_seed(RunConfig config, std::int64_t seed) {
   return config;
 }
 
+/// Folders are absolute: the recorded configuration works wherever it is written to.
+std::string text_of(const RunConfig& config, const Registry& registry, const fs::path& folder) {
+  RunConfig bare = config;
+  bare.plugin_search_paths.clear();
+  std::string text = resolved_yaml(bare, registry, folder);
+  std::string plugins;
+  for (const auto& path : config.plugin_search_paths)
+    plugins += "    - " + nlohmann::json(fs::absolute(path).lexically_normal().string()).dump() + "\n";
+  if (!plugins.empty()) text.insert(text.find("assembly:\n"), "plugins:\n  search_paths:\n" + plugins);
+  return text;
+}
+
 std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& registry,
                                   std::map<fs::path, std::string>& hashes) {
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
@@ -45,22 +58,22 @@ std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& regis
   return out;
 }
 
-/// A name for a folder.
-std::string plain(const std::string& name) {
+/// A name for a folder, from a name and from what is in it.
+std::string folder_name(const std::string& name, const std::string& recipe) {
   std::string out;
   for (const char c : name) {
     const bool good = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
                       c == '-' || c == '_' || c == '=' || c == '(' || c == ')' || c == ',';
     out += good ? c : '_';
   }
-  return out + "-" + sha256_of(name).substr(0, 8);  // two names that look alike afterwards stay two
+  return out.substr(0, 100) + "-" + sha256_of(name + "|" + recipe).substr(0, 12);
 }
 
 /// What an assembly that is made depends on is in its name, so that it is never taken for another.
 std::string input_name(const SuiteAssembly& assembly, bool rotate, std::int64_t seed) {
   std::string recipe = assembly.path.string() + "|" + assembly.sample;
   for (const auto& [key, value] : assembly.sample_values) recipe += "|" + key + "=" + to_text(value);
-  return plain(assembly.name + (rotate ? fmt::format("_turned{}", seed) : "") + "|" + recipe);
+  return folder_name(assembly.name + (rotate ? fmt::format("_turned{}", seed) : ""), recipe);
 }
 
 }  // namespace
@@ -88,7 +101,7 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
     Known& config = known[{cell.planner, cell.seed}];
     if (config.hash.empty()) {
       const RunConfig seeded = with_seed(planner.config, cell.seed);
-      const std::string text = resolved_yaml(seeded, *planner.registry, configs);
+      const std::string text = text_of(seeded, *planner.registry, configs);
       config.hash = sha256_of(text);
       config.file = configs / (config.hash.substr(0, 16) + ".yaml");
       write_file(config.file, text);
