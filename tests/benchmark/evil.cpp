@@ -70,11 +70,18 @@ PathResult lie() {
 }  // namespace
 
 DISMANTLE_PLUGIN("evil.planners", "1.0.0", "MIT", "https://example.org/evil") {
-  r.add<dismantle::PathPlanner, Planner<give_up>, NoParams>("evil.none", "Gives up at once.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<abort_at_once>, NoParams>("evil.abort", "Aborts.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<spin>, NoParams>("evil.spin", "Computes for ever.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<sleep_for_ever>, NoParams>("evil.sleep", "Waits for ever.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<eat_memory>, NoParams>("evil.memory", "Eats memory.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<scribble>, NoParams>("evil.scribble", "Overwrites memory.", {.source = "none", .needs = {}});
-  r.add<dismantle::PathPlanner, Planner<lie>, NoParams>("evil.lie", "Claims to be done.", {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<give_up>, NoParams>("evil.none", "Gives up at once.",
+                                                            {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<abort_at_once>, NoParams>("evil.abort", "Aborts.",
+                                                                  {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<spin>, NoParams>("evil.spin", "Computes for ever.",
+                                                         {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<sleep_for_ever>, NoParams>("evil.sleep", "Waits for ever.",
+                                                                   {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<eat_memory>, NoParams>("evil.memory", "Eats memory.",
+                                                               {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<scribble>, NoParams>("evil.scribble", "Overwrites memory.",
+                                                             {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<lie>, NoParams>("evil.lie", "Claims to be done.",
+                                                        {.source = "none", .needs = {}});
 }

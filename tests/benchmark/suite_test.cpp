@@ -1,12 +1,12 @@
 // Suite files: what they mean, and that everything that is wrong is reported at once with its place.
+#include "dismantle/bench/suite.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <set>
-
-#include "dismantle/bench/suite.h"
 
 namespace dismantle::bench {
 namespace {
@@ -52,7 +52,7 @@ planners:
   two: {set: {path_planner.motion: rotation}}
 variants:
   plain: {}
-  turned: {rotate: random, planners: [two], part: block}
+  turned: {rotate: random, planners: [two], part: slider}
 seeds: [1..3, 7]
 limits: {timeout: 10}
 )";
@@ -99,9 +99,9 @@ limits: {timeot: 10}
 sedes: 2
 )");
   const std::vector<std::pair<std::string, std::string>> wanted = {
-      {"3: ", "did you mean 'l_slot'?"},     {"4: ", "did you mean 'parts'?"}, {"5: ", "exactly one of glob, path"},
-      {"7: ", "did you mean 'motion'?"},     {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
-      {"10: ", "did you mean 'two'?"},       {"11: ", "seeds must be whole"},  {"12: ", "did you mean 'timeout'?"},
+      {"3: ", "did you mean 'l_slot'?"}, {"4: ", "did you mean 'parts'?"},  {"5: ", "exactly one of glob, path"},
+      {"7: ", "did you mean 'motion'?"}, {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
+      {"10: ", "did you mean 'two'?"},   {"11: ", "seeds must be whole"},   {"12: ", "did you mean 'timeout'?"},
       {"13: ", "did you mean 'seeds'?"}};
   for (const auto& [line, text] : wanted) {
     bool there = false;
@@ -119,9 +119,10 @@ TEST_F(SuiteTest, WhatIsMissing) {
 }
 
 TEST_F(SuiteTest, OptionalIsLeftAsideWithANote) {
-  const Suite suite = read_suite(write(
-      "schema: 1\nassemblies: [{glob: 'no/*', optional: true}, {path: $NO_SUCH_VARIABLE/x, optional: true}, {sample: l_slot}]\n"
-      "planners: {a: }\n"));
+  const Suite suite =
+      read_suite(write("schema: 1\nassemblies: [{glob: 'no/*', optional: true}, {path: $NO_SUCH_VARIABLE/x, optional: "
+                       "true}, {sample: l_slot}]\n"
+                       "planners: {a: }\n"));
   EXPECT_EQ(suite.assemblies.size(), 1u);
   EXPECT_EQ(suite.notes.size(), 2u);
 }
@@ -129,8 +130,8 @@ TEST_F(SuiteTest, OptionalIsLeftAsideWithANote) {
 TEST_F(SuiteTest, GlobsInNaturalOrderWithExceptions) {
   for (const char* name : {"10", "9", "plans"}) fs::create_directories(folder_ / "data" / name);
   std::ofstream(folder_ / "data" / "truth.json") << "{}";
-  const Suite suite = read_suite(
-      write("schema: 1\nassemblies: [{glob: 'data/*/', except: [plans], category: x}]\nplanners: {a: }\n"));
+  const Suite suite =
+      read_suite(write("schema: 1\nassemblies: [{glob: 'data/*/', except: [plans], category: x}]\nplanners: {a: }\n"));
   ASSERT_EQ(suite.assemblies.size(), 2u);
   EXPECT_EQ(suite.assemblies[0].name, "data/9");
   EXPECT_EQ(suite.assemblies[1].name, "data/10");
