@@ -62,6 +62,13 @@ std::vector<double> round_times(double end) {
   return out;
 }
 
+/// Stopped by a limit of the trial, so that nobody knows what would have come later. One whose attempts all ended
+/// earlier (by limits.path_timeout too) would not have gone on.
+bool out_of_time(const ReportRow& row) {
+  if (row.outcome == "wall_limit" || row.outcome == "cpu_limit") return true;
+  return row.outcome == "timeout" && row.limit_timeout > 0 && time_of(row) >= row.limit_timeout;
+}
+
 }  // namespace
 
 Table pairs_table(const std::vector<Contender>& contenders) {
@@ -111,7 +118,6 @@ Table outcomes_table(const std::vector<Contender>& contenders) {
 }
 
 std::vector<Curve> curves_of(const ReportData& data) {
-  static const std::set<std::string> out_of_time = {"timeout", "wall_limit", "cpu_limit", "cancelled"};
   std::vector<Curve> out;
   for (const auto& c : contenders_of(data)) {
     Curve curve;
@@ -120,7 +126,7 @@ std::vector<Curve> curves_of(const ReportData& data) {
     std::size_t never = 0;
     for (const ReportRow* row : c.rows) {
       curve.end = std::max(curve.end, time_of(*row));
-      if (row->solved || out_of_time.contains(row->outcome))
+      if (row->solved || out_of_time(*row))
         events.emplace_back(time_of(*row), row->solved);
       else
         ++never;
@@ -139,9 +145,9 @@ Table curves_table(const ReportData& data) {
   table.id = "curves";
   table.title = "Solved within a time (%)";
   table.note =
-      "Seconds of planning. A trial that ran out of time is censored there (1 - Kaplan-Meier), one that gave up counts "
-      "as never "
-      "solved. '-': nothing was observed for so long.";
+      "Seconds of planning. A trial that its time limit ended is censored there (1 - Kaplan-Meier); one that gave up, "
+      "or "
+      "whose attempts ran out of time before, counts as never solved. '-': nothing was observed for so long.";
   table.columns = {"planner"};
   const auto times = round_times(end);
   for (const double t : times) table.columns.push_back(fmt::format("{:g} s", t));

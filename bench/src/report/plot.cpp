@@ -12,7 +12,7 @@ constexpr double kLeft = 56, kTop = 16, kWidth = 640, kHeight = 320, kLegend = 2
 
 /// From seconds and shares to the picture.
 struct Axes {
-  double first = 0.1, last = 10;  // seconds, powers of ten
+  double first = 0.1, last = 10;  // seconds
   double x(double seconds) const {
     const double t = std::clamp(seconds, first, last);
     return kLeft + kWidth * std::log(t / first) / std::log(last / first);
@@ -30,8 +30,7 @@ Axes axes_of(const std::vector<Curve>& curves) {
   least = std::clamp(least, 1e-3, most);
   Axes axes;
   axes.first = std::pow(10, std::floor(std::log10(least)));
-  axes.last = std::pow(10, std::ceil(std::log10(most)));
-  if (axes.last <= axes.first) axes.last = axes.first * 10;
+  axes.last = std::max(most, 2 * axes.first);
   return axes;
 }
 
@@ -46,7 +45,7 @@ std::string grid(const Axes& axes) {
     out += line(kLeft, y, kLeft + kWidth, y, "grid");
     out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{}%</text>\n", kLeft - 6, y + 4, percent);
   }
-  for (double t = axes.first; t <= axes.last * 1.001; t *= 10) {
+  for (double t = axes.first; t <= axes.last; t *= 10) {
     out += line(axes.x(t), kTop, axes.x(t), kTop + kHeight, "grid");
     out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g} s</text>\n", axes.x(t),
                        kTop + kHeight + 18, t);

@@ -41,12 +41,11 @@ Results::Results(const std::filesystem::path& file)
   db_.run(kTables);
   check_version(db_);
   transaction.commit();
-  db_.run("CREATE TEMP TABLE wanted (id INTEGER PRIMARY KEY, place INTEGER NOT NULL)");
+  db_.run("CREATE TEMP TABLE wanted (place INTEGER PRIMARY KEY, id INTEGER NOT NULL)");
 }
 
 void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
                      const std::vector<ConfigRecord>& configs) {
-  limits_ = suite.limits;
   const Limits& l = suite.limits;
   Transaction transaction(db_);
   set(db_, "name", suite.name);
@@ -103,9 +102,17 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
                       "{} differs. Rows are not mixed: use another folder (-o), or delete this one",
                       db_.name(), t.key.planner, t.key.assembly, t.key.seed, differs));
     ids_.push_back(find.integer(0));
-    want.bind(ids_.back()).bind(static_cast<std::int64_t>(i)).done();
+    want.bind(static_cast<std::int64_t>(i)).bind(ids_.back()).done();
   }
   transaction.commit();
+}
+
+std::optional<std::size_t> Results::next_waiting(std::size_t from) {
+  auto next = db_.prepare(
+      "SELECT w.place FROM wanted w CROSS JOIN trials t ON t.id = w.id WHERE w.place >= ? AND t.state = 'waiting' "
+      "ORDER BY w.place LIMIT 1");
+  next.bind(static_cast<std::int64_t>(from));
+  return next.step() ? std::optional(static_cast<std::size_t>(next.integer(0))) : std::nullopt;
 }
 
 std::optional<std::size_t> Results::claim() {
@@ -128,25 +135,18 @@ std::optional<std::size_t> Results::claim() {
           .bind(host)
           .done();
   }
-  std::optional<std::size_t> place;
-  std::int64_t id = 0;
-  {
-    auto next = db_.prepare(
-        "SELECT w.id, w.place FROM wanted w JOIN trials t ON t.id = w.id WHERE t.state = 'waiting' "
-        "ORDER BY w.place LIMIT 1");
-    if (next.step()) {
-      id = next.integer(0);
-      place = static_cast<std::size_t>(next.integer(1));
-    }
-  }
+  // Trials are taken in order: what is before the last one taken is looked at again only when nothing comes after it.
+  std::optional<std::size_t> place = next_waiting(next_);
+  if (!place && next_ > 0) place = next_waiting(0);
   if (place)
     db_.prepare("UPDATE trials SET state = 'running', owner = ?, owner_host = ?, lease_until = ? WHERE id = ?")
         .bind(owner_)
         .bind(host_)
         .bind(now() + kLease)
-        .bind(id)
+        .bind(ids_.at(*place))
         .done();
   transaction.commit();
+  next_ = place ? *place + 1 : 0;
   return place;
 }
 
@@ -205,7 +205,7 @@ Tally Results::tally() {
   Tally out;
   auto read = db_.prepare(
       "SELECT planner, count(*), sum(state = 'done'), sum(coalesce(solved, 0)), sum(coalesce(wall_seconds, 0)) "
-      "FROM trials WHERE id IN (SELECT id FROM wanted) GROUP BY planner ORDER BY min(id)");
+      "FROM wanted w CROSS JOIN trials t ON t.id = w.id GROUP BY planner ORDER BY min(w.place)");
   while (read.step()) {
     out.total += read.integer(1);
     out.done += read.integer(2);

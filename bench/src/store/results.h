@@ -82,10 +82,12 @@ class Results {
   Tally tally();
 
  private:
+  /// The first of the enlisted trials, from `from` on, that waits.
+  std::optional<std::size_t> next_waiting(std::size_t from);
   Sqlite db_;
   std::string host_, cpu_, owner_;
   std::vector<std::int64_t> ids_;
-  Limits limits_;
+  std::size_t next_ = 0;
 };
 
 /// Version of the tables.

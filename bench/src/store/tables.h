@@ -26,6 +26,7 @@ CREATE TABLE IF NOT EXISTS trials (
   attempts INTEGER, memoised INTEGER, simulated_steps REAL, nodes REAL, collision_checks REAL, counts TEXT,
   host TEXT, cpu_model TEXT, version TEXT, started TEXT, ended TEXT,
   UNIQUE (assembly, variant, planner, seed));
+CREATE INDEX IF NOT EXISTS trials_by_state ON trials(state);
 CREATE TABLE IF NOT EXISTS plans (
   trial INTEGER PRIMARY KEY REFERENCES trials(id), codec TEXT NOT NULL, size INTEGER NOT NULL, bytes BLOB NOT NULL);
 CREATE TABLE IF NOT EXISTS progress (
