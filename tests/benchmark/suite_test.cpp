@@ -64,7 +64,7 @@ TEST_F(SuiteTest, TheMatrix) {
   EXPECT_EQ(suite.assemblies[1].name, "small");
   EXPECT_EQ(suite.seeds, (std::vector<std::int64_t>{1, 2, 3, 7}));
   EXPECT_TRUE(suite.variants[1].rotate);
-  EXPECT_EQ(suite.variants[1].part, "block");
+  EXPECT_EQ(suite.variants[1].part, "slider");
   EXPECT_EQ(matrix(suite).size(), 2u * 4 * 3);
   EXPECT_EQ(suite.planners[0].config.run.timeout, 10);
   EXPECT_FALSE(suite.planners[0].config.layout.enabled);

@@ -62,14 +62,14 @@ class Campaign {
   }
 
   CampaignResult run() {
-    Tally tally = results_.tally();
-    done_before_ = tally.done;
-    show(tally);
+    count_again();
+    done_before_ = tally_.done;
+    show();
     while (!context_.cancel.cancelled()) {
       const bool more = fill();
       if (running_.empty() && !more) {
-        tally = results_.tally();
-        if (tally.done == tally.total) break;
+        count_again();
+        if (tally_.done == tally_.total) break;
         std::this_thread::sleep_for(kLookForOthersEvery);  // others run the rest; if they die, it is ours
         continue;
       }
@@ -129,25 +129,43 @@ class Campaign {
   void tell(const RunningTrial& trial) {
     const TrialKey& key = enlistment_.trials[trial.place()].plan.key;
     const TrialRow& row = trial.row();
-    const Tally tally = results_.tally();
+    count(key.planner, row.solved);
     const std::string refused = row.verified.value_or(true) ? "" : " (refused by the judge)";
     context_.log(LogLevel::info,
-                 fmt::format("{}/{} {} on {}, {}, seed {}: {}{}, {:.1f} s", tally.done, tally.total, key.planner,
+                 fmt::format("{}/{} {} on {}, {}, seed {}: {}{}, {:.1f} s", tally_.done, tally_.total, key.planner,
                              key.assembly, key.variant, key.seed, row.outcome, refused, row.wall_seconds));
-    show(tally);
+    show();
   }
 
-  void show(const Tally& tally) {
+  void count_again() {
+    const Clock::time_point begin = Clock::now();
+    tally_ = results_.tally();
+    counted_ = Clock::now();
+    counting_took_ = counted_ - begin;
+  }
+
+  /// What other processes do is looked up now and then only: it takes long with many rows.
+  void count(const std::string& planner, bool solved) {
+    if (Clock::now() - counted_ > 50 * counting_took_) return count_again();
+    ++tally_.done;
+    for (auto& [name, counts] : tally_.planners)
+      if (name == planner) {
+        counts.first += solved ? 1 : 0;
+        ++counts.second;
+      }
+  }
+
+  void show() {
     std::string detail;
-    for (const auto& [planner, counts] : tally.planners)
+    for (const auto& [planner, counts] : tally_.planners)
       detail += fmt::format("{}{} {}/{}", detail.empty() ? "" : ", ", planner, counts.first, counts.second);
-    const auto here = tally.done - done_before_;
-    if (here > 0 && tally.done < tally.total) {
+    const auto here = tally_.done - done_before_;
+    if (here > 0 && tally_.done < tally_.total) {
       const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
       detail +=
-          fmt::format("; about {} left", duration_text(elapsed / double(here) * double(tally.total - tally.done)));
+          fmt::format("; about {} left", duration_text(elapsed / double(here) * double(tally_.total - tally_.done)));
     }
-    context_.progress("trials", static_cast<std::size_t>(tally.done), static_cast<std::size_t>(tally.total), detail);
+    context_.progress("trials", static_cast<std::size_t>(tally_.done), static_cast<std::size_t>(tally_.total), detail);
   }
 
   CampaignResult result() {
@@ -171,7 +189,9 @@ class Campaign {
   std::vector<std::unique_ptr<RunningTrial>> running_;
   std::size_t ran_ = 0;
   std::int64_t done_before_ = 0;
-  Clock::time_point begin_ = Clock::now(), renewed_ = Clock::now();
+  Tally tally_;
+  Clock::duration counting_took_{};
+  Clock::time_point begin_ = Clock::now(), renewed_ = Clock::now(), counted_ = Clock::now();
 };
 
 }  // namespace
