@@ -26,7 +26,7 @@ class Report(BenchTest):
         self.folder = Report.shared.name
         self.write_evil()
         self.suite(self.PLANNERS + self.evil("none"), more="seeds: 1..3\n",
-                   assemblies="  - {sample: l_slot, category: slide}\n  - {sample: stacked_box, category: 'many <&> |'}\n")
+                   assemblies="  - {sample: l_slot, category: slide}\n  - {sample: stacked_box, name: stacked_box, set: {count: 1}, category: 'many <&> |'}\n")
         self.bench("--jobs", "2")
 
     def report(self, *arguments):
