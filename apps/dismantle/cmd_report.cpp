@@ -15,6 +15,7 @@ struct ReportOptions {
   std::vector<std::string> inputs, tables;
   std::string format = "text", output, arena;
   std::size_t row = 0;
+  bool plans = false;
 };
 
 /// Those that were asked for. Without a word: all, but a terminal gets no list of trials and CSV nothing else.
@@ -31,7 +32,16 @@ std::vector<bench::Table> chosen(std::vector<bench::Table> all, const ReportOpti
 }
 
 std::string rendered(const bench::ReportData& data, const ReportOptions& options) {
-  const auto tables = chosen(bench::tables_of(data), options);
+  std::string plans;
+  if (options.plans) {
+    if (options.format != "html" || options.output.empty())
+      throw Error("--plans needs --format html and -o FILE: the page links to plans in a folder beside it");
+    const std::filesystem::path folder = std::filesystem::path(options.output).replace_extension(".plans");
+    open_output_folder(folder);
+    bench::write_plans(data, folder);
+    plans = folder.filename().string();
+  }
+  const auto tables = chosen(bench::tables_of(data, plans), options);
   if (options.format == "markdown") return bench::report_markdown(data, tables);
   if (options.format == "csv") return bench::report_csv(tables);
   if (options.format == "html") return bench::report_html(data, tables);
@@ -79,6 +89,8 @@ void add_report(CLI::App& app, Action& action) {
       ->option_text("success|sizes|time|pairs|outcomes|curves|trials")
       ->take_all()
       ->allow_extra_args(false);
+  command->add_flag("--plans", options->plans, "html: write all plans beside the page, and link each row to its plan")
+      ->option_text(" ");
   command->add_option("--arena", options->arena, "Write a database that OMPL's Planner Arena opens")
       ->option_text("FILE.db");
   command->add_option("--row", options->row, "Write plan and configuration of this row of the trials")

@@ -1,6 +1,7 @@
 """Laws of `dismantle report`: what it says does not depend on how the rows were spread, and pages need nothing else."""
 import csv
 import io
+import json
 import os
 import re
 import shutil
@@ -26,7 +27,8 @@ class Report(BenchTest):
         self.folder = Report.shared.name
         self.write_evil()
         self.suite(self.PLANNERS + self.evil("none"), more="seeds: 1..3\n",
-                   assemblies="  - {sample: l_slot, category: slide}\n  - {sample: stacked_box, name: stacked_box, set: {count: 1}, category: 'many <&> |'}\n")
+                   assemblies="  - {sample: l_slot, category: slide}\n"
+                              "  - {sample: stacked_box, name: stacked_box, set: {count: 1}, category: 'many <&> |'}\n")
         self.bench("--jobs", "2")
 
     def report(self, *arguments):
@@ -74,6 +76,13 @@ class Report(BenchTest):
         self.assertIn("many &lt;&amp;&gt; |", page)
         self.assertIsNone(re.search(r"many <&>", page))
         self.assertIn("many <&> \\|", self.report("out", "--format", "markdown"))
+
+    def test_rows_link_to_their_plans(self):
+        self.call("report", "out", "--format", "html", "--plans", "-o", "page.html")
+        links = re.findall(r"<a href='(page\.plans/\d+\.json)'", self.read("page.html"))
+        self.assertEqual(len(links), self.TRIALS)
+        for link in links:
+            self.assertEqual(json.loads(self.read(link))["format"], "dismantle.plan")
 
     def test_arena(self):
         self.call("report", "out", "--arena", "arena.db")

@@ -54,6 +54,11 @@ bool is_number_column(const Table& table, std::size_t column) {
   return false;
 }
 
+std::string content_of(const TableCell& cell) {
+  const std::string text = escaped_html(cell.text);
+  return cell.link.empty() ? text : fmt::format("<a href='{}'>{}</a>", escaped_html(cell.link), text);
+}
+
 std::string html_of(const Table& table) {
   std::string out = fmt::format("<h2 id='{}'>{}</h2>\n<p class='note'>{}</p>\n", "about-" + table.id,
                                 escaped_html(table.title), escaped_html(table.note));
@@ -73,7 +78,7 @@ std::string html_of(const Table& table) {
     out += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i)
       out += fmt::format("<td{}{}>{}</td>", numbers[i] ? " class='n'" : "",
-                         row[i].value ? fmt::format(" data-v='{:.9g}'", *row[i].value) : "", escaped_html(row[i].text));
+                         row[i].value ? fmt::format(" data-v='{:.9g}'", *row[i].value) : "", content_of(row[i]));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -164,7 +164,7 @@ Table curves_table(const ReportData& data) {
   return table;
 }
 
-Table trials_table(const ReportData& data) {
+Table trials_table(const ReportData& data, const std::string& plans) {
   Table table;
   table.id = "trials";
   table.title = "Trials";
@@ -185,6 +185,7 @@ Table trials_table(const ReportData& data) {
                           maybe(r.solve_seconds), number(r.wall_seconds, "{:.3f}"), number(r.cpu_seconds, "{:.3f}"),
                           number(r.peak_rss_mb, "{:.1f}"),
                           r.signal != 0 ? number(double(r.signal), "{:.0f}") : text(""), text(words)});
+    if (!plans.empty() && r.has_plan) table.rows.back().front().link = fmt::format("{}/{}.json", plans, n);
   }
   return table;
 }

@@ -11,7 +11,7 @@ Table pairs_table(const std::vector<Contender>& contenders);
 Table outcomes_table(const std::vector<Contender>& contenders);
 /// The curves at a few times.
 Table curves_table(const ReportData& data);
-/// Every row.
-Table trials_table(const ReportData& data);
+/// Every row. `plans`: where its plan lies, seen from the page.
+Table trials_table(const ReportData& data, const std::string& plans);
 
 }  // namespace dismantle::bench

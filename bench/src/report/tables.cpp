@@ -76,7 +76,7 @@ Columns by_size(const ReportData& data) {
 
 }  // namespace
 
-std::vector<Table> tables_of(const ReportData& data) {
+std::vector<Table> tables_of(const ReportData& data, const std::string& plans) {
   const auto contenders = contenders_of(data);
   std::vector<Table> out;
   out.push_back(table_by(contenders, by_category(data), success_cell));
@@ -101,7 +101,7 @@ std::vector<Table> tables_of(const ReportData& data) {
   out.push_back(pairs_table(contenders));
   out.push_back(outcomes_table(contenders));
   out.push_back(curves_table(data));
-  out.push_back(trials_table(data));
+  out.push_back(trials_table(data, plans));
   return out;
 }
 

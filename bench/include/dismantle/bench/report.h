@@ -23,6 +23,7 @@ struct ReportRow {
   std::optional<bool> verified;
   std::optional<double> max_penetration, solve_seconds;
   std::optional<std::int64_t> parts, removed;
+  bool has_plan = false;
   double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0, limit_timeout = 0, limit_wall = 0;
   std::int64_t limit_memory_mb = 0;
   std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts out
@@ -43,7 +44,8 @@ DISMANTLE_API ReportData read_results(const std::vector<std::filesystem::path>& 
 
 struct TableCell {
   std::string text;
-  std::optional<double> value;  ///< to sort by
+  std::optional<double> value = {};  ///< to sort by
+  std::string link = {};             ///< of the HTML page, relative to it
 };
 struct Table {
   std::string id, title, note;
@@ -51,8 +53,12 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// success, sizes, time, pairs, outcomes, curves, trials.
-DISMANTLE_API std::vector<Table> tables_of(const ReportData& data);
+/// success, sizes, time, pairs, outcomes, curves, trials. `plans`: folder with the plans, relative to the page; empty:
+/// none.
+DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::string& plans = "");
+
+/// Writes the plan of each row that has one as `folder`/ROW.json, rows counted from 1. Returns how many.
+DISMANTLE_API std::size_t write_plans(const ReportData& data, const std::filesystem::path& folder);
 
 /// Share of successes of `hits` in `n` with its 95 % interval of Wilson. n > 0.
 struct Proportion {
