@@ -7,6 +7,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/ingredients.h"
 #include "dismantle/output/animation.h"
 #include "dismantle/output/summary.h"
 #include "dismantle/runner.h"
@@ -30,33 +31,6 @@ fs::path default_folder(const std::string& input) {
   if (!path.has_filename()) path = path.parent_path();
   const fs::path name = fs::is_directory(path, error) ? path.filename() : path.stem();
   return (name.empty() ? "assembly" : name.string()) + ".plan";
-}
-
-Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
-  Ingredients out;
-  out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
-  out.path_planner = [&registry, choice = config.path_planner] {
-    return registry.create<PathPlanner>(choice.type, choice.params);
-  };
-  out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
-  out.path_planner_id = config.path_planner.type;
-  if (config.layout.enabled) {
-    out.transfer_planner =
-        registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
-    out.transfer_planner_id = config.transfer_planner.type;
-  }
-  return out;
-}
-
-RunOptions run_options_of(const RunConfig& config, const std::string& part) {
-  RunOptions out;
-  out.path_timeout = config.run.path_timeout;
-  out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
-  out.only_part = part;
-  out.verify = config.verify;
-  out.layout = config.layout;
-  out.seed = static_cast<std::uint64_t>(config.run.seed);
-  return out;
 }
 
 /// Saves the plan while it grows, at most once a second: what a crash can cost is one second's steps.

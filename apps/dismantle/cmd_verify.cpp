@@ -8,6 +8,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/ingredients.h"
 #include "dismantle/output/summary.h"
 #include "dismantle/plan/assembly_of_plan.h"
 #include "dismantle/plan/check_plan.h"

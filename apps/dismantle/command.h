@@ -24,5 +24,7 @@ void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_plugins(CLI::App& app, Action& action);
 void add_sample(CLI::App& app, Action& action);
+void add_bench(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
 
 }  // namespace dismantle::app

@@ -55,8 +55,8 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
     std::vector<std::string> names;
     const CLI::App* next = nullptr;
     for (const CLI::App* command : commands) {
-      names.push_back(command->get_name());
-      if (names.back() == argv[i]) next = command;
+      if (!command->get_group().empty()) names.push_back(command->get_name());  // the others are for ourselves
+      if (command->get_name() == argv[i]) next = command;
     }
     if (next == nullptr) {
       const auto near = nearest(argv[i], names);
@@ -102,8 +102,8 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   }
 }
 
-/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in a
-/// plan.
+/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in
+/// a plan.
 void open_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd)
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
@@ -130,6 +130,7 @@ int main(int argc, char** argv) {
       "  dismantle sample peg_in_hole -o peg && dismantle plan peg\n"
       "  dismantle plan gearbox/ -c configs/paper.yaml -o out\n"
       "  dismantle verify out/plan.json\n"
+      "  dismantle bench configs/bench/smoke.yaml -o smoke && dismantle report smoke\n"
       "Exit status: 0 complete, 1 not all parts came out, 2 usage or configuration, 3 unusable input,\n"
       "4 a plugin failed, 130 interrupted.");
   Action action;
@@ -139,5 +140,7 @@ int main(int argc, char** argv) {
   add_explain(app, action);
   add_plugins(app, action);
   add_sample(app, action);
+  add_bench(app, action);
+  add_report(app, action);
   return flushed(run(app, action, argc, argv));
 }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "dismantle/errors.h"
+#include "dismantle/ingredients.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"
 
@@ -35,13 +36,6 @@ ConfigSource ConfigFlags::source() const {
   for (const Key& key : keys_)
     if (key.option->count() > 0) source.options.push_back({key.flag, key.key, *key.value});
   return source;
-}
-
-std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry) {
-  std::vector<std::shared_ptr<Importer>> out;
-  for (const RegisteredType* type : registry.types(PluginKind::importer))
-    out.push_back(registry.create<Importer>(type->type.id));
-  return out;
 }
 
 void warn_of_problems(const Registry& registry, Console& console) {

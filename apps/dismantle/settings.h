@@ -37,9 +37,6 @@ class ConfigFlags {
   std::vector<Key> keys_;
 };
 
-/// All importers that are there, by id.
-std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry);
-
 /// A warning for each plugin file that could not be used.
 void warn_of_problems(const Registry& registry, Console& console);
 

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench")  // suites: tests/benchmark
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }

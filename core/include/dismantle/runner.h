@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -42,6 +43,7 @@ struct RunResult {
   Plan plan;
   Outcome outcome = Outcome::crashed;
   OracleCounts counts;
+  std::map<std::string, double> planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
   double prepare_seconds = 0;   ///< simulator preparation
   double plan_seconds = 0;

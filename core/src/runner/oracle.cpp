@@ -97,6 +97,7 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
     computed = compute(0, attempt, key, own);
   }
   const AttemptResult& result = keep(std::move(computed.answer));
+  for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
   if (computed.interrupted) return result;  // says nothing about the question: not remembered
   ++planned_;
   answers_.emplace(key, &result);

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "runner/attempt_pool.h"
@@ -36,6 +37,8 @@ class Oracle final : public PathOracle {
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
   const std::vector<FailedAttempt>& failed() const { return failed_; }
+  /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
+  const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
 
  private:
   struct Final {
@@ -59,6 +62,7 @@ class Oracle final : public PathOracle {
   std::map<const AttemptResult*, AskedAbout> asked_about_;
   std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
   std::vector<FailedAttempt> failed_;
+  std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0};
   std::mutex planner_mutex_;                            ///< the factory need not be safe to call from several threads
   std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone

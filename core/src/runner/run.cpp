@@ -215,6 +215,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   }
   result.plan = ledger.plan();
   result.counts = oracle.counts();
+  result.planner_counts = oracle.planner_counts();
   result.plan_seconds = seconds_since(begin);
   return result;
 }

@@ -1,11 +1,11 @@
-#include "config/bind.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "dismantle/config.h"
+#include "dismantle/config_bind.h"
 #include "dismantle/suggest.h"
 
 namespace dismantle {
@@ -130,6 +130,37 @@ ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* nod
         node->mark.error(fmt::format("{} must be a map of keys, not {}", context.name, node->kind_name())));
   }
   return complete(specs, given);
+}
+
+void take_schema(ConfigNode& root, std::vector<Diagnostic>& problems) {
+  const auto* schema = root.find("schema");
+  if (schema == nullptr) {
+    problems.push_back(root.mark.error(fmt::format("missing key 'schema'; write 'schema: {}'", kConfigSchema)));
+    return;
+  }
+  const ConfigNode& value = schema->value;
+  std::int64_t version = 0;
+  const char* end = value.scalar.data() + value.scalar.size();
+  const auto read = std::from_chars(value.scalar.data(), end, version);
+  if (!value.is_scalar() || value.quoted || read.ec != std::errc{} || read.ptr != end)
+    problems.push_back(value.mark.error(fmt::format("schema must be the number {}", kConfigSchema)));
+  else if (version != kConfigSchema)
+    problems.push_back(
+        value.mark.error(fmt::format("schema {} is not supported; this version of Dismantle reads {}{}", version,
+                                     kConfigSchema, version > kConfigSchema ? ": update Dismantle" : "")));
+  root.erase("schema");
+}
+
+void sort_by_place(std::vector<Diagnostic>& problems) {
+  std::vector<std::string> files;
+  for (const auto& problem : problems)
+    if (std::find(files.begin(), files.end(), problem.file) == files.end()) files.push_back(problem.file);
+  const auto rank = [&files](const Diagnostic& d) {
+    return std::find(files.begin(), files.end(), d.file) - files.begin();
+  };
+  std::stable_sort(problems.begin(), problems.end(), [&rank](const Diagnostic& a, const Diagnostic& b) {
+    return std::make_tuple(rank(a), a.line, a.column) < std::make_tuple(rank(b), b.line, b.column);
+  });
 }
 
 }  // namespace dismantle

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "config/bind.h"
 #include "config/layers.h"
+#include "dismantle/config_bind.h"
 
 namespace dismantle {
 namespace {
@@ -232,19 +232,6 @@ class Loader {
   std::vector<std::pair<const ConfigMember*, std::vector<std::string>>> unknown_top_;
   std::vector<const ConfigMember*> unknown_plugins_;
 };
-
-/// Reading order: files as they first appear, then line and column.
-void sort_by_place(std::vector<Diagnostic>& problems) {
-  std::vector<std::string> files;
-  for (const auto& problem : problems)
-    if (std::find(files.begin(), files.end(), problem.file) == files.end()) files.push_back(problem.file);
-  const auto rank = [&files](const Diagnostic& d) {
-    return std::find(files.begin(), files.end(), d.file) - files.begin();
-  };
-  std::stable_sort(problems.begin(), problems.end(), [&rank](const Diagnostic& a, const Diagnostic& b) {
-    return std::make_tuple(rank(a), a.line, a.column) < std::make_tuple(rank(b), b.line, b.column);
-  });
-}
 
 }  // namespace
 

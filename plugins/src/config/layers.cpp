@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "dismantle/config_bind.h"
+
 namespace dismantle {
 namespace {
 
@@ -33,26 +35,6 @@ std::optional<std::string> named_type(const ConfigNode& section, const char* fal
   if (type == nullptr) return fallback;
   if (!type->value.is_scalar()) return std::nullopt;
   return type->value.scalar;
-}
-
-/// Checks and takes out `schema`.
-void check_schema(ConfigNode& root, std::vector<Diagnostic>& problems) {
-  const auto* schema = root.find("schema");
-  if (schema == nullptr) {
-    problems.push_back(root.mark.error(fmt::format("missing key 'schema'; write 'schema: {}'", kConfigSchema)));
-    return;
-  }
-  const ConfigNode& value = schema->value;
-  std::int64_t version = 0;
-  const char* end = value.scalar.data() + value.scalar.size();
-  const auto read = std::from_chars(value.scalar.data(), end, version);
-  if (!value.is_scalar() || value.quoted || read.ec != std::errc{} || read.ptr != end)
-    problems.push_back(value.mark.error(fmt::format("schema must be the number {}", kConfigSchema)));
-  else if (version != kConfigSchema)
-    problems.push_back(
-        value.mark.error(fmt::format("schema {} is not supported; this version of Dismantle reads {}{}", version,
-                                     kConfigSchema, version > kConfigSchema ? ": update Dismantle" : "")));
-  root.erase("schema");
 }
 
 class FileChain {
@@ -82,7 +64,7 @@ class FileChain {
           root.mark.error(fmt::format("a configuration must be a map of keys, not {}", root.kind_name())));
       return empty();
     }
-    check_schema(root, problems_);
+    take_schema(root, problems_);
     chain_.push_back(identity);
     names_.push_back(shown);
     ConfigNode result = extended(std::move(root), shown);

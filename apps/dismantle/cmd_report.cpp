@@ -1,0 +1,108 @@
+// dismantle report DIR...
+#include <fmt/format.h>
+
+#include "dismantle/bench/report.h"
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/plan/plan.h"
+#include "dismantle/settings.h"
+
+namespace dismantle::app {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> inputs, tables;
+  std::string format = "text", output, arena;
+  std::size_t row = 0;
+  bool plans = false;
+};
+
+/// Those that were asked for. Without a word: all, but a terminal gets no list of trials and CSV nothing else.
+std::vector<bench::Table> chosen(std::vector<bench::Table> all, const ReportOptions& options) {
+  std::vector<bench::Table> out;
+  for (auto& table : all) {
+    const bool named = std::find(options.tables.begin(), options.tables.end(), table.id) != options.tables.end();
+    const bool usual = options.format == "csv"    ? table.id == "trials"
+                       : options.format == "text" ? table.id != "trials"
+                                                  : true;
+    if (options.tables.empty() ? usual : named) out.push_back(std::move(table));
+  }
+  return out;
+}
+
+std::string rendered(const bench::ReportData& data, const ReportOptions& options) {
+  std::string plans;
+  if (options.plans) {
+    if (options.format != "html" || options.output.empty())
+      throw Error("--plans needs --format html and -o FILE: the page links to plans in a folder beside it");
+    const std::filesystem::path folder = std::filesystem::path(options.output).replace_extension(".plans");
+    open_output_folder(folder);
+    bench::write_plans(data, folder);
+    plans = folder.filename().string();
+  }
+  const auto tables = chosen(bench::tables_of(data, plans), options);
+  if (options.format == "markdown") return bench::report_markdown(data, tables);
+  if (options.format == "csv") return bench::report_csv(tables);
+  if (options.format == "html") return bench::report_html(data, tables);
+  return bench::report_text(data, tables);
+}
+
+int report(const ReportOptions& options) {
+  const bench::ReportData data = bench::read_results({options.inputs.begin(), options.inputs.end()});
+  if (options.row > 0) {
+    if (options.output.empty()) throw Error("--row needs -o FOLDER: where should the plan and the configuration go?");
+    if (options.row > data.rows.size())
+      throw Error(fmt::format("--row {}: there are {} rows", options.row, data.rows.size()));
+    open_output_folder(options.output);
+    fmt::print("wrote {}; to run it again:\n  {}\n", options.output,
+               bench::write_row(data.rows[options.row - 1], options.output));
+    return kComplete;
+  }
+  if (!options.arena.empty()) {
+    bench::write_arena(data, options.arena);
+    fmt::print(stderr, "wrote {}\n", options.arena);
+    if (options.output.empty()) return kComplete;
+  }
+  const std::string text = rendered(data, options);
+  if (options.output.empty())
+    fmt::print("{}", text);
+  else
+    write_file(options.output, text);
+  return kComplete;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("report", "Tables and curves of what `bench` has run");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("DIR", options->inputs, "Folders with results, or databases; any number, merged")
+      ->required()
+      ->option_text(" ");
+  command->add_option("--format", options->format, "text, markdown, csv (the trials), or html: one self-contained page")
+      ->check(CLI::IsMember({"text", "markdown", "csv", "html"}))
+      ->option_text("text|markdown|csv|html");
+  command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
+  command->add_option("--table", options->tables, "Just this table; may be repeated")
+      ->check(CLI::IsMember({"success", "sizes", "time", "pairs", "outcomes", "curves", "trials"}))
+      ->option_text("success|sizes|time|pairs|outcomes|curves|trials")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--plans", options->plans, "html: write all plans beside the page, and link each row to its plan")
+      ->option_text(" ");
+  command->add_option("--arena", options->arena, "Write a database that OMPL's Planner Arena opens")
+      ->option_text("FILE.db");
+  command->add_option("--row", options->row, "Write plan and configuration of this row of the trials")
+      ->check(CLI::PositiveNumber)
+      ->option_text("N");
+  command->footer(
+      "Examples:\n"
+      "  dismantle report smoke.bench\n"
+      "  dismantle report cluster/ --format html -o report.html\n"
+      "  dismantle report smoke.bench --format csv -o trials.csv\n"
+      "  dismantle report smoke.bench --row 12 -o row12");
+  command->callback([&action, options] { action = [options] { return report(*options); }; });
+}
+
+}  // namespace dismantle::app

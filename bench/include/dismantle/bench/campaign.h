@@ -1,0 +1,45 @@
+/// Running a suite: claims trials, runs each in processes of its own, writes the rows.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dismantle/bench/suite.h"
+#include "dismantle/export.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::bench {
+
+struct CampaignOptions {
+  std::filesystem::path folder;            ///< results, inputs, configurations, work in progress
+  unsigned jobs = 1;                       ///< trials at once
+  unsigned shard = 1, shards = 1;          ///< this is shard `shard` of `shards`, with a database of its own
+  std::vector<std::string> plan_command;   ///< program and arguments; the folder of the trial is appended
+  std::vector<std::string> judge_command;  ///< likewise
+};
+
+struct CampaignResult {
+  std::size_t total = 0, done = 0, solved = 0;  ///< of this shard, by whoever ran them
+  std::size_t ran = 0;                          ///< by this process
+  bool interrupted = false;
+  std::filesystem::path database;
+};
+
+/// The database of a shard: `results.db`, or `shard-I-of-N.db`.
+DISMANTLE_API std::filesystem::path database_of(const CampaignOptions& options);
+
+/// Runs what is not there yet and waits for what other processes run. When `context` is cancelled, running trials are
+/// killed and put back. `context.progress` and `context.log` tell how it goes.
+/// @throws Error when the folder holds rows of another configuration, or cannot be used.
+DISMANTLE_API CampaignResult run_campaign(const Suite& suite, const CampaignOptions& options, RunContext& context);
+
+/// The matrix in words, and how long it may take.
+DISMANTLE_API std::string dry_run_text(const Suite& suite, const CampaignOptions& options);
+
+/// "1 h 5 min", "12 s".
+DISMANTLE_API std::string duration_text(double seconds);
+
+}  // namespace dismantle::bench

@@ -1,0 +1,43 @@
+/// One trial, as the processes see it that do it: files in, files out. A process plans, another one judges.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "dismantle/export.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::bench {
+
+struct TrialRequest {
+  std::filesystem::path config;  ///< the resolved configuration, seed and limits included
+  std::filesystem::path input;   ///< empty for a sample
+  std::string sample;
+  ParamSet sample_values;
+  bool rotate = false;
+  std::int64_t seed = 1;
+  std::string part;               ///< empty: the whole assembly
+  std::filesystem::path inputs;   ///< folder for assemblies that are made: samples, turned ones, moved ones
+  std::string input_name;         ///< of such an assembly in that folder
+  double max_penetration = 0.01;  ///< of an assembly of size 10; for the judge
+};
+
+/// Files in the folder of a trial.
+inline constexpr const char* kRequestFile = "request.json";
+inline constexpr const char* kResultFile = "result.json";     ///< absent when the trial did not end by itself
+inline constexpr const char* kProgressFile = "progress.txt";  ///< a line "seconds removed" per step
+inline constexpr const char* kPlanFile = "plan.json";         ///< saved while it grows
+inline constexpr const char* kJudgementFile = "judgement.json";
+
+/// Exit status of a trial whose memory was not enough: it ends at the first request that is refused.
+inline constexpr int kOutOfMemory = 86;
+
+DISMANTLE_API void write_request(const TrialRequest& request, const std::filesystem::path& folder);
+
+/// Plans what `folder` asks for. @throws ConfigError, InputError, PluginError as `dismantle plan` does.
+DISMANTLE_API void plan_trial(const std::filesystem::path& folder);
+/// Checks the plan in `folder` with the verifier, in a process that no planner was loaded into.
+DISMANTLE_API void judge_trial(const std::filesystem::path& folder);
+
+}  // namespace dismantle::bench

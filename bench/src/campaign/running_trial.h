@@ -1,0 +1,42 @@
+/// A trial on its way: first the process that plans, then the one that judges.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "campaign/enlist.h"
+#include "process/child.h"
+
+namespace dismantle::bench {
+
+class RunningTrial {
+ public:
+  /// `folder`: made for it, and removed by it.
+  RunningTrial(std::size_t place, const Enlisted& trial, const Limits& limits, const CampaignOptions& options,
+               std::filesystem::path folder);
+  ~RunningTrial();
+  RunningTrial(const RunningTrial&) = delete;
+  RunningTrial& operator=(const RunningTrial&) = delete;
+
+  std::size_t place() const { return place_; }
+  int stream() const { return child_->stream(); }
+  /// True when all is over; row() is then complete.
+  bool ended();
+  const TrialRow& row() const { return row_; }
+
+ private:
+  void start(const std::vector<std::string>& command);
+  void take_plan(const ChildEnd& end);
+  void take_result();
+  void take_judgement(const ChildEnd& end);
+
+  std::size_t place_;
+  Limits limits_;
+  const CampaignOptions& options_;
+  std::filesystem::path folder_;
+  bool one_part_, judging_ = false, success_ = false;
+  std::unique_ptr<Child> child_;
+  TrialRow row_;
+};
+
+}  // namespace dismantle::bench

@@ -1,0 +1,118 @@
+#include "report/plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::bench {
+namespace {
+
+constexpr double kLeft = 56, kTop = 16, kWidth = 640, kHeight = 320, kLegend = 20;
+
+/// From seconds and shares to the picture.
+struct Axes {
+  double first = 0.1, last = 10;  // seconds
+  double x(double seconds) const {
+    const double t = std::clamp(seconds, first, last);
+    return kLeft + kWidth * std::log(t / first) / std::log(last / first);
+  }
+  static double y(double share) { return kTop + kHeight * (1 - share); }
+};
+
+Axes axes_of(const std::vector<Curve>& curves) {
+  double least = 1e9, most = 0;
+  for (const auto& curve : curves) {
+    if (!curve.steps.empty()) least = std::min(least, curve.steps.front().first);
+    most = std::max(most, curve.end);
+  }
+  most = std::max(most, 1e-3);
+  least = std::clamp(least, 1e-3, most);
+  Axes axes;
+  axes.first = std::pow(10, std::floor(std::log10(least)));
+  axes.last = std::max(most, 2 * axes.first);
+  return axes;
+}
+
+std::string line(double x1, double y1, double x2, double y2, const char* style) {
+  return fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='{}'/>\n", x1, y1, x2, y2, style);
+}
+
+std::string grid(const Axes& axes) {
+  std::string out;
+  for (int percent = 0; percent <= 100; percent += 20) {
+    const double y = Axes::y(percent / 100.0);
+    out += line(kLeft, y, kLeft + kWidth, y, "grid");
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{}%</text>\n", kLeft - 6, y + 4, percent);
+  }
+  for (double t = axes.first; t <= axes.last; t *= 10) {
+    out += line(axes.x(t), kTop, axes.x(t), kTop + kHeight, "grid");
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g} s</text>\n", axes.x(t),
+                       kTop + kHeight + 18, t);
+  }
+  return out;
+}
+
+std::string path_of(const Curve& curve, const Axes& axes) {
+  std::string d = fmt::format("M{:.1f} {:.1f}", axes.x(0), Axes::y(0));
+  for (const auto& [seconds, share] : curve.steps) d += fmt::format("H{:.1f}V{:.1f}", axes.x(seconds), Axes::y(share));
+  return d + fmt::format("H{:.1f}", axes.x(curve.end));
+}
+
+}  // namespace
+
+std::string escaped_html(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string colour_of(std::size_t i) {
+  static const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                        "#b8860b", "#56b4e9", "#6a3d9a", "#666666"};
+  return colours[i % std::size(colours)];
+}
+
+std::string svg_of(const std::vector<Curve>& curves) {
+  const Axes axes = axes_of(curves);
+  const double height = kTop + kHeight + 40 + kLegend * double(curves.size());
+  std::string out =
+      fmt::format("<svg viewBox='0 0 {:.0f} {:.0f}' role='img' aria-label='Share of trials solved over time'>\n",
+                  kLeft + kWidth + 24, height);
+  out += grid(axes);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const std::string look = fmt::format("stroke='{}'{}", colour_of(i), i >= 8 ? " stroke-dasharray='6 4'" : "");
+    const double share = curves[i].steps.empty() ? 0 : curves[i].steps.back().second;
+    const std::string label =
+        fmt::format("{}: {:.1f} % after {:.3g} s", escaped_html(curves[i].label), 100 * share, curves[i].end);
+    out +=
+        fmt::format("<path d='{}' class='curve' {}><title>{}</title></path>\n", path_of(curves[i], axes), look, label);
+    const double y = kTop + kHeight + 44 + kLegend * double(i);
+    out += fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='curve' {}/>\n", kLeft, y,
+                       kLeft + 28, y, look);
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}'>{}</text>\n", kLeft + 36, y + 4, label);
+  }
+  return out + "</svg>\n";
+}
+
+}  // namespace dismantle::bench

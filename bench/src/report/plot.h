@@ -1,0 +1,19 @@
+/// Curves as SVG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dismantle/bench/report.h"
+
+namespace dismantle::bench {
+
+std::string escaped_html(const std::string& text);
+
+/// Success over time, logarithmic in time, with a legend.
+std::string svg_of(const std::vector<Curve>& curves);
+
+/// Colour of the i-th line; told apart by people who do not see red and green, and by dashes from the ninth on.
+std::string colour_of(std::size_t i);
+
+}  // namespace dismantle::bench

@@ -1,0 +1,218 @@
+#include "store/results.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "dismantle/errors.h"
+#include "store/compress.h"
+#include "store/owner.h"
+#include "store/tables.h"
+
+namespace dismantle::bench {
+namespace {
+
+constexpr double kLease = 120;  // seconds without a sign of life after which a trial of another machine is taken over
+
+double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
+
+void set(Sqlite& db, const std::string& key, const std::string& value) {
+  db.prepare("INSERT OR REPLACE INTO suite VALUES (?, ?)").bind(key).bind(value).done();
+}
+
+void check_version(Sqlite& db) {
+  auto version = db.prepare("SELECT value FROM suite WHERE key = 'store_version'");
+  if (!version.step()) return set(db, "store_version", std::to_string(kStoreVersion));
+  if (version.text(0) != std::to_string(kStoreVersion))
+    throw InputError(db.name(),
+                     fmt::format("holds results in version {}, this Dismantle writes version {}; use another "
+                                 "folder",
+                                 version.text(0), kStoreVersion));
+}
+
+}  // namespace
+
+Results::Results(const std::filesystem::path& file)
+    : db_(file, Sqlite::Mode::write), host_(this_host()), cpu_(cpu_model()), owner_(this_owner()) {
+  db_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
+  Transaction transaction(db_);
+  db_.run(kTables);
+  check_version(db_);
+  transaction.commit();
+  db_.run("CREATE TEMP TABLE wanted (place INTEGER PRIMARY KEY, id INTEGER NOT NULL)");
+}
+
+void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
+                     const std::vector<ConfigRecord>& configs) {
+  const Limits& l = suite.limits;
+  Transaction transaction(db_);
+  set(db_, "name", suite.name);
+  set(db_, "text", suite.text);
+  set(db_, "generator", "dismantle " DISMANTLE_VERSION);
+  std::string planners, variants;
+  for (const auto& planner : suite.planners) planners += planner.name + "\n";
+  for (const auto& variant : suite.variants) variants += variant.name + "\n";
+  set(db_, "planners", planners);
+  set(db_, "variants", variants);
+  auto add_config = db_.prepare("INSERT OR IGNORE INTO configs VALUES (?, ?)");
+  auto add_plugin = db_.prepare("INSERT OR IGNORE INTO plugins VALUES (?, ?, ?, ?, ?, ?, ?)");
+  for (const auto& config : configs) {
+    add_config.bind(config.hash).bind(config.text).done();
+    for (const auto& p : config.plugins)
+      add_plugin.bind(config.hash)
+          .bind(p.section)
+          .bind(p.type)
+          .bind(p.plugin)
+          .bind(p.version)
+          .bind(p.file)
+          .bind(p.sha256)
+          .done();
+  }
+  auto add = db_.prepare(
+      "INSERT OR IGNORE INTO trials (assembly, variant, planner, seed, category, part, planner_hash, config_hash, "
+      "limit_path_timeout, limit_path_steps, limit_timeout, limit_wall, limit_cpu, limit_memory_mb, threads, "
+      "judge_max_penetration) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  auto want = db_.prepare("INSERT INTO wanted VALUES (?, ?)");
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const TrialPlan& t = trials[i];
+    add.bind(t.key.assembly).bind(t.key.variant).bind(t.key.planner).bind(t.key.seed).bind(t.category).bind(t.part);
+    add.bind(t.planner_hash).bind(t.config_hash).bind(l.path_timeout).bind(l.path_steps).bind(l.timeout);
+    add.bind(l.wall_limit())
+        .bind(l.cpu_limit())
+        .bind(l.memory)
+        .bind(std::int64_t{l.threads})
+        .bind(suite.max_penetration)
+        .done();
+    auto find = db_.prepare(
+        "SELECT id, planner_hash, limit_wall, limit_cpu, limit_memory_mb, part, judge_max_penetration FROM trials "
+        "WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?");
+    find.bind(t.key.assembly).bind(t.key.variant).bind(t.key.planner).bind(t.key.seed).step();
+    const char* differs = find.text(1) != t.planner_hash            ? "its configuration or a plugin file"
+                          : find.number(2) != l.wall_limit()        ? "limits.wall"
+                          : find.number(3) != l.cpu_limit()         ? "limits.cpu"
+                          : find.integer(4) != l.memory             ? "limits.memory"
+                          : find.text(5) != t.part                  ? "the part"
+                          : find.number(6) != suite.max_penetration ? "judge.max_penetration"
+                                                                    : nullptr;
+    if (differs != nullptr)
+      throw Error(
+          fmt::format("{}: planner '{}' on '{}' (seed {}) has a row already that was made with something else: "
+                      "{} differs. Rows are not mixed: use another folder (-o), or delete this one",
+                      db_.name(), t.key.planner, t.key.assembly, t.key.seed, differs));
+    ids_.push_back(find.integer(0));
+    want.bind(static_cast<std::int64_t>(i)).bind(ids_.back()).done();
+  }
+  transaction.commit();
+}
+
+std::optional<std::size_t> Results::next_waiting(std::size_t from) {
+  auto next = db_.prepare(
+      "SELECT w.place FROM wanted w CROSS JOIN trials t ON t.id = w.id WHERE w.place >= ? AND t.state = 'waiting' "
+      "ORDER BY w.place LIMIT 1");
+  next.bind(static_cast<std::int64_t>(from));
+  return next.step() ? std::optional(static_cast<std::size_t>(next.integer(0))) : std::nullopt;
+}
+
+std::optional<std::size_t> Results::claim() {
+  Transaction transaction(db_);
+  {
+    // Those who died on this machine are known at once; of others only that they have been silent.
+    auto orphans = db_.prepare(
+        "SELECT DISTINCT owner, owner_host, max(lease_until) FROM trials WHERE state = 'running' "
+        "GROUP BY owner, owner_host");
+    std::vector<std::pair<std::string, std::string>> gone;
+    while (orphans.step()) {
+      const std::string owner = orphans.text(0), host = orphans.text(1);
+      if (host == host_ ? !is_alive(owner) : orphans.number(2) < now()) gone.emplace_back(owner, host);
+    }
+    for (const auto& [owner, host] : gone)
+      db_.prepare(
+             "UPDATE trials SET state = 'waiting', owner = NULL, owner_host = NULL, lease_until = NULL "
+             "WHERE state = 'running' AND owner = ? AND owner_host = ?")
+          .bind(owner)
+          .bind(host)
+          .done();
+  }
+  // Trials are taken in order: what is before the last one taken is looked at again only when nothing comes after it.
+  std::optional<std::size_t> place = next_waiting(next_);
+  if (!place && next_ > 0) place = next_waiting(0);
+  if (place)
+    db_.prepare("UPDATE trials SET state = 'running', owner = ?, owner_host = ?, lease_until = ? WHERE id = ?")
+        .bind(owner_)
+        .bind(host_)
+        .bind(now() + kLease)
+        .bind(ids_.at(*place))
+        .done();
+  transaction.commit();
+  next_ = place ? *place + 1 : 0;
+  return place;
+}
+
+void Results::renew(std::size_t trial) {
+  db_.prepare("UPDATE trials SET lease_until = ? WHERE id = ? AND state = 'running' AND owner = ?")
+      .bind(now() + kLease)
+      .bind(ids_.at(trial))
+      .bind(owner_)
+      .done();
+}
+
+void Results::release(std::size_t trial) {
+  db_.prepare(
+         "UPDATE trials SET state = 'waiting', owner = NULL, owner_host = NULL, lease_until = NULL WHERE id = ? AND "
+         "state = 'running' AND owner = ?")
+      .bind(ids_.at(trial))
+      .bind(owner_)
+      .done();
+}
+
+void Results::finish(std::size_t trial, const TrialRow& row) {
+  const std::int64_t id = ids_.at(trial);
+  Transaction transaction(db_);
+  auto update = db_.prepare(
+      "UPDATE trials SET state = 'done', owner = NULL, owner_host = NULL, lease_until = NULL, outcome = ?, solved = ?, "
+      "verified = ?, complete = ?, max_penetration = ?, judgement = ?, signal = ?, exit_status = ?, last_words = ?, "
+      "input = ?, "
+      "input_sha256 = ?, parts = ?, excluded = ?, removed = ?, left_together = ?, steps = ?, wall_seconds = ?, "
+      "cpu_seconds = ?, "
+      "peak_rss_mb = ?, load_seconds = ?, prepare_seconds = ?, plan_seconds = ?, solve_seconds = ?, judge_seconds = ?, "
+      "attempts = ?, memoised = ?, simulated_steps = ?, nodes = ?, collision_checks = ?, counts = ?, host = ?, "
+      "cpu_model = ?, "
+      "version = ?, started = ?, ended = strftime('%Y-%m-%dT%H:%M:%SZ', 'now') WHERE id = ? AND state = 'running' AND "
+      "owner = ?");
+  update.bind(row.outcome).bind(row.solved).bind(row.verified).bind(row.complete).bind(row.max_penetration);
+  update.bind(row.judgement).bind(row.signal).bind(row.exit_status).bind(row.last_words).bind(row.input);
+  update.bind(row.input_sha256).bind(row.parts).bind(row.excluded).bind(row.removed).bind(row.left).bind(row.steps);
+  update.bind(row.wall_seconds).bind(row.cpu_seconds).bind(row.peak_rss_mb).bind(row.load_seconds);
+  update.bind(row.prepare_seconds).bind(row.plan_seconds).bind(row.solve_seconds).bind(row.judge_seconds);
+  update.bind(row.attempts).bind(row.memoised).bind(row.simulated_steps).bind(row.nodes).bind(row.collision_checks);
+  update.bind(row.counts).bind(host_.substr(0, host_.find(' '))).bind(cpu_).bind(DISMANTLE_VERSION).bind(row.started);
+  update.bind(id).bind(owner_).done();
+  if (db_.changes() == 0) return;  // silent for too long: another machine has it now, and its row counts
+  if (!row.plan.empty())
+    db_.prepare("INSERT INTO plans VALUES (?, 'zlib', ?, ?)")
+        .bind(id)
+        .bind(static_cast<std::int64_t>(row.plan.size()))
+        .blob(compressed(row.plan))
+        .done();
+  auto add = db_.prepare("INSERT INTO progress VALUES (?, ?, ?)");
+  for (const auto& [seconds, removed] : row.progress) add.bind(id).bind(seconds).bind(removed).done();
+  transaction.commit();
+}
+
+Tally Results::tally() {
+  Tally out;
+  auto read = db_.prepare(
+      "SELECT planner, count(*), sum(state = 'done'), sum(coalesce(solved, 0)), sum(coalesce(wall_seconds, 0)) "
+      "FROM wanted w CROSS JOIN trials t ON t.id = w.id GROUP BY planner ORDER BY min(w.place)");
+  while (read.step()) {
+    out.total += read.integer(1);
+    out.done += read.integer(2);
+    out.seconds += read.number(4);
+    out.planners.push_back({read.text(0), {read.integer(3), read.integer(2)}});
+  }
+  return out;
+}
+
+}  // namespace dismantle::bench

@@ -1,0 +1,29 @@
+/// Requests and inputs of a trial.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dismantle/bench/trial.h"
+#include "dismantle/importer.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::bench {
+
+/// @throws Error naming the file.
+std::string read_text(const std::filesystem::path& file);
+nlohmann::json read_json(const std::filesystem::path& file);
+TrialRequest read_request(const std::filesystem::path& folder);
+
+/// Where the trial's assembly lies. One that has to be made (a sample, a turned one, one with a `translation.json`) is
+/// made once and kept; several processes may do so at the same time. @throws InputError.
+std::filesystem::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr<Importer>>& importers,
+                               const RunContext& context);
+
+/// True for a folder that holds a `translation.json`: the layout of the paper's data, where each part NAME.obj is moved
+/// by the vector of that name to where it is when assembled.
+bool has_offsets(const std::filesystem::path& input);
+
+}  // namespace dismantle::bench

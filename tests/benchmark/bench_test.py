@@ -1,0 +1,175 @@
+"""Laws of `dismantle bench`: every trial is a row, once, whatever the planners and the user do."""
+import glob
+import os
+import random
+import shlex
+import signal
+import subprocess
+import time
+import unittest
+
+from benching import BenchTest, PROGRAM, without_times
+
+
+class Isolation(BenchTest):
+    def test_planners_that_misbehave_are_rows_and_nothing_else(self):
+        names = ("none", "abort", "memory", "scribble", "lie")
+        self.suite(self.evil(*names), limits="timeout: 60, wall: 600, memory: 1024")
+        result = self.bench("--jobs", "2")
+        self.assertEqual((result["done"], result["solved"]), (len(names), 0))
+        self.assert_each_once(len(names))
+        rows = {r["planner"]: r for r in self.rows()}
+        outcomes = {name: row["outcome"] for name, row in rows.items()}
+        # The lie is refused by the run's own check already.
+        self.assertEqual(outcomes, {"none": "exhausted", "abort": "crash", "memory": "out_of_memory", "scribble": "crash",
+                                    "lie": outcomes["lie"]})
+        self.assertNotEqual(outcomes["lie"], "solved")
+        self.assertEqual(rows["abort"]["signal"], signal.SIGABRT)
+        self.assertIn("evil.abort says goodbye", rows["abort"]["last_words"])
+        self.assertIn(rows["scribble"]["signal"], (signal.SIGSEGV, signal.SIGBUS, signal.SIGABRT))
+        self.assertIn("limits.memory", rows["memory"]["last_words"])
+        self.assertEqual(os.listdir(self.path("out", "work")), [])
+
+    def test_planners_that_do_not_end(self):
+        # One limit that ends the trial, the other far away: how fast the machine is does not matter.
+        self.suite(self.evil("spin"), limits="timeout: 0, wall: 600, cpu: 2")
+        self.bench()
+        self.assertEqual([r["outcome"] for r in self.rows()], ["cpu_limit"])
+        self.suite(self.evil("sleep"), limits="timeout: 0, wall: 2, cpu: 600", name="sleep.yaml")
+        self.bench(suite="sleep.yaml", out="asleep")
+        self.assertEqual([r["outcome"] for r in self.rows(database="asleep/results.db")], ["wall_limit"])
+
+    def test_the_judge_has_the_last_word(self):
+        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, verify.max_penetration: 0.1}}\n",
+                   more="seeds: 1\njudge: {max_penetration: 1.0e-9}\n")
+        self.assertEqual(self.bench()["solved"], 0)
+        row, = self.rows()
+        self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 0, 0))
+        self.assertIn("step 1", row["judgement"])
+
+    def test_input_that_cannot_be_read_is_a_row(self):
+        self.write("broken/a.obj", "no mesh\n")
+        self.write("broken/b.obj", "v 0 0 0\n")
+        self.suite(self.evil("none"), assemblies="  - {path: broken}\n  - {sample: l_slot, part: nobody}\n")
+        self.bench()
+        first, second = self.rows()
+        self.assertEqual(first["outcome"], "bad_input")
+        self.assertIn("a.obj", first["last_words"])
+        self.assertNotEqual(second["outcome"], "solved")
+        self.assertIn("nobody", second["last_words"])
+
+
+class Resuming(BenchTest):
+    ASSEMBLIES = "  - {sample: l_slot}\n  - {sample: zigzag}\n"
+
+    def processes_here(self):
+        """Ids of processes that have this test's folder on their command line."""
+        found = []
+        for file in glob.glob("/proc/[0-9]*/cmdline"):
+            try:
+                with open(file, "rb") as opened:
+                    if self.folder.encode() in opened.read():
+                        found.append(file)
+            except OSError:
+                pass  # ended in the meantime
+        return found
+
+    def test_kill_at_any_moment_costs_nothing_but_the_running_trials(self):
+        self.suite(self.evil("none", "lie"), assemblies=self.ASSEMBLIES, more="seeds: 1..6\n")
+        kept = 0
+        for _ in range(5):
+            process = self.start("bench", "suite.yaml", "-o", self.path("out"), "--jobs", "2")
+            time.sleep(random.uniform(0.05, 0.8))
+            process.kill()
+            process.communicate()
+            while self.processes_here():  # its trials die with it
+                time.sleep(0.01)
+            if os.path.exists(self.path("out/results.db")) and self.rows("SELECT name FROM sqlite_master WHERE name = 'trials'"):
+                done = len(self.rows("SELECT id FROM trials WHERE state = 'done'"))
+                self.assertGreaterEqual(done, kept)
+                kept = done
+        self.assertEqual(self.bench("--jobs", "2", out=self.path("out"))["ran"], 24 - kept)
+        self.assert_each_once(24)
+        self.assertEqual(self.bench(out=self.path("out"))["ran"], 0)
+        self.assertEqual(os.listdir(self.path("out", "work")), [])
+
+    def test_two_processes_share_a_suite(self):
+        self.suite(self.evil("none"), assemblies=self.ASSEMBLIES, more="seeds: 1..5\n")
+        others = [self.start("bench", "suite.yaml", "-o", "out") for _ in range(2)]
+        ran = 0
+        for process in others:
+            out, err = process.communicate()
+            self.assertEqual(process.returncode, 0, err)
+            ran += int(out.split("; ")[1].split()[0])
+        self.assertEqual(ran, 10)
+        self.assert_each_once(10)
+
+    def test_interrupt_puts_running_trials_back(self):
+        self.suite(self.evil("sleep"), more="seeds: 1..2\n")
+        process = self.start("bench", "suite.yaml", "-o", "out", "--jobs", "2")
+        while len(self.processes_here()) < 2:  # `bench` itself names the folder in no argument, its trials do
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate()
+        self.assertEqual(process.returncode, 130, err)
+        self.assertEqual([r["state"] for r in self.rows()], ["waiting", "waiting"])
+        self.assertEqual(self.processes_here(), [])
+
+    def test_rows_of_another_configuration_are_not_mixed(self):
+        self.suite(self.evil("none"))
+        self.bench()
+        self.suite("  none: {config: evil.yaml, set: {path_planner.type: evil.lie}}\n")
+        done = self.call("bench", "suite.yaml", "-o", "out", status=2)
+        self.assertIn("planner 'none' on 'l_slot' (seed 1)", done.stderr)
+        self.suite(self.evil("none"), limits="timeout: 60, wall: 301, memory: 2048")
+        self.assertIn("limits.wall differs", self.call("bench", "suite.yaml", "-o", "out", status=2).stderr)
+
+
+class Repeating(BenchTest):
+    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n"
+
+    def test_a_row_again_gives_the_same_plan(self):
+        self.suite(self.PLANNERS, assemblies="  - {sample: l_slot}\n  - {sample: stacked_box, name: stacked_box, set: {count: 1}}\n",
+                   more="seeds: 3\nvariants: {plain: {}, turned: {rotate: random}}\n",
+                   limits="path_timeout: 0, timeout: 0, wall: 300")
+        self.bench("--jobs", "2")
+        rows = self.rows()
+        self.assertEqual([r["solved"] for r in rows], [1, 1, 1, 1], [dict(r) for r in rows])
+        for number in (1, 2, 3, 4):
+            said = self.call("report", "out", "--row", str(number), "-o", f"row{number}").stdout
+            command = shlex.split(said.splitlines()[-1])
+            self.assertEqual(command[0], "dismantle")
+            again = subprocess.run([PROGRAM, *command[1:], "-o", f"again{number}", "-q"], cwd=self.folder, capture_output=True)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertEqual(without_times(self.read(f"again{number}/plan.json")), without_times(self.read(f"row{number}/plan.json")))
+            self.call("verify", f"row{number}/plan.json")
+
+
+class PaperLayout(BenchTest):
+    def test_offsets_of_multi_assembly_folders(self):
+        """A peg in a block whose files stand around the origin; translation.json says where they belong."""
+        self.call("sample", "stacked_box", "-o", "whole", "--set", "count=1")
+        offsets = []
+        names = sorted(os.listdir(self.path("whole")))
+        for i, name in enumerate(names):
+            moved = []
+            for line in self.read("whole", name).splitlines():
+                if line.startswith("v "):
+                    x, y, z = map(float, line.split()[1:])
+                    line = f"v {x - 8 * i} {y + 16} {z - 32}"
+                moved.append(line)
+            self.write(f"data/multi_assembly/00007/{i}.obj", "\n".join(moved) + "\n")
+            self.write(f"data/joint_assembly/00001/{i}.obj", self.read("whole", name)) if i < 2 else None
+            offsets.append(f'"{i}": [{8 * i}, -16, 32]')
+        self.write("data/multi_assembly/00007/translation.json", "{" + ", ".join(offsets) + "}")
+        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n",
+                   assemblies="  - {glob: 'data/joint_assembly/*/', category: two_part}\n"
+                              "  - {glob: 'data/multi_assembly/*/', category: multi_part}\n")
+        self.bench("--jobs", "2")
+        rows = {r["category"]: r for r in self.rows()}
+        self.assertEqual((rows["multi_part"]["parts"], rows["multi_part"]["solved"]), (len(names), 1), dict(rows["multi_part"]))
+        self.assertEqual(rows["two_part"]["parts"], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,87 @@
+// Path planners as nobody wants them, and one that gives up at once.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "dismantle/plugin.h"
+
+namespace {
+
+using dismantle::Outcome;
+using dismantle::PathQuery;
+using dismantle::PathResult;
+using dismantle::RunContext;
+
+struct NoParams {
+  static void describe(dismantle::Schema<NoParams>&) {}
+};
+
+template <PathResult (*kDo)()>
+class Planner final : public dismantle::PathPlanner {
+ public:
+  explicit Planner(const NoParams&) {}
+  dismantle::Capabilities needs() const noexcept override { return {}; }
+  PathResult plan(const PathQuery&, RunContext&) override { return kDo(); }
+};
+
+PathResult give_up() {
+  PathResult result;
+  result.outcome = Outcome::exhausted;
+  return result;
+}
+
+PathResult abort_at_once() {
+  static const char words[] = "evil.abort says goodbye\n";
+  if (::write(STDERR_FILENO, words, sizeof words - 1) < 0) return give_up();
+  std::abort();
+}
+
+PathResult spin() {
+  for (volatile unsigned i = 0;; i = i + 1) {
+  }
+}
+
+PathResult sleep_for_ever() {
+  for (;;) ::pause();
+}
+
+PathResult eat_memory() {
+  std::vector<std::vector<char>> eaten;
+  for (;;) eaten.emplace_back(std::size_t{1} << 20, 'x');
+}
+
+PathResult scribble() {
+  // Over the stack, upwards: return addresses and all.
+  char here = 0;
+  volatile char* at = &here;
+  for (;;) *at++ = 0;
+}
+
+/// Claims success with a path that goes nowhere; the oracle must not believe it.
+PathResult lie() {
+  PathResult result;
+  result.outcome = Outcome::solved;
+  result.path = {{dismantle::Pose{}}, {dismantle::Pose{}}};
+  result.depth = 1;
+  return result;
+}
+
+}  // namespace
+
+DISMANTLE_PLUGIN("evil.planners", "1.0.0", "MIT", "https://example.org/evil") {
+  r.add<dismantle::PathPlanner, Planner<give_up>, NoParams>("evil.none", "Gives up at once.",
+                                                            {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<abort_at_once>, NoParams>("evil.abort", "Aborts.",
+                                                                  {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<spin>, NoParams>("evil.spin", "Computes for ever.",
+                                                         {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<sleep_for_ever>, NoParams>("evil.sleep", "Waits for ever.",
+                                                                   {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<eat_memory>, NoParams>("evil.memory", "Eats memory.",
+                                                               {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<scribble>, NoParams>("evil.scribble", "Overwrites memory.",
+                                                             {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<lie>, NoParams>("evil.lie", "Claims to be done.",
+                                                        {.source = "none", .needs = {}});
+}

@@ -1,0 +1,109 @@
+"""Laws of `dismantle report`: what it says does not depend on how the rows were spread, and pages need nothing else."""
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import sqlite3
+import tempfile
+import unittest
+
+from benching import BenchTest
+
+
+class Report(BenchTest):
+    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n"
+    TRIALS = 2 * 2 * 3  # assemblies, planners, seeds
+
+    shared = None  # one suite, run once, for all tests
+
+    def setUp(self):
+        if Report.shared is not None:
+            self.folder = Report.shared.name
+            return
+        Report.shared = tempfile.TemporaryDirectory(prefix="dismantle-report-")
+        self.addClassCleanup(Report.shared.cleanup)
+        self.folder = Report.shared.name
+        self.write_evil()
+        self.suite(self.PLANNERS + self.evil("none"), more="seeds: 1..3\n",
+                   assemblies="  - {sample: l_slot, category: slide}\n"
+                              "  - {sample: stacked_box, name: stacked_box, set: {count: 1}, category: 'many <&> |'}\n")
+        self.bench("--jobs", "2")
+
+    def report(self, *arguments):
+        return self.call("report", *arguments).stdout
+
+    def split(self, parts):
+        """The rows dealt out to several databases, as shards have them."""
+        os.makedirs(self.path("shards"))
+        for i in range(parts):
+            name = self.path("shards", f"shard-{i + 1}-of-{parts}.db")
+            shutil.copy(self.path("out/results.db"), name)
+            db = sqlite3.connect(name)
+            for table, column in (("plans", "trial"), ("progress", "trial"), ("trials", "id")):
+                db.execute(f"DELETE FROM {table} WHERE {column} % {parts} <> {i}")
+            db.commit()
+            db.close()
+
+    def test_merged_shards_are_the_whole(self):
+        self.split(5)
+        for form in ("text", "markdown", "csv", "html"):
+            self.assertEqual(self.report("out", "--format", form), self.report("shards", "--format", form))
+        # The same rows twice are the same rows.
+        self.assertEqual(self.report("out", "--format", "csv"), self.report("out", "shards", "--format", "csv"))
+
+    def test_real_shards_are_the_whole_matrix(self):
+        for i in (1, 2, 3):
+            self.bench("--shard", f"{i}/3", out="sharded")
+        whole, sharded = (list(csv.DictReader(io.StringIO(self.report(d, "--format", "csv")))) for d in ("out", "sharded"))
+        fixed = ("row", "assembly", "category", "parts", "planner", "variant", "seed", "solved", "removed")
+        self.assertEqual([[r[c] for c in fixed] for r in whole], [[r[c] for c in fixed] for r in sharded])
+
+    def test_figures(self):
+        rows = list(csv.DictReader(io.StringIO(self.report("out", "--format", "csv"))))
+        self.assertEqual(len(rows), self.TRIALS)
+        solved = [r for r in rows if r["planner"] == "t_rrt" and r["solved"] == "yes"]
+        text = self.report("out", "--table", "success")
+        self.assertRegex(text, rf"t_rrt .* {len(solved)}/6\n")
+        self.assertRegex(text, r"none .* 0\.0 \[0\.0, 39\.0\] 0/6\n")
+        mean = sum(float(r["seconds"]) / float(r["removed"]) for r in solved) / len(solved)
+        self.assertIn(f"{mean:.3g} ({len(solved)})", self.report("out", "--table", "time"))
+
+    def test_page_is_self_contained(self):
+        page = self.report("out", "--format", "html")
+        self.assertNotRegex(page, r"https?:|src=|@import|url\(|<link")
+        self.assertIn("many &lt;&amp;&gt; |", page)
+        self.assertIsNone(re.search(r"many <&>", page))
+        self.assertIn("many <&> \\|", self.report("out", "--format", "markdown"))
+
+    def test_rows_link_to_their_plans(self):
+        self.call("report", "out", "--format", "html", "--plans", "-o", "page.html")
+        links = re.findall(r"<a href='(page\.plans/\d+\.json)'", self.read("page.html"))
+        self.assertEqual(len(links), self.TRIALS)
+        for link in links:
+            self.assertEqual(json.loads(self.read(link))["format"], "dismantle.plan")
+
+    def test_arena(self):
+        self.call("report", "out", "--arena", "arena.db")
+        db = sqlite3.connect(self.path("arena.db"))
+        tables = {r[0] for r in db.execute("SELECT name FROM sqlite_master WHERE type = 'table' AND name NOT LIKE 'sqlite_%'")}
+        self.assertEqual(tables, {"experiments", "plannerConfigs", "enums", "runs", "progress"})
+        self.assertEqual(db.execute("SELECT count(*) FROM runs").fetchone()[0], self.TRIALS)
+        # Every run has an experiment, a planner, and a status with a name.
+        joined = db.execute("SELECT count(*) FROM runs r JOIN experiments e ON e.id = r.experimentid JOIN plannerConfigs p ON "
+                            "p.id = r.plannerid JOIN enums n ON n.name = 'status' AND n.value = r.status").fetchone()[0]
+        self.assertEqual(joined, self.TRIALS)
+        self.assertEqual(dict(db.execute("SELECT name, runcount FROM experiments")), {"l_slot": 3, "stacked_box": 3})
+        db.close()
+
+    def test_what_cannot_be_reported(self):
+        os.makedirs(self.path("empty"))
+        self.assertIn("holds no results", self.call("report", "empty", status=3).stderr)
+        self.write("text.db", "this is no database, and long enough to be looked at as one\n" * 20)
+        self.assertIn("text.db", self.call("report", "text.db", status=3).stderr)
+        self.assertIn("there are 12 rows", self.call("report", "out", "--row", "13", "-o", "x", status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

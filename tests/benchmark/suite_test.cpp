@@ -1,0 +1,157 @@
+// Suite files: what they mean, and that everything that is wrong is reported at once with its place.
+#include "dismantle/bench/suite.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SuiteTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("dismantle_suite_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& text) {
+    std::ofstream(folder_ / "suite.yaml") << text;
+    return folder_ / "suite.yaml";
+  }
+  /// "line: message" of all that is wrong.
+  std::vector<std::string> problems(const std::string& text) {
+    std::vector<std::string> out;
+    try {
+      read_suite(write(text));
+    } catch (const ConfigError& e) {
+      for (const auto& d : e.diagnostics()) {
+        EXPECT_EQ(fs::path(d.file).filename(), "suite.yaml") << d.text();
+        EXPECT_GT(d.column, 0) << d.text();
+        out.push_back(std::to_string(d.line) + ": " + d.message);
+      }
+    }
+    return out;
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* kGood = R"(schema: 1
+assemblies:
+  - {sample: l_slot, category: slide}
+  - {sample: machine, set: {parts: 5}, name: small}
+planners:
+  one: {}
+  two: {set: {path_planner.motion: rotation}}
+variants:
+  plain: {}
+  turned: {rotate: random, planners: [two], part: slider}
+seeds: [1..3, 7]
+limits: {timeout: 10}
+)";
+
+TEST_F(SuiteTest, TheMatrix) {
+  const Suite suite = read_suite(write(kGood));
+  ASSERT_EQ(suite.assemblies.size(), 2u);
+  EXPECT_EQ(suite.assemblies[0].name, "l_slot");
+  EXPECT_EQ(suite.assemblies[1].name, "small");
+  EXPECT_EQ(suite.seeds, (std::vector<std::int64_t>{1, 2, 3, 7}));
+  EXPECT_TRUE(suite.variants[1].rotate);
+  EXPECT_EQ(suite.variants[1].part, "slider");
+  EXPECT_EQ(matrix(suite).size(), 2u * 4 * 3);
+  EXPECT_EQ(suite.planners[0].config.run.timeout, 10);
+  EXPECT_FALSE(suite.planners[0].config.layout.enabled);
+}
+
+TEST_F(SuiteTest, ShardsAreTheWhole) {
+  const auto all = matrix(read_suite(write(kGood)));
+  using Key = std::tuple<std::size_t, std::size_t, std::size_t, std::int64_t>;
+  const auto key = [](const Cell& c) { return Key{c.assembly, c.variant, c.planner, c.seed}; };
+  for (unsigned n : {1u, 2u, 5u, 30u}) {
+    std::multiset<Key> together, whole;
+    for (const Cell& c : all) whole.insert(key(c));
+    for (unsigned i = 1; i <= n; ++i)
+      for (const Cell& c : shard_of(all, i, n)) together.insert(key(c));
+    EXPECT_EQ(together, whole);
+  }
+}
+
+TEST_F(SuiteTest, EverythingThatIsWrongAtOnce) {
+  const auto found = problems(R"(schema: 1
+assemblies:
+  - {sample: l_slott}
+  - {sample: machine, set: {partz: 5}}
+  - {path: nowhere, glob: x}
+planners:
+  one: {set: {path_planner.motoin: rotation}}
+  two: {confg: x.yaml}
+variants:
+  turned: {rotate: randm, planners: [tow]}
+seeds: 3..1
+limits: {timeot: 10}
+sedes: 2
+)");
+  const std::vector<std::pair<std::string, std::string>> wanted = {
+      {"3: ", "did you mean 'l_slot'?"}, {"4: ", "did you mean 'parts'?"},  {"5: ", "exactly one of glob, path"},
+      {"7: ", "did you mean 'motion'?"}, {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
+      {"10: ", "did you mean 'two'?"},   {"11: ", "seeds must be whole"},   {"12: ", "did you mean 'timeout'?"},
+      {"13: ", "did you mean 'seeds'?"}};
+  for (const auto& [line, text] : wanted) {
+    bool there = false;
+    for (const auto& problem : found) there |= problem.starts_with(line) && problem.find(text) != std::string::npos;
+    EXPECT_TRUE(there) << line << text << "\n" << testing::PrintToString(found);
+  }
+  EXPECT_EQ(found.size(), wanted.size()) << testing::PrintToString(found);
+}
+
+TEST_F(SuiteTest, WhatIsMissing) {
+  EXPECT_EQ(problems("schema: 1\n").size(), 2u);  // assemblies, planners
+  EXPECT_EQ(problems("schema: 1\nassemblies: [{glob: 'no/*'}]\nplanners: {a: }\n").size(), 1u);
+  EXPECT_EQ(problems("schema: 1\nassemblies: [{path: $NO_SUCH_VARIABLE/x}]\nplanners: {a: }\n").size(), 1u);
+  EXPECT_EQ(problems("schema: 1\nassemblies: [{sample: l_slot}]\nplanners: {a: }\nlimits: {timeout: 0}\n").size(), 1u);
+}
+
+TEST_F(SuiteTest, OptionalIsLeftAsideWithANote) {
+  const Suite suite =
+      read_suite(write("schema: 1\nassemblies: [{glob: 'no/*', optional: true}, {path: $NO_SUCH_VARIABLE/x, optional: "
+                       "true}, {sample: l_slot}]\n"
+                       "planners: {a: }\n"));
+  EXPECT_EQ(suite.assemblies.size(), 1u);
+  EXPECT_EQ(suite.notes.size(), 2u);
+}
+
+TEST_F(SuiteTest, GlobsInNaturalOrderWithExceptions) {
+  for (const char* name : {"10", "9", "plans"}) fs::create_directories(folder_ / "data" / name);
+  std::ofstream(folder_ / "data" / "truth.json") << "{}";
+  const Suite suite =
+      read_suite(write("schema: 1\nassemblies: [{glob: 'data/*/', except: [plans], category: x}]\nplanners: {a: }\n"));
+  ASSERT_EQ(suite.assemblies.size(), 2u);
+  EXPECT_EQ(suite.assemblies[0].name, "data/9");
+  EXPECT_EQ(suite.assemblies[1].name, "data/10");
+  EXPECT_EQ(problems("schema: 1\nassemblies: [{glob: 'data/*/', except: [plan]}]\nplanners: {a: }\n").size(), 1u);
+}
+
+// Law: every suite in configs/bench reads, with what is here.
+TEST(Suites, OfTheProject) {
+  std::size_t found = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(CONFIGS_FOLDER) / "bench")) {
+    if (entry.path().extension() != ".yaml") continue;
+    ++found;
+    try {
+      EXPECT_FALSE(matrix(read_suite(entry.path())).empty()) << entry.path();
+    } catch (const ConfigError& e) {
+      ADD_FAILURE() << e.what();
+    }
+  }
+  EXPECT_GE(found, 4u);
+}
+
+}  // namespace
+}  // namespace dismantle::bench
