@@ -7,8 +7,6 @@
 namespace dismantle::path {
 namespace {
 
-constexpr double kMostTurn = 0.25;  // rad
-
 /// Bound of the distance between where the two poses put any point of the ball.
 double apart(const Pose& a, const Pose& b, const Ball& ball) {
   return (a * ball.center - b * ball.center).norm() + angle_between(a.q, b.q) * ball.radius;
@@ -46,7 +44,6 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
         at = k;
       }
     }
-    // A screw takes the shorter turn; and small turns are verified in far less time than large ones.
     bool turns = false;
     for (std::size_t i = 0; i < bodies.size(); ++i) turns |= angle_between(path[a][i].q, path[b][i].q) > kMostTurn;
     if (worst <= tolerance && !turns) continue;

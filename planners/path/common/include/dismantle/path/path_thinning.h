@@ -13,6 +13,10 @@ struct Ball {
   double radius = 0;
 };
 
+/// The largest turn, in rad, that thin() leaves between two instants: small ones are verified in far less time than
+/// large ones.
+constexpr double kMostTurn = 0.25;
+
 /// Drops instants that the screw motions between the instants kept reproduce to within `tolerance`
 /// (assembly units, for every point of every moving part). First and last stay. Douglas-Peucker on
 /// poses: deterministic, O(n log n) usually.
