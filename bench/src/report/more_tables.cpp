@@ -125,9 +125,12 @@ std::vector<Curve> curves_of(const ReportData& data) {
     std::vector<std::pair<double, bool>> events;
     std::size_t never = 0;
     for (const ReportRow* row : c.rows) {
-      curve.end = std::max(curve.end, time_of(*row));
+      // Planners stop a little after the limit: what is solved or given up then counts as of the limit, not as seen
+      // later than those that were stopped.
+      const double time = row->limit_timeout > 0 ? std::min(time_of(*row), row->limit_timeout) : time_of(*row);
+      curve.end = std::max(curve.end, time);
       if (row->solved || out_of_time(*row))
-        events.emplace_back(time_of(*row), row->solved);
+        events.emplace_back(time, row->solved);
       else
         ++never;
     }
