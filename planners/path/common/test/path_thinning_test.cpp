@@ -161,7 +161,8 @@ TEST(Thin, WholeTurnsStayWholeTurns) {
     double turned = 0;
     for (std::size_t k = 1; k < thinned.size(); ++k) turned += angle_between(thinned[k - 1][0].q, thinned[k][0].q);
     EXPECT_NEAR(turned, 2 * std::numbers::pi * turns, 1e-6);
-    EXPECT_LT(thinned.size(), 4 + turns * 8);
+    // As few as the limit of turns allows, to within halving.
+    EXPECT_LE(thinned.size(), 4 + static_cast<std::size_t>(2 * 2 * std::numbers::pi * turns / kMostTurn));
   }
 }
 
