@@ -11,7 +11,12 @@ namespace dismantle::app {
 
 Plan read_plan(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) throw InputError(file.string(), "is a folder, not a plan file");
+  if (std::filesystem::is_directory(file, error)) {
+    const auto inside = file / "plan.json";
+    throw InputError(file.string(), std::filesystem::exists(inside, error)
+                                        ? "is a folder, not a plan file; did you mean " + inside.string() + "?"
+                                        : "is a folder, not a plan file");
+  }
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;

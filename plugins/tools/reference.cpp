@@ -75,7 +75,7 @@ int write(const std::map<std::string, std::string>& wanted, const fs::path& fold
 
 int main(int argc, char** argv) {
   const bool only_check = argc == 3 && std::string(argv[1]) == "--check";
-  if (argc != 2 && !only_check) {
+  if ((argc != 2 && !only_check) || std::string_view(argv[argc - 1]).starts_with('-')) {
     std::cerr << "usage: dismantle_reference [--check] FOLDER\n";
     return 2;
   }
