@@ -68,16 +68,20 @@ struct Parameters {
            .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
     s.add_choice<sdf::DistanceModel>(
         "distance", &Parameters::distance,
-        {{"exact", sdf::DistanceModel::exact, "grid far away, closest triangle near the surface"},
+        {{"exact", sdf::DistanceModel::exact,
+          "closest triangle near the surface, a coarse grid of exact distances far away"},
          {"grid", sdf::DistanceModel::grid, "trilinear grid everywhere: the paper's, blind below a cell"}},
         "Where contact takes its distances from.");
     s.add("cell", &Parameters::cell,
-          {.unit = "unit", .min = 1e-3, .max = 1, .doc = "Largest cell of the distance field (appendix A)."});
+          {.unit = "unit",
+           .min = 1e-3,
+           .max = 1,
+           .doc = "Largest cell of the distance field under `distance: grid` (appendix A)."});
     s.add("cells_per_edge", &Parameters::cells_per_edge,
           {.unit = "1",
            .min = 1,
            .max = 1000,
-           .doc = "At least so many cells along each edge of the part's box (appendix A)."});
+           .doc = "At least so many cells along each edge of the part's box under `distance: grid` (appendix A)."});
     s.add("contact_spacing", &Parameters::contact_spacing,
           {.unit = "unit",
            .min = 1e-3,

@@ -16,8 +16,8 @@ class PenaltySimulator final : public Simulator {
   std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) override {
     auto prepared = std::make_shared<PreparedShapes>();
     sdf::ShapeOptions options;
-    options.grid.cell = parameters_.cell;
-    options.grid.cells_per_edge = static_cast<int>(parameters_.cells_per_edge);
+    if (parameters_.distance == sdf::DistanceModel::grid)
+      options.grid = {.cell = parameters_.cell, .cells_per_edge = static_cast<int>(parameters_.cells_per_edge)};
     options.points.spacing = parameters_.contact_spacing;
     prepared->placed = sdf::build_shapes(assembly, options, context);
     if (context.should_stop()) return prepared;

@@ -26,18 +26,20 @@ void report(benchmark::State& state, const DistanceGrid& grid, std::size_t trian
   state.counters["nodes/s"] = benchmark::Counter(nodes, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void build(benchmark::State& state, const Mesh& mesh) {
+void build(benchmark::State& state, const Mesh& mesh, const sdf::GridOptions& options = {}) {
   const auto solids = sdf::split_solids(mesh);
   std::unique_ptr<DistanceGrid> grid;
   for (auto _ : state) {
     const SurfaceQuery query(solids[0]);
-    grid = std::make_unique<DistanceGrid>(solids[0], query, sdf::GridOptions{});
+    grid = std::make_unique<DistanceGrid>(solids[0], query, options);
     benchmark::DoNotOptimize(grid->node(0, 0, 0));
   }
   report(state, *grid, mesh.triangles.size());
 }
 
 void FieldBuild_201Cubed(benchmark::State& state) { build(state, block_of_201()); }
+void FieldBuild_Bounding(benchmark::State& state) { build(state, block_of_201(), sdf::bounding_grid()); }
+BENCHMARK(FieldBuild_Bounding)->Unit(benchmark::kMillisecond);
 BENCHMARK(FieldBuild_201Cubed)->Unit(benchmark::kMillisecond);
 
 void FieldBuild_Torus(benchmark::State& state) { build(state, torus(4, 1, 128, 48)); }

@@ -103,6 +103,8 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   rough.value = limit;
   if (field.box.contains(p)) {
     const double inside = field.grid->value(p, rough.normal);
+    // Where the grid cannot tell inside from outside the triangles have to.
+    if (std::abs(inside) <= 2 * field.grid->error_near()) return field.surface->sample(p);
     if (inside < 0) rough.value = std::min(inside, -limit);
   }
   return rough;

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dismantle::sdf {
 namespace {
 constexpr float kFar = 1e30f;
-constexpr int kPadding = 3;  // cells around the box: the band fits, and a ray from outside starts outside
+constexpr int kPadding = 3;         // cells around the box: the band fits, and a ray from outside starts outside
+constexpr double kRounding = 1e-5;  // of distances stored as float, up to some tens
 }  // namespace
 
-DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options) {
+DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options)
+    : exact_everywhere_(options.exact) {
+  const int padding = options.exact ? 1 : kPadding;
   const Aabb box = solid.mesh.box();
   const Eigen::Vector3d size = box.size();
   for (int a = 0; a < 3; ++a) {
@@ -18,7 +22,7 @@ DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, cons
   }
   const auto count = [&](const Eigen::Vector3d& cell) {
     Eigen::Array3i n;
-    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(size[a] / cell[a] - 1e-9)) + 1 + 2 * kPadding;
+    for (int a = 0; a < 3; ++a) n[a] = static_cast<int>(std::ceil(size[a] / cell[a] - 1e-9)) + 1 + 2 * padding;
     return n;
   };
   nodes_ = count(cell_);
@@ -27,15 +31,34 @@ DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, cons
     nodes_ = count(cell_);
   }
   inverse_cell_ = cell_.cwiseInverse();
-  origin_ = box.lo - kPadding * cell_;
-  band_ = 1.5 * cell_.maxCoeff();
+  origin_ = box.lo - padding * cell_;
+  band_ = options.exact ? std::numeric_limits<double>::infinity() : 1.5 * cell_.maxCoeff();
   const auto total = static_cast<std::size_t>(nodes_.cast<std::int64_t>().prod());
   values_.assign(total, kFar);
+  if (options.exact) {
+    fill(surface);
+    return;
+  }
   exact_.assign(total, 0);
   fill_band(solid, surface);
   propagate_signs();
   sweep();
   exact_ = {};
+}
+
+/// Each node looks no further than its neighbour's distance and the way from there.
+void DistanceGrid::fill(const SurfaceQuery& surface) {
+  for (int k = 0; k < nodes_[2]; ++k)
+    for (int j = 0; j < nodes_[1]; ++j) {
+      double limit = std::numeric_limits<double>::infinity();
+      std::uint32_t hint = kNoTriangle;
+      for (int i = 0; i < nodes_[0]; ++i) {
+        const Sample s = surface.sample(origin_ + Eigen::Vector3d(i, j, k).cwiseProduct(cell_), limit, hint);
+        values_[index(i, j, k)] = static_cast<float>(s.value);
+        limit = std::abs(s.value) + cell_[0] + kRounding;
+        hint = s.triangle;
+      }
+    }
 }
 
 /// Every node within one cell of a triangle's plane region gets its exact signed distance. Candidates are
@@ -196,8 +219,18 @@ double DistanceGrid::lower_bound(const Eigen::Vector3d& p) const {
   }
   beyond = (p - inside).norm();
   if (beyond > 0) {
-    // The grid's rim is kPadding cells from the solid's box: the box distance is a true bound.
+    // The solid's box lies inside the grid: the distance to the grid is a true bound.
     return std::max(beyond, 0.0);
+  }
+  if (exact_everywhere_) {
+    // The distance grows no faster than the way: interpolated, the ways from the nodes are at most the root of their
+    // interpolated squares.
+    double squared = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double g = (p[a] - origin_[a]) * inverse_cell_[a], f = g - std::floor(g);
+      squared += f * (1 - f) * cell_[a] * cell_[a];
+    }
+    return std::max(0.0, value(p) - std::sqrt(squared) - kRounding);
   }
   // First-order sweeping overestimates; what it adds stays below a tenth of the way plus a cell's diagonal.
   return std::max(0.0, 0.9 * value(p) - 1.5 * cell_.norm());

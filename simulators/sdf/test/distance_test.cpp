@@ -208,6 +208,28 @@ TEST(DistanceGrid, LowerBoundNeverExceedsTheDistance) {
   }
 }
 
+TEST(DistanceGrid, WithExactNodesTheBoundIsTightAndTheErrorKnownEverywhere) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    const auto solids = split_solids(c.mesh);
+    const SurfaceQuery query(solids[0]);
+    const DistanceGrid grid(solids[0], query, bounding_grid());
+    const DistanceGrid fine(solids[0], query, {});
+    EXPECT_LT(8 * grid.bytes(), fine.bytes());
+    Rng rng(12);
+    Aabb inner = c.mesh.box(), outer = inner;
+    outer.inflate(2);
+    for (int i = 0; i < 3000; ++i) {
+      const Eigen::Vector3d p = test::random_point(rng, inner), q = test::random_point(rng, outer);
+      const double exact = query.sample(p).value;
+      ASSERT_NEAR(grid.value(p), exact, grid.error_near()) << p.transpose();
+      ASSERT_LE(grid.lower_bound(p), std::max(0.0, exact)) << p.transpose();
+      ASSERT_GE(grid.lower_bound(p), exact - 2 * grid.error_near() - 1e-4) << p.transpose();
+      ASSERT_LE(grid.lower_bound(q), std::max(0.0, query.sample(q).value) + 1e-9) << q.transpose();
+    }
+  }
+}
+
 TEST(SplitSolids, OverlappingShellsAreSeparateSolidsAndVoidsStayWithTheirs) {
   using Eigen::Vector3d;
   const Mesh hollow = test::joined(test::box(Vector3d(-1, -1, -1), Vector3d(1, 1, 1)),

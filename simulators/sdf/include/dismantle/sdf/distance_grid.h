@@ -14,10 +14,15 @@ struct GridOptions {
   double cell = 0.05;                   ///< appendix A: largest cell edge, assembly units, > 0
   int cells_per_edge = 20;              ///< appendix A: cell <= L_i / cells_per_edge along each axis, >= 1
   std::int64_t max_nodes = 30'000'000;  ///< cells grow evenly on all axes where the grid would exceed this
+  bool exact = false;                   ///< exact distances at all nodes: for coarse grids that bound distances
 };
 
+/// For those who ask the triangles near the surface: a coarse grid that says how near it is. A hundredth of the nodes
+/// of the default one at bounds as good, since all of its nodes are exact.
+constexpr GridOptions bounding_grid() { return {.cell = 0.25, .cells_per_edge = 6, .exact = true}; }
+
 /// Distance at grid nodes: exact to float precision in a band around the surface, then eight fast
-/// sweeps of the Eikonal equation (Zhao 2005). Between nodes trilinear.
+/// sweeps of the Eikonal equation (Zhao 2005); or exact everywhere. Between nodes trilinear.
 ///
 /// Error: at nodes of the band none; between nodes at most 0.87 of the cell diagonal's half anywhere and
 /// about curvature * cell^2 / 8 where the surface is smooth; far nodes err by the first-order scheme
@@ -33,6 +38,8 @@ class DistanceGrid {
   /// A distance that the true one is not below, for |p| anywhere: how far a sphere around p is surely
   /// free of surface. 0 near the surface or inside.
   double lower_bound(const Eigen::Vector3d& p) const;
+  /// How far value() may be off where its magnitude is below a cell's diagonal; anywhere, if all nodes are exact.
+  double error_near() const { return 0.5 * cell_.norm() + 1e-6; }
 
   const Eigen::Vector3d& cell() const { return cell_; }
   const Eigen::Vector3d& origin() const { return origin_; }
@@ -50,10 +57,12 @@ class DistanceGrid {
   void fill_band(const Solid& solid, const SurfaceQuery& surface);
   void propagate_signs();
   void sweep();
+  void fill(const SurfaceQuery& surface);
 
   Eigen::Vector3d origin_, cell_, inverse_cell_;
   Eigen::Array3i nodes_;
   double band_ = 0;
+  bool exact_everywhere_ = false;
   std::vector<float> values_;
   std::vector<std::uint8_t> exact_;  // only while building
 };

@@ -38,7 +38,7 @@ struct Placed {
 };
 
 struct ShapeOptions {
-  GridOptions grid;
+  GridOptions grid = bounding_grid();  ///< enough for DistanceModel::exact
   ContactPointOptions points;
 };
 
