@@ -1,0 +1,140 @@
+// From a tree that holds the start and a way out to a path that the judge accepts.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "forest.h"
+
+namespace dismantle::tunnel_forest {
+namespace {
+
+/// Paths are eased instant by instant, so many to a way of this length (assembly units).
+constexpr double kEaseEvery = 0.1;
+/// So often a path is eased again after the judge has named a place where it cuts.
+constexpr int kRepairs = 6;
+/// What a straight motion may penetrate: easing takes it out again.
+constexpr double kFree = 0.002;
+/// A straight motion is looked at in steps of this (assembly units), and is worth it if it saves this share.
+constexpr double kLookEvery = 0.05, kWorthWhile = 0.9;
+/// Turns between instants of a straight motion, rad.
+constexpr double kTurn = 0.2;
+
+}  // namespace
+
+bool Forest::is_free(const std::vector<Pose>& poses) {
+  State state = map_.node(0).state;
+  for (std::size_t i = 0; i < poses.size(); ++i) state.bodies[i].pose = poses[i];
+  ++looks_;
+  return world_->penetration(state) <= kFree;
+}
+
+/// Replaces what lies between two instants by the screw motion that joins them, again and again, where that is shorter
+/// and free.
+Path Forest::shortcut(const Path& path) {
+  Path best = path;
+  for (std::int64_t k = 0; k < parameters_.shortcuts && best.size() > 2; ++k) {
+    const auto n = static_cast<std::uint64_t>(best.size());
+    auto a = static_cast<std::size_t>(rng_.below(n)), b = static_cast<std::size_t>(rng_.below(n));
+    if (a > b) std::swap(a, b);
+    if (b - a < 2) continue;
+    double around = 0;
+    for (std::size_t i = a; i < b; ++i) around += guide_.distance(best[i], best[i + 1]);
+    const double straight = guide_.distance(best[a], best[b]);
+    if (straight > kWorthWhile * around) continue;
+    const auto at = [&](double u) {
+      std::vector<Pose> poses;
+      for (std::size_t i = 0; i < best[a].size(); ++i) poses.push_back(screw_interpolate(best[a][i], best[b][i], u));
+      return poses;
+    };
+    const int looks = static_cast<int>(std::ceil(straight / kLookEvery));
+    bool free = looks < 2 || is_free(at(0.5));
+    for (int i = 1; i < looks && free; ++i) free = is_free(at(static_cast<double>(i) / looks));
+    if (!free) continue;
+    double turn = 0;
+    for (std::size_t i = 0; i < best[a].size(); ++i) turn = std::max(turn, angle_between(best[a][i].q, best[b][i].q));
+    const int pieces = std::max(1, static_cast<int>(std::ceil(turn / kTurn)));
+    Path shorter(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(a) + 1);
+    for (int i = 1; i < pieces; ++i) shorter.push_back(at(static_cast<double>(i) / pieces));
+    shorter.insert(shorter.end(), best.begin() + static_cast<std::ptrdiff_t>(b), best.end());
+    best = std::move(shorter);
+  }
+  return path::thin(best, guide_.bodies(), parameters_.thinning);
+}
+
+/// The same path, off contact where there is room: a simulator samples contact, and what slides along something cuts it
+/// a little between the samples.
+Path Forest::eased(const Path& path) {
+  Path dense{path.front()};
+  State state = map_.node(0).state;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    const auto& before = path[k - 1];
+    const int pieces = std::max(1, static_cast<int>(std::ceil(guide_.distance(before, path[k]) / kEaseEvery)));
+    for (int i = 1; i <= pieces; ++i) {
+      for (std::size_t b = 0; b < before.size(); ++b)
+        state.bodies[b].pose = screw_interpolate(before[b], path[k][b], static_cast<double>(i) / pieces);
+      ++looks_;
+      world_->retreat(state, parameters_.clearance);
+      dense.push_back(poses_of(state));
+    }
+  }
+  return path::thin(dense, guide_.bodies(), parameters_.thinning);
+}
+
+/// True when the judge accepts the path, after easing it again where it cuts; then `result` holds it. Else `verdict` is
+/// the judge's last, about `shown`.
+bool Forest::passes(const Path& path, PathResult& result, Verdict& verdict, Path& shown) {
+  shown = eased(path);
+  for (int round = 0; round <= kRepairs; ++round) {
+    verdict = query_.judge(shown);
+    if (verdict.accepted) {
+      result.outcome = Outcome::solved;
+      result.path = std::move(shown);
+      result.message.clear();
+      return true;
+    }
+    ++refused_;
+    result.message = verdict.reason;
+    if (!verdict.has_witness) return false;
+    world_->learn(verdict.part, verdict.other, verdict.point);
+    if (round < kRepairs) shown = eased(shown);
+  }
+  return false;
+}
+
+bool Forest::judged(PathResult& result) {
+  while (map_.tree(map_.node(0).tree).out > 0 && refused_ < static_cast<std::uint64_t>(parameters_.max_refusals)) {
+    const std::vector<Index> edges = map_.way_out(0);
+    if (edges.empty()) return false;
+    Path full{start_};
+    std::vector<Index> ends;
+    for (Index at = 0; const Index e : edges) {
+      const Path way = map_.along(e, at);
+      full.insert(full.end(), way.begin(), way.end());
+      at = map_.other_end(e, at);
+      ends.push_back(at);
+    }
+    result.depth = static_cast<unsigned>(edges.size());
+    const Path thinned = path::thin(full, guide_.bodies(), parameters_.thinning);
+    Verdict verdict;
+    Path shown;
+    const Path shorter = shortcut(thinned);
+    if (shorter.size() < thinned.size() && passes(shorter, result, verdict, shown)) return true;
+    if (passes(thinned, result, verdict, shown)) return true;
+    // Easing moves instants by little: the edge at fault is the one that comes nearest to where it cuts.
+    std::size_t guilty = edges.size() - 1;
+    if (verdict.has_witness) {
+      const auto& place = shown[std::min(verdict.instant, shown.size() - 1)];
+      double least = std::numeric_limits<double>::infinity();
+      Index at = 0;
+      for (std::size_t e = 0; e < edges.size(); ++e) {
+        for (const auto& instant : map_.along(edges[e], at))
+          if (const double d = guide_.distance(place, instant); d < least) least = d, guilty = e;
+        at = ends[e];
+      }
+    }
+    map_.cut(edges[guilty]);
+  }
+  return false;
+}
+
+}  // namespace dismantle::tunnel_forest

@@ -1,0 +1,157 @@
+#include "narrow_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dismantle/geometry/triangle_bvh.h"
+
+namespace dismantle::tunnel_forest {
+namespace {
+
+/// Surfaces face each other when their normals are opposite to within 60 degrees.
+constexpr double kFacing = -0.5;
+/// Chords shorter than this share of the body's box are slivers of the mesh.
+constexpr double kSliver = 1e-3;
+/// A gap up to this many bars wide is a tunnel.
+constexpr double kTunnel = 1.25;
+/// A bar may be wider than the gap that it is put in by this factor: retraction finds where it fits, if it does.
+constexpr double kSqueeze = 1.05;
+
+Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) {
+  return (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+}
+
+struct Hit {
+  double way = std::numeric_limits<double>::infinity();
+  std::uint32_t triangle = 0;
+};
+
+/// Does the ray enter the box before `limit`?
+bool meets(const Aabb& box, const Eigen::Vector3d& from, const Eigen::Vector3d& inverse, double limit) {
+  const Eigen::Array3d a = (box.lo - from).array() * inverse.array(), b = (box.hi - from).array() * inverse.array();
+  return std::max(a.min(b).maxCoeff(), 0.0) <= std::min(a.max(b).minCoeff(), limit);
+}
+
+/// Moeller and Trumbore 1997.
+double way_to(const std::array<Eigen::Vector3d, 3>& c, const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+  constexpr double kMiss = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d e1 = c[1] - c[0], e2 = c[2] - c[0], p = along.cross(e2);
+  const double det = e1.dot(p);
+  if (std::abs(det) < 1e-14) return kMiss;
+  const Eigen::Vector3d s = from - c[0], q = s.cross(e1);
+  const double u = s.dot(p) / det, v = along.dot(q) / det;
+  return u < 0 || v < 0 || u + v > 1 ? kMiss : e2.dot(q) / det;
+}
+
+Hit cast_ray(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double least) {
+  Hit hit;
+  const Eigen::Vector3d inverse = along.cwiseInverse();
+  std::vector<std::uint32_t> todo{0};
+  while (!todo.empty()) {
+    const std::uint32_t at = todo.back();
+    todo.pop_back();
+    const auto& node = bvh.nodes()[at];
+    if (!meets(node.box, from, inverse, hit.way)) continue;
+    if (node.count == 0) {
+      todo.push_back(node.first);
+      todo.push_back(at + 1);
+      continue;
+    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      const std::uint32_t triangle = bvh.order()[k];
+      const double way = way_to(bvh.corners(triangle), from, along);
+      if (way > least && way < hit.way) hit = {way, triangle};
+    }
+  }
+  return hit;
+}
+
+double median_width(const std::vector<NarrowPlace>& places) {
+  std::vector<double> widths;
+  for (const auto& p : places) widths.push_back(p.half_width);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
+}  // namespace
+
+Eigen::Quaterniond random_turn(Rng& rng) {
+  const double u = rng.uniform(), a = 2 * std::numbers::pi * rng.uniform(), b = 2 * std::numbers::pi * rng.uniform();
+  const double r = std::sqrt(1 - u), s = std::sqrt(u);
+  return {s * std::cos(b), r * std::sin(a), r * std::cos(a), s * std::sin(b)};
+}
+
+NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng) {
+  NarrowPlaces found;
+  if (mesh.triangles.empty()) return found;
+  const TriangleBvh bvh(mesh);
+  const double least = kSliver * mesh.box().size().maxCoeff();
+  std::vector<double> area(mesh.triangles.size());
+  double total = 0;
+  for (std::uint32_t t = 0; t < area.size(); ++t) {
+    const auto& c = bvh.corners(t);
+    area[t] = total += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+  }
+  for (std::size_t k = 0; k < samples; ++k) {
+    const auto place = std::upper_bound(area.begin(), area.end(), total * rng.uniform());
+    const auto t = static_cast<std::uint32_t>(
+        std::min<std::ptrdiff_t>(place - area.begin(), static_cast<std::ptrdiff_t>(area.size()) - 1));
+    double u = rng.uniform(), v = rng.uniform();
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    const auto& c = bvh.corners(t);
+    const Eigen::Vector3d point = c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]), normal = normal_of(c);
+    if (!normal.allFinite() || normal.squaredNorm() < 0.5) continue;
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector3d along = side * normal;
+      const Hit hit = cast_ray(bvh, point, along, least);
+      if (!std::isfinite(hit.way) || normal_of(bvh.corners(hit.triangle)).dot(normal) > kFacing) continue;
+      (side > 0 ? found.gaps : found.bars).push_back({point + 0.5 * hit.way * along, along, 0.5 * hit.way});
+    }
+  }
+  return found;
+}
+
+TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces still)
+    : moving_(std::move(moving)), still_(std::move(still)) {
+  const auto keep_narrow = [](std::vector<NarrowPlace>& gaps, const std::vector<NarrowPlace>& bars) {
+    const double limit = bars.empty() ? 0 : kTunnel * median_width(bars);
+    std::erase_if(gaps, [&](const NarrowPlace& g) { return g.half_width > limit; });
+  };
+  keep_narrow(moving_.gaps, still_.bars);
+  keep_narrow(still_.gaps, moving_.bars);
+  // Of the three, the first is what puzzles of two alike pieces are made of: it is drawn as often as the others.
+  if (!moving_.gaps.empty() && !still_.gaps.empty()) kinds_.insert(kinds_.end(), 2, Kind::gap_in_gap);
+  if (!moving_.bars.empty() && !still_.gaps.empty()) kinds_.push_back(Kind::bar_in_gap);
+  if (!moving_.gaps.empty() && !still_.bars.empty()) kinds_.push_back(Kind::gap_on_bar);
+}
+
+TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
+  const auto any = [&](const std::vector<NarrowPlace>& places) -> const NarrowPlace& {
+    return places[static_cast<std::size_t>(rng.below(places.size()))];
+  };
+  const Kind kind = kinds_[static_cast<std::size_t>(rng.below(kinds_.size()))];
+  constexpr int kDraws = 20;  // for a bar that is not too wide for the gap; if there is none, any will do
+  const NarrowPlace *m = nullptr, *s = nullptr;
+  for (int k = 0; k < kDraws; ++k) {
+    m = &any(kind == Kind::bar_in_gap ? moving_.bars : moving_.gaps);
+    s = &any(kind == Kind::gap_on_bar ? still_.bars : still_.gaps);
+    if (kind == Kind::gap_in_gap) break;
+    const NarrowPlace *gap = kind == Kind::bar_in_gap ? s : m, *bar = gap == s ? m : s;
+    if (bar->half_width <= kSqueeze * gap->half_width) break;
+  }
+  Match match;
+  if (turning) match.displacement.q = random_turn(rng);
+  if (turning && kind != Kind::gap_in_gap) {  // across the gap, any way round
+    const Eigen::Vector3d axis = match.displacement.q * m->axis;
+    match.displacement.q = (Eigen::Quaterniond::FromTwoVectors(axis, s->axis) * match.displacement.q).normalized();
+  }
+  match.on_moving = m->middle;
+  match.on_still = s->middle;
+  match.displacement.t = s->middle - match.displacement.q * m->middle;
+  match.reach = 0.75 * (m->half_width + s->half_width);
+  return match;
+}
+
+}  // namespace dismantle::tunnel_forest

@@ -1,0 +1,56 @@
+/// Where a body is thin, and where it nearly touches itself: the places that meet in the tunnels of a puzzle.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "dismantle/geometry/mesh.h"
+#include "dismantle/geometry/pose.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::tunnel_forest {
+
+/// A chord that stands on the surface and ends at a surface that faces it.
+struct NarrowPlace {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, along the chord
+  double half_width = 0;                            ///< assembly units
+};
+
+struct NarrowPlaces {
+  std::vector<NarrowPlace> gaps;  ///< chord outside of the material
+  std::vector<NarrowPlace> bars;  ///< chord inside
+};
+
+/// Chords at `samples` points drawn uniformly from the surface, in the frame of the mesh. `mesh` is closed.
+NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng);
+
+/// Draws displacements of a body that bring a narrow place of it to one of the body that stands still: gap into gap,
+/// bar into gap, gap around bar. Only gaps that are narrow for the bars of the other body count: wide ones are no
+/// tunnels.
+class TunnelPoses {
+ public:
+  TunnelPoses(NarrowPlaces moving, NarrowPlaces still);
+  bool empty() const { return kinds_.empty(); }
+
+  struct Match {
+    Pose displacement;          ///< of the moving body
+    Eigen::Vector3d on_moving;  ///< before the displacement
+    Eigen::Vector3d on_still;   ///< displacement * on_moving
+    double reach = 0;           ///< how far the two may come apart before they have left the tunnel
+  };
+  /// Not when empty().
+  Match draw(Rng& rng, bool turning = true) const;
+
+ private:
+  enum class Kind { gap_in_gap, bar_in_gap, gap_on_bar };
+  NarrowPlaces moving_, still_;
+  std::vector<Kind> kinds_;
+};
+
+/// Uniform in SO(3) (Shoemake 1992).
+Eigen::Quaterniond random_turn(Rng& rng);
+
+}  // namespace dismantle::tunnel_forest

@@ -1,0 +1,66 @@
+/// Small solids for the tests of tunnel_forest.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/geometry/aabb.h"
+#include "dismantle/model/assembly.h"
+
+namespace dismantle::tunnel_forest::test {
+
+using Eigen::Vector3d;
+
+inline Aabb block(double x0, double y0, double z0, double x1, double y1, double z1) {
+  return {{x0, y0, z0}, {x1, y1, z1}};
+}
+
+inline Mesh boxes(const std::vector<Aabb>& list) {
+  Mesh mesh;
+  for (const auto& b : list) {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
+                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
+    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
+                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
+                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
+      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  return mesh;
+}
+
+inline Mesh moved(Mesh mesh, const Pose& pose) {
+  for (auto& v : mesh.vertices) v = pose * v;
+  return mesh;
+}
+
+/// A square ring of bars 0.5 x 0.5 in the plane z = 0, 3 wide, with a gap in the middle of the side at +x.
+inline Mesh open_ring(double gap) {
+  return boxes({block(-1.5, -1.5, -0.25, -1, 1.5, 0.25), block(-1, -1.5, -0.25, 1.5, -1, 0.25),
+                block(-1, 1, -0.25, 1.5, 1.5, 0.25), block(1, -1, -0.25, 1.5, -0.5 * gap, 0.25),
+                block(1, 0.5 * gap, -0.25, 1.5, 1, 0.25)});
+}
+
+/// Likewise without a gap, in the plane y = 0, around the side of the open one that is opposite to the gap.
+inline Mesh linked_ring() {
+  return boxes({block(-3, -0.25, -1.5, -2.5, 0.25, 1.5), block(-2.5, -0.25, -1.5, 0, 0.25, -1),
+                block(-2.5, -0.25, 1, 0, 0.25, 1.5), block(-0.5, -0.25, -1, 0, 0.25, 1)});
+}
+
+/// All of it turned by `pose`.
+inline Assembly assembly_of(const std::vector<Mesh>& meshes, const Pose& pose = {}) {
+  Assembly a;
+  for (const auto& mesh : meshes) {
+    Part part;
+    part.id = static_cast<PartId>(a.parts.size());
+    part.name = "part" + std::to_string(part.id);
+    part.mesh = part.surface = std::make_shared<const Mesh>(moved(mesh, pose));
+    a.parts.push_back(std::move(part));
+  }
+  return a;
+}
+
+}  // namespace dismantle::tunnel_forest::test
