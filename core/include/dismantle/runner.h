@@ -37,6 +37,7 @@ struct RunOptions {
   VerifyOptions verify;
   LayoutOptions layout;             ///< used when there is a transfer planner
   std::uint64_t seed = 1;
+  Constraints constraints;
 };
 
 struct RunResult {
@@ -44,6 +45,7 @@ struct RunResult {
   Outcome outcome = Outcome::crashed;
   OracleCounts counts;
   std::map<std::string, double> planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
+  std::map<std::string, double> sequence_counts;  ///< SequenceResult::counts
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
   double prepare_seconds = 0;   ///< simulator preparation
   double plan_seconds = 0;

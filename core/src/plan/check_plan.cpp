@@ -218,7 +218,8 @@ class Checker {
         if (const auto id = state_.find(move.part); id && !move.poses.empty()) {
           const Pose& first = move.poses.front();
           state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
-          present[*id] = step->transfer > 0;
+          // What is only shifted back is there from the beginning, unless an earlier step brings it.
+          present[*id] = step->transfer > 0 || only_shifts(static_cast<std::size_t>(plan_.assembly_steps.rend() - step) - 1);
         }
 
     const std::size_t count = plan_.assembly_steps.size();
@@ -267,12 +268,19 @@ class Checker {
     if (!unmet.empty()) motion_holds({motion.moving, {at, motion.path.end()}}, unmet, kWhat, bound);
   }
 
+  /// True when assembly step `index` is a disassembly step backwards that separated nothing.
+  bool only_shifts(std::size_t index) const {
+    const std::size_t count = plan_.disassembly.size();
+    return plan_.assembly_steps.size() == count && plan_.disassembly[count - 1 - index].separates.empty();
+  }
+
   /// A plan that calls its assembly complete brings every part that was removed, from the layout.
   void claims() {
     if (plan_.assembly_status != AssemblyStatus::complete) return;
     std::set<std::string> brought;
-    for (const auto& step : plan_.assembly_steps) {
-      if (step.transfer == 0)
+    for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i) {
+      const PlanStep& step = plan_.assembly_steps[i];
+      if (step.transfer == 0 && !only_shifts(i))
         problem(fmt::format("the plan calls its assembly complete, but assembly step {} does not begin in the layout",
                             step.step));
       for (const auto& move : step.moves) brought.insert(move.part);

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runner/precedence.h"
+
 namespace dismantle {
 
 namespace {
@@ -57,14 +59,14 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   const PathResult& result = removal.attempt->result;
   PlanStep step;
   step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
-  step.separates.emplace_back();
+  if (!removal.part_way) step.separates.emplace_back();
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const std::string& name = assembly_.parts[removal.parts[i]].name;
     PlanMove move{name, {}};
     move.poses.reserve(result.path.size());
     for (const auto& instant : result.path) move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
     step.moves.push_back(std::move(move));
-    step.separates.back().push_back(name);
+    if (!removal.part_way) step.separates.back().push_back(name);
   }
   step.max_penetration = removal.attempt->max_penetration;
   step.seconds = removal.attempt->seconds;
@@ -80,6 +82,7 @@ void StepLedger::book(const Removal& removal) {
   if (asked == nullptr || !is_success(removal.attempt->result.outcome))
     throw std::logic_error("a removal that is not a successful answer of the oracle");
   Attempt question;
+  question.part_way = removal.part_way;
   for (const PartId id : removal.parts) question.moving.push_back({id, poses_[id]});
   std::vector<PartId> rest;
   for (const PartId id : group)
@@ -97,11 +100,11 @@ void StepLedger::book(const Removal& removal) {
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const PartId id = removal.parts[i];
     poses_[id] = removal.attempt->result.path.back()[i];
-    if (std::find(order_.begin(), order_.end(), id) == order_.end()) order_.push_back(id);
   }
-  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path});
-  group = std::move(rest);
-  groups_.push_back(removal.parts);
+  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path,
+                     removal.part_way});
+  if (!removal.part_way) group = std::move(rest);
+  groups_.push_back(removal.part_way ? std::vector<PartId>{} : removal.parts);
   refresh_status();
 }
 
@@ -152,33 +155,13 @@ PlanStep reversed(const PlanStep& step) {
   return back;
 }
 
-std::vector<std::pair<PartId, PartId>> precedence_of(const std::vector<FailedAttempt>& failed,
-                                                     const std::vector<PartId>& left_in_order, std::size_t part_count) {
-  const std::size_t never = left_in_order.size();
-  std::vector<std::size_t> rank(part_count, never);
-  for (std::size_t i = 0; i < never; ++i) rank[left_in_order[i]] = i;
-  // before[b]: parts that had to go before b. Every pair goes up in rank, so there is no cycle.
-  std::vector<std::vector<bool>> before(part_count, std::vector<bool>(part_count, false));
-  for (const auto& attempt : failed)
-    for (const PartId b : attempt.moving)
-      for (const PartId a : attempt.blocked_by)
-        if (rank[a] < rank[b]) before[b][a] = true;
-
-  std::vector<PartId> by_rank(part_count);
-  for (std::size_t i = 0; i < part_count; ++i) by_rank[i] = static_cast<PartId>(i);
-  std::stable_sort(by_rank.begin(), by_rank.end(), [&](PartId a, PartId b) { return rank[a] < rank[b]; });
-  std::vector<std::vector<bool>> closure(part_count, std::vector<bool>(part_count, false));
-  std::vector<std::pair<PartId, PartId>> pairs;
-  for (const PartId b : by_rank) {
-    std::vector<bool> indirect(part_count, false);
-    for (std::size_t a = 0; a < part_count; ++a)
-      if (before[b][a])
-        for (std::size_t c = 0; c < part_count; ++c) indirect[c] = indirect[c] || closure[a][c];
-    for (const PartId a : by_rank)
-      if (before[b][a] && !indirect[a]) pairs.emplace_back(a, b);
-    for (std::size_t a = 0; a < part_count; ++a) closure[b][a] = before[b][a] || indirect[a];
+void StepLedger::set_needed(const std::vector<std::vector<std::size_t>>& needed) {
+  const std::vector<unsigned> layers = layers_of(needed);
+  for (std::size_t i = 0; i < plan_.disassembly.size(); ++i) {
+    plan_.disassembly[i].after.clear();
+    for (const std::size_t a : needed.at(i)) plan_.disassembly[i].after.push_back(static_cast<unsigned>(a) + 1);
+    plan_.disassembly[i].layer = layers.at(i);
   }
-  return pairs;
 }
 
 }  // namespace dismantle
