@@ -27,10 +27,10 @@ struct Attempt {
 
 /// What the user asks of the order. Parts by id, each list sorted by nothing in particular.
 struct Constraints {
-  std::vector<PartId> base;                        ///< never moved, except with everything else
-  std::vector<std::vector<PartId>> together;       ///< each of these moves as one and is not taken apart
-  std::vector<std::pair<PartId, PartId>> before;   ///< (a, b): b leaves only after a has left
-  std::optional<PartId> target;                    ///< done as soon as this part is out; with as little work as is known
+  std::vector<PartId> base;                       ///< never moved, except with everything else
+  std::vector<std::vector<PartId>> together;      ///< each of these moves as one and is not taken apart
+  std::vector<std::pair<PartId, PartId>> before;  ///< (a, b): b leaves only after a has left
+  std::optional<PartId> target;                   ///< done as soon as this part is out; with as little work as is known
   bool empty() const { return base.empty() && together.empty() && before.empty() && !target; }
 };
 

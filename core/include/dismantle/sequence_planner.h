@@ -12,9 +12,9 @@ namespace dismantle {
 
 /// One step: a group of parts leaves the group that it was in, or (part_way) is shifted and stays in it.
 struct Removal {
-  std::vector<PartId> parts;   ///< as Path columns
+  std::vector<PartId> parts;  ///< as Path columns
   const AttemptResult* attempt = nullptr;
-  bool part_way = false;       ///< as in the Attempt that was proposed
+  bool part_way = false;  ///< as in the Attempt that was proposed
 };
 
 struct Unsolved {
@@ -28,9 +28,9 @@ struct Unsolved {
 struct SequenceResult {
   /// solved: every group is down to one part, or to what the constraints keep together, or the target is out.
   Outcome outcome = Outcome::crashed;
-  std::vector<Removal> removals;       ///< in order
-  std::vector<PartId> remaining;       ///< parts never removed (one when solved)
-  std::vector<Unsolved> unsolved;      ///< why the others are still there; empty when solved
+  std::vector<Removal> removals;         ///< in order
+  std::vector<PartId> remaining;         ///< parts never removed (one when solved)
+  std::vector<Unsolved> unsolved;        ///< why the others are still there; empty when solved
   std::map<std::string, double> counts;  ///< documented names of what the planner did itself
 };
 

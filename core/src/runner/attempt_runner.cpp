@@ -16,7 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-
 bool same_path(const Path& a, const Path& b) {
   const auto same_pose = [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -97,11 +96,12 @@ const Lock* AttemptRunner::locked(const Attempt& attempt) const {
 
 std::string AttemptRunner::describe(const Lock& lock) const {
   const Eigen::Vector3d at = assembly_.normalization.to_input(lock.point);
-  return fmt::format("'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
-                     "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
-                     "units; see verify.max_penetration)",
-                     assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(),
-                     lock.depth, lock.allowed);
+  return fmt::format(
+      "'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
+      "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
+      "units; see verify.max_penetration)",
+      assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(), lock.depth,
+      lock.allowed);
 }
 
 AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
@@ -154,7 +154,8 @@ ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way
   if (way.empty() || way.front().size() != attempt.moving.size())
     throw std::invalid_argument("a proposed way needs instants, and one pose per moving part in each");
   for (std::size_t i = 0; i < attempt.moving.size(); ++i)
-    if (!(way.front()[i].t == attempt.moving[i].pose.t) || !way.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
+    if (!(way.front()[i].t == attempt.moving[i].pose.t) ||
+        !way.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
       throw std::invalid_argument("a proposed way does not begin where its parts are");
   Judgement j;
   if (const Lock* lock = locked(attempt); lock != nullptr && !attempt.part_way) {

@@ -30,14 +30,29 @@ std::vector<Before> befores(const std::vector<BookedStep>& steps, std::size_t pa
   return list;
 }
 
+/// Without turns, along one line.
+bool is_straight(const std::vector<Pose>& way) {
+  const Eigen::Vector3d along = way.back().t - way.front().t;
+  for (const Pose& p : way) {
+    if (angle_between(p.q, way.front().q) > 0) return false;
+    if (along.cross(p.t - way.front().t).norm() > 1e-9 * along.norm()) return false;
+  }
+  return true;
+}
+
 bool needs(const BookedStep& b, const BookedStep& a, const Before& before, const Verifier& verifier) {
   for (const PartId id : b.parts)
     if (holds(a.parts, id)) return true;
   // Parted before that: nothing that a did was in b's way.
   if (before.groups[b.parts.front()] != a.from) return false;
-  std::vector<PlacedPart> there;
-  for (const PartId id : a.parts) there.push_back({id, before.poses[id]});
-  return !verifier.check_motion(b.parts, there, *b.path).valid;
+  for (std::size_t k = 0; k < b.parts.size(); ++k) {
+    std::vector<Pose> way;
+    for (const auto& instant : *b.path) way.push_back(instant[k]);
+    if (way.size() > 2 && is_straight(way)) way = {way.front(), way.back()};
+    for (const PartId id : a.parts)
+      if (!verifier.passes(b.parts[k], id, before.poses[id], way)) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -37,6 +37,8 @@ void check(const Assembly& assembly, const Ingredients& ingredients, const RunOp
   if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
   if (options.only_part.empty() && !ingredients.sequence_planner)
     throw std::invalid_argument("no sequence planner given");
+  if (options.only_part.empty() && !options.constraints.empty() && !ingredients.sequence_planner->keeps_constraints())
+    throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
 }
 
 PartId part_named(const Assembly& assembly, const std::string& name) {
@@ -197,7 +199,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   result.sequence_counts = sequence.counts;
   if (only_one) {
     ledger.set_unsolved(sequence.unsolved);
-  } else if (ledger.complete()) {
+  } else if (ledger.fulfilled()) {
     result.outcome = Outcome::solved;
   } else {
     if (is_success(sequence.outcome)) {

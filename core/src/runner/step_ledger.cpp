@@ -39,6 +39,7 @@ StepLedger::StepLedger(const Assembly& assembly, const Oracle& oracle, const Run
     : assembly_(assembly),
       oracle_(oracle),
       planner_id_(std::move(planner_id)),
+      constraints_(options.constraints),
       plan_(empty_plan(assembly, options)),
       poses_(assembly.parts.size()),
       groups_(1) {
@@ -92,6 +93,8 @@ void StepLedger::book(const Removal& removal) {
   if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->cast)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
+  check_constraints(removal, rest);
+
   PlanStep step = to_step(removal);
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));
   plan_.disassembly.push_back(std::move(step));
@@ -106,6 +109,43 @@ void StepLedger::book(const Removal& removal) {
   if (!removal.part_way) group = std::move(rest);
   groups_.push_back(removal.part_way ? std::vector<PartId>{} : removal.parts);
   refresh_status();
+}
+
+void StepLedger::check_constraints(const Removal& removal, const std::vector<PartId>& rest) const {
+  const auto holds = [](const std::vector<PartId>& parts, PartId id) {
+    return std::find(parts.begin(), parts.end(), id) != parts.end();
+  };
+  for (const PartId id : constraints_.base)
+    if (holds(removal.parts, id)) throw std::logic_error("a removal that moves a part of the base");
+  for (const auto& list : constraints_.together) {
+    const auto moves = [&](PartId id) { return holds(removal.parts, id); };
+    if (std::any_of(list.begin(), list.end(), moves) && !std::all_of(list.begin(), list.end(), moves))
+      throw std::logic_error("a removal that parts what is to stay together");
+  }
+  for (const auto& [a, b] : constraints_.before)
+    if (!removal.part_way && holds(removal.parts, b) && holds(rest, a))
+      throw std::logic_error("a removal before another that is to come first");
+}
+
+/// One part, or parts that lists of the constraints hold together.
+bool StepLedger::stays_together(const std::vector<PartId>& group) const {
+  if (group.size() <= 1) return true;
+  std::vector<PartId> reached{group.front()};
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const auto& list : constraints_.together)
+      if (std::find(list.begin(), list.end(), reached[k]) != list.end())
+        for (const PartId id : list)
+          if (std::find(reached.begin(), reached.end(), id) == reached.end()) reached.push_back(id);
+  return std::all_of(group.begin(), group.end(),
+                     [&](PartId id) { return std::find(reached.begin(), reached.end(), id) != reached.end(); });
+}
+
+bool StepLedger::fulfilled() const {
+  for (const auto& group : groups_)
+    if (constraints_.target && stays_together(group) &&
+        std::find(group.begin(), group.end(), *constraints_.target) != group.end())
+      return true;
+  return std::all_of(groups_.begin(), groups_.end(), [&](const auto& group) { return stays_together(group); });
 }
 
 bool StepLedger::complete() const {

@@ -35,6 +35,8 @@ class StepLedger {
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
   bool complete() const;
+  /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
+  bool fulfilled() const;
   /// Sets plan().unsolved.
   void set_unsolved(const std::vector<Unsolved>& unsolved);
   /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
@@ -43,6 +45,8 @@ class StepLedger {
   void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
  private:
+  void check_constraints(const Removal& removal, const std::vector<PartId>& rest) const;
+  bool stays_together(const std::vector<PartId>& group) const;
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
   PlanStep to_step(const Removal& removal) const;
   void refresh_status();
@@ -50,6 +54,7 @@ class StepLedger {
   const Assembly& assembly_;
   const Oracle& oracle_;
   std::string planner_id_;
+  Constraints constraints_;
   Plan plan_;
   std::vector<Pose> poses_;                  // by part id
   std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i

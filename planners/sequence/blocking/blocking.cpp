@@ -10,9 +10,10 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
                      {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
                      {"large_first", PartOrder::large_first, "descending volume"}},
                     "Order in which parts are taken when several are free.");
-  schema.add("straight", &BlockingParams::straight,
-             {.doc = "Take parts out along straight lines wherever the judge finds nothing in the way. Off: every way is "
-                     "searched for by the path planner."});
+  schema.add(
+      "straight", &BlockingParams::straight,
+      {.doc = "Take parts out along straight lines wherever the judge finds nothing in the way. Off: every way is "
+              "searched for by the path planner."});
   schema.add("groups", &BlockingParams::groups,
              {.doc = "When no single part is free, take out the smallest group that is, and take it apart by itself."});
   schema.add("slide_states", &BlockingParams::slide_states,

@@ -10,10 +10,10 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kSame = 1 - 1e-6;         // cosine; 0.08 degrees
-constexpr std::size_t kOwnAxes = 5;        // flat faces of a part that count
-constexpr std::size_t kCommonAxes = 6;     // of the assembly, tried for every part
-constexpr double kLeastFlat = 0.02;        // share of a part's surface that a flat face needs
+constexpr double kSame = 1 - 1e-6;      // cosine; 0.08 degrees
+constexpr std::size_t kOwnAxes = 5;     // flat faces of a part that count
+constexpr std::size_t kCommonAxes = 6;  // of the assembly, tried for every part
+constexpr double kLeastFlat = 0.02;     // share of a part's surface that a flat face needs
 
 struct Weighted {
   Vec3 axis;

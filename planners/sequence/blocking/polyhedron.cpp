@@ -14,9 +14,9 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kFlat = 1 - 1e-9;   // cosine between normals of one plane
-constexpr double kPlane = 1e-6;      // distance between planes that are one
-constexpr double kGlance = 1e-9;     // cosine below which a face is parallel to the way
+constexpr double kFlat = 1 - 1e-9;  // cosine between normals of one plane
+constexpr double kPlane = 1e-6;     // distance between planes that are one
+constexpr double kGlance = 1e-9;    // cosine below which a face is parallel to the way
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Adjacent {
@@ -121,8 +121,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
   for (std::uint32_t t = 0; t < count; ++t) {
     normals[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).normalized();
-    for (std::size_t k = 0; k < 3; ++k)
-      by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
+    for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
   }
   const auto neighbour = [&](std::uint32_t from, std::uint32_t to) {
     const auto found = by_edge.find({to, from});
@@ -205,9 +204,12 @@ double way_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& o
   double past = kInfinity;
   for (int k = 0; k < 3; ++k) {
     const double lo = a.box().lo[k] + offset[k], hi = a.box().hi[k] + offset[k];
-    if (d[k] > kGlance) past = std::min(past, (b.box().hi[k] + tolerance - lo) / d[k]);
-    else if (d[k] < -kGlance) past = std::min(past, (b.box().lo[k] - tolerance - hi) / d[k]);
-    else if (lo > b.box().hi[k] + tolerance || hi < b.box().lo[k] - tolerance) return kInfinity;
+    if (d[k] > kGlance)
+      past = std::min(past, (b.box().hi[k] + tolerance - lo) / d[k]);
+    else if (d[k] < -kGlance)
+      past = std::min(past, (b.box().lo[k] - tolerance - hi) / d[k]);
+    else if (lo > b.box().hi[k] + tolerance || hi < b.box().lo[k] - tolerance)
+      return kInfinity;
   }
   if (past < 0) return kInfinity;
   double best = kInfinity;

@@ -21,7 +21,7 @@ class Polyhedron {
   };
   struct Face {
     Eigen::Vector3d normal;
-    double offset = 0;              ///< normal . x on the face
+    double offset = 0;               ///< normal . x on the face
     std::vector<std::size_t> edges;  ///< its boundary
   };
 
@@ -41,8 +41,8 @@ class Polyhedron {
   Aabb box_;
 };
 
-/// Length of the way along unit vector `d` after which `a`, translated by `offset` at first, meets `b`; infinite when it
-/// never does. `tolerance`, below the insets: what passes so close counts as meeting. The two are apart at first.
+/// Length of the way along unit vector `d` after which `a`, translated by `offset` at first, meets `b`; infinite when
+/// it never does. `tolerance`, below the insets: what passes so close counts as meeting. The two are apart at first.
 double way_until_contact(const Polyhedron& a, const Polyhedron& b, const Eigen::Vector3d& offset,
                          const Eigen::Vector3d& d, double tolerance);
 

@@ -80,7 +80,7 @@ bool Relations::ask(const Pair& p) const {
   const Pose begin{p.offset, Eigen::Quaterniond::Identity()};
   Pose end = begin;
   end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
-  return !judge_.check_motion({p.moving}, {{p.still, Pose{}}}, {{begin}, {end}}).valid;
+  return !judge_.passes(p.moving, p.still, Pose{}, {begin, end});
 }
 
 bool Relations::blocks(const Pair& pair) {

@@ -1,6 +1,6 @@
-/// Who is in whose way: part j blocks part i along direction d if i, moved in a straight line along d until it is past j,
-/// would cut into it. That depends on no other part, so it is computed once (Wilson and Latombe 1994: the directional
-/// blocking graphs of an assembly).
+/// Who is in whose way: part j blocks part i along direction d if i, moved in a straight line along d until it is past
+/// j, would cut into it. That depends on no other part, so it is computed once (Wilson and Latombe 1994: the
+/// directional blocking graphs of an assembly).
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ class Relations {
   const Verifier& judge_;
   const Directions& directions_;
   std::vector<std::vector<Eigen::Vector3d>> hulls_;
-  std::vector<Eigen::Matrix3d> frames_;  // by direction: rows are the direction and two across it
+  std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   std::map<Key, bool> blocks_;
   std::uint64_t computed_ = 0;

@@ -8,8 +8,8 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kRefusals = 12;         // of the judge, before the slides are given up
-constexpr std::size_t kAheadPerThread = 2;    // attempts that are hinted
+constexpr std::size_t kRefusals = 12;       // of the judge, before the slides are given up
+constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
 
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -36,24 +36,23 @@ bool TakingApart::shift(Group& group, const std::vector<UnitId>& units, const Ei
 
 /// Slides found by the search over places of all parts, as far as the judge lets them.
 bool TakingApart::slide(Group& group) {
-  if (std::any_of(group.units.begin(), group.units.end(), [&](UnitId u) {
-        return units_[u].size() > 1 || !translated_only(poses_[units_[u].front()]);
-      }))
+  if (std::any_of(group.units.begin(), group.units.end(),
+                  [&](UnitId u) { return units_[u].size() > 1 || !translated_only(poses_[units_[u].front()]); }))
     return false;
   const std::vector<PartId> parts = parts_of(group.units);
   for (std::size_t refusals = 0; refusals < kRefusals && !stop(); ++refusals) {
     Places places;
     for (const PartId id : parts) places[id] = poses_[id].t;
-    const SlideSearch::Answer found =
-        slides_.search(places, static_cast<std::size_t>(params_.slide_states), context_);
+    const SlideSearch::Answer found = slides_.search(places, static_cast<std::size_t>(params_.slide_states), context_);
     counts_["slide_states"] += static_cast<double>(found.states);
     if (found.end == SlideSearch::End::exhausted)
-      slides_said_ = std::to_string(found.states) +
-                     " arrangements can be reached by straight slides between places where faces are flush, and in none "
-                     "of them a part or group is free";
+      slides_said_ =
+          std::to_string(found.states) +
+          " arrangements can be reached by straight slides between places where faces are flush, and in none "
+          "of them a part or group is free";
     if (found.end == SlideSearch::End::limit)
-      slides_said_ = "slides that leave parts part-way were given up after " + std::to_string(found.states) +
-                     " arrangements";
+      slides_said_ =
+          "slides that leave parts part-way were given up after " + std::to_string(found.states) + " arrangements";
     if (found.end != SlideSearch::End::found) return false;
     slides_said_.clear();
     bool refused = false;
@@ -94,8 +93,8 @@ bool TakingApart::slide(Group& group) {
 }
 
 /// A search that failed is not repeated as deep as it was while those that it touched are all still there: it would
-/// most likely fail again. Most likely, not certainly (the hulls of what stays count too), so before anything is given up
-/// all searches are made once more for the group as it is then.
+/// most likely fail again. Most likely, not certainly (the hulls of what stays count too), so before anything is given
+/// up all searches are made once more for the group as it is then.
 bool TakingApart::worth_trying(const Group& group, UnitId unit, unsigned depth) const {
   const auto known = tried_.find(units_[unit].front());
   if (known == tried_.end()) return true;
@@ -134,11 +133,50 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   return false;
 }
 
+/// Those whose leaving would open ways for others come first, the housing of it all last: searches are expensive, and a
+/// success makes many of them needless. A unit's use is the sum of its shares in what holds others the least.
+void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
+  if (!relations_) return;
+  std::map<UnitId, double> use;
+  double largest = 0;
+  UnitId housing = units.empty() ? 0 : units.front();
+  for (const UnitId u : group.units) {
+    std::vector<UnitId> fewest;
+    bool found = false;
+    for (const std::size_t d : directions_.common) {
+      std::vector<Pair> pairs;
+      for (const UnitId other : group.units)
+        if (other != u)
+          for (const Pair& pair : pairs_of(u, other, d)) pairs.push_back(pair);
+      relations_->compute(pairs, context_.threads);
+      if (stop()) return;
+      std::vector<UnitId> in_way;
+      for (const Pair& pair : pairs)
+        if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
+          in_way.push_back(unit_of_[pair.still]);
+      if (!found || in_way.size() < fewest.size()) fewest = in_way;
+      found = true;
+    }
+    for (const UnitId other : fewest) use[other] += 1.0 / static_cast<double>(fewest.size());
+    Aabb box;
+    for (const PartId id : units_[u]) box.extend(assembly_.parts[id].mesh->box());
+    if (!box.empty() && box.size().prod() > largest) {
+      largest = box.size().prod();
+      housing = u;
+    }
+  }
+  std::stable_sort(units.begin(), units.end(), [&](UnitId a, UnitId b) {
+    if ((a == housing) != (b == housing)) return b == housing;
+    return use[a] > use[b];
+  });
+}
+
 /// Algorithm 2 for the rest: every part a little, then a little more.
 bool TakingApart::search(Group& group) {
   std::vector<UnitId> single;
   for (const UnitId u : group.units)
     if (units_[u].size() == 1 && may_leave(group, {u})) single.push_back(u);
+  sort_by_use(group, single);
   const auto run = [&](unsigned depth, const std::vector<UnitId>& list) {
     for (std::size_t k = 0; k < list.size() && !stop(); ++k)
       if (attempt(group, list[k], depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()})) return true;

@@ -19,6 +19,7 @@ constexpr double kTolerance = 0.001;  // below the inset
 constexpr double kGrid = 1e-4;        // places that differ by less are the same
 constexpr double kLeastStep = 0.05;   // of a slide
 constexpr double kStandOff = 0.002;   // from what a part meets
+constexpr double kPlay = 0.25;        // slides up to contact that are shorter only use up the play between parts
 constexpr std::size_t kMostAxes = 9;
 constexpr std::size_t kMostParts = 64;
 
@@ -54,7 +55,8 @@ std::vector<std::int64_t> key_of_places(const std::vector<Vec3>& at) {
 
 std::size_t SlideSearch::Hash::operator()(const Key& k) const {
   std::uint64_t h = k.pair;
-  for (const std::int64_t v : {k.x, k.y, k.z}) h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 31;
+  for (const std::int64_t v : {k.x, k.y, k.z})
+    h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 31;
   return static_cast<std::size_t>(h);
 }
 
@@ -139,8 +141,18 @@ void SlideSearch::forbid(PartId moving, PartId still, const Vec3& offset, const 
 }
 
 SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, const RunContext& context) {
+  if (!prepare(places)) return {};
+  // Places on contact multiply the states, and most puzzles do without.
+  const Answer flush = search(places, most_states, false, context);
+  if (flush.end != End::exhausted) return flush;
+  Answer both = search(places, most_states, true, context);
+  both.states += flush.states;
+  return both;
+}
+
+SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, bool to_contact,
+                                        const RunContext& context) {
   Answer answer;
-  if (!prepare(places)) return answer;
   const std::size_t n = places.size();
   std::vector<PartId> id;
   Node first;
@@ -239,7 +251,7 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
         }
         std::vector<double> ways;
         if (next < kInfinity) ways.push_back(next);
-        if (meets < next && meets - kStandOff > kLeastStep && next - meets > kLeastStep)
+        if (to_contact && meets < next && meets - kStandOff > kPlay && next - meets > kPlay)
           ways.push_back(meets - kStandOff);
         for (const double way : ways) {
           const Set set = taken_along(i, way);

@@ -21,17 +21,17 @@ namespace dismantle::blocking {
 struct Slide {
   std::vector<PartId> parts;  ///< ascending
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
-  double way = 0;             ///< assembly units; infinite: they leave
+  double way = 0;  ///< assembly units; infinite: they leave
 };
 
 /// The places of parts are translations of the assembled ones.
 using Places = std::map<PartId, Eigen::Vector3d>;
 
-/// A state is one translation per part. From it, any part may slide along any direction that faces of the parts suggest,
-/// to the next place where a face of it is flush with one of another part, or where it meets one; whom it would run into
-/// it takes along. Where faces are flush openings are open, and slides that stop nowhere else are sums of such ones.
-/// Breadth first, so with the fewest such steps. Shapes are those of the parts, a little thinner; what is found here is
-/// for the judge to confirm.
+/// A state is one translation per part. From it, any part may slide along any direction that faces of the parts
+/// suggest, to the next place where a face of it is flush with one of another part, or (when that is not enough) where
+/// it meets one; whom it would run into it takes along. Where faces are flush openings are open, and slides that stop
+/// nowhere else are sums of such ones. Breadth first, so with the fewest such steps. Shapes are those of the parts, a
+/// little thinner; what is found here is for the judge to confirm.
 class SlideSearch {
  public:
   explicit SlideSearch(const Assembly& assembly);
@@ -52,6 +52,7 @@ class SlideSearch {
     Polyhedron body;
     std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces that look along it, ascending
   };
+  Answer search(const Places& places, std::size_t most_states, bool to_contact, const RunContext& context);
   const Shape& shape(PartId part);
   double way_free(PartId moving, PartId still, const Eigen::Vector3d& offset, std::size_t direction);
   bool prepare(const Places& places);

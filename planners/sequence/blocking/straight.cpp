@@ -80,7 +80,8 @@ std::optional<Pair> TakingApart::open_question(const Group& group, UnitId unit, 
         return std::nullopt;
       }
       // The nearest is the likeliest to be in the way.
-      const double gap = relations_->extent(pair.still, direction).first - relations_->extent(pair.moving, direction).second -
+      const double gap = relations_->extent(pair.still, direction).first -
+                         relations_->extent(pair.moving, direction).second -
                          pair.offset.dot(directions_.all[direction]);
       if (gap < least) {
         least = gap;

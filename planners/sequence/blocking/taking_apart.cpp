@@ -165,8 +165,8 @@ void TakingApart::give_up(const Group& group) {
       u.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
       u.message = "not tried: stopped before its turn";
     } else {
-      u.message = may_leave(group, {unit_of_[id]}) ? "no straight way, and no search was made"
-                                                   : "the constraints hold it back";
+      u.message =
+          may_leave(group, {unit_of_[id]}) ? "no straight way, and no search was made" : "the constraints hold it back";
     }
     if (!slides_said_.empty()) u.message += (u.message.empty() ? "" : "; ") + slides_said_;
     unsolved_.push_back(std::move(u));

@@ -68,6 +68,7 @@ class TakingApart {
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
   bool search(Group& group);
+  void sort_by_use(const Group& group, std::vector<UnitId>& units);
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
 
@@ -89,9 +90,10 @@ class TakingApart {
   std::map<std::string, double> counts_;
 
   Directions directions_;
-  std::unique_ptr<Relations> relations_;  // null without a judge
+  std::unique_ptr<Relations> relations_;                // null without a judge
   std::vector<std::map<std::size_t, UnitId>> watched_;  // by unit, by direction: one that is in the way
-  std::set<std::pair<std::vector<PartId>, std::size_t>> refused_;  // ways that the judge refused, for the group as it is
+  std::set<std::pair<std::vector<PartId>, std::size_t>>
+      refused_;  // ways that the judge refused, for the group as it is
   SlideSearch slides_;
   std::map<PartId, Tried> tried_;
   std::map<PartId, Unsolved> said_;  // by part: the last that was said

@@ -59,9 +59,9 @@ struct PlanOverlap {
 
 struct PlanAssembly {
   std::string source, sha256;
-  double scale = 1;  ///< assembly units per input unit
+  double scale = 1;                                  ///< assembly units per input unit
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
-  Aabb box;          ///< input units
+  Aabb box;                                          ///< input units
   SurfaceRepair repair;
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
