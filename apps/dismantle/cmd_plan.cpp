@@ -120,8 +120,12 @@ int plan(const PlanOptions& options) {
 
   const int status = status_of(result, !options.part.empty(), context);
   std::string text = summary_text(result.plan);
-  text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)\n",
+  text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)",
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
+  if (result.counts.proposed > 0)
+    text += fmt::format(", {} ways proposed ({} refused)", result.counts.proposed, result.counts.refused);
+  for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
+  text += "\n";
   if (status == kInterrupted) text += "interrupted: this is what was done until then\n";
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;

@@ -14,6 +14,10 @@ Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
 PathPlanner::~PathPlanner() = default;
 PathOracle::~PathOracle() = default;
+const Constraints& PathOracle::constraints() const {
+  static const Constraints none;
+  return none;
+}
 TransferPlanner::~TransferPlanner() = default;
 SequenceObserver::~SequenceObserver() = default;
 SequencePlanner::~SequencePlanner() = default;

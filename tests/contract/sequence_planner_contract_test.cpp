@@ -32,7 +32,7 @@ std::vector<std::string> ids() {
 
 TEST(SequencePlanners, TheOnesOfThisProjectAreThere) {
   const std::vector<std::string> found = ids();
-  for (const char* id : {"progressive", "queue", "random"})
+  for (const char* id : {"blocking", "progressive", "queue", "random"})
     EXPECT_EQ(std::count(found.begin(), found.end(), id), 1)
         << registry().why_missing(PluginKind::sequence_planner, id);
 }

@@ -119,6 +119,7 @@ void plan_trial(const fs::path& folder) {
                                {"solve_seconds", solve_seconds},
                                {"attempts", result.counts.attempts},
                                {"memoised", result.counts.memoised},
+                               {"proposed", result.counts.proposed},
                                {"counts", result.planner_counts},
                                {"peak_rss_mb", peak_memory()}};
   write_file(folder / kResultFile, json.dump(1) + "\n");

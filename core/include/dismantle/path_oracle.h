@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dismantle/export.h"
@@ -12,11 +14,24 @@
 
 namespace dismantle {
 
+class Verifier;
+
 /// "Can these parts leave together while those stay, with this effort?" All other parts are out.
 struct Attempt {
   std::vector<PlacedPart> moving;
   std::vector<PlacedPart> still;
   unsigned max_depth = 0;  ///< 0 = no limit
+  /// For propose() only: the parts are shifted and stay in their group. The way has to be valid, not to lead out.
+  bool part_way = false;
+};
+
+/// What the user asks of the order. Parts by id, each list sorted by nothing in particular.
+struct Constraints {
+  std::vector<PartId> base;                       ///< never moved, except with everything else
+  std::vector<std::vector<PartId>> together;      ///< each of these moves as one and is not taken apart
+  std::vector<std::pair<PartId, PartId>> before;  ///< (a, b): b leaves only after a has left
+  std::optional<PartId> target;                   ///< done as soon as this part is out; with as little work as is known
+  bool empty() const { return base.empty() && together.empty() && before.empty() && !target; }
 };
 
 /// An answer. `path` has passed the verifier.
@@ -30,6 +45,8 @@ struct OracleCounts {
   std::uint64_t attempts = 0;   ///< answered by planning
   std::uint64_t memoised = 0;   ///< answered from memory
   std::uint64_t discarded = 0;  ///< computed ahead, never asked for
+  std::uint64_t proposed = 0;   ///< ways that the sequence planner found itself, put to the judge
+  std::uint64_t refused = 0;    ///< ... of which the judge refused so many
 };
 
 /// Memoises, counts and verifies. May compute prefetched attempts on other threads; answers do not depend on it.
@@ -40,7 +57,16 @@ class DISMANTLE_API PathOracle {
   virtual const AttemptResult& attempt(const Attempt& attempt, RunContext& context) = 0;
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;
+  /// Judges a way that the asker has found itself, in place of a search: `way` as PathResult::path, its first instant
+  /// where the attempt has the moving parts. `solved`: valid, and (unless part_way) it ends apart from what stays;
+  /// else `exhausted`, with the part that is in the way and what is wrong.
+  virtual const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) = 0;
   virtual OracleCounts counts() const = 0;
+  /// The judge of this run. What it says of two parts on a way holds whatever other parts there are, so a planner may
+  /// ask it about pairs, also from several threads. nullptr: an oracle without geometry.
+  virtual const Verifier* judge() const { return nullptr; }
+  /// Only planners that declare so (SequencePlanner::keeps_constraints) are run when there are any.
+  virtual const Constraints& constraints() const;
 };
 
 }  // namespace dismantle

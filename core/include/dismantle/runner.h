@@ -31,21 +31,24 @@ struct Ingredients {
 };
 
 struct RunOptions {
-  double path_timeout = 120;        ///< seconds per attempt, 0 = none
-  std::uint64_t path_steps = 0;     ///< simulated steps per attempt, 0 = none
-  std::string only_part;            ///< plan just this part's path, all others still
+  double path_timeout = 120;     ///< seconds per attempt, 0 = none
+  std::uint64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
+  std::string only_part;         ///< plan just this part's path, all others still
   VerifyOptions verify;
-  LayoutOptions layout;             ///< used when there is a transfer planner
+  LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
+  Constraints constraints;
 };
 
 struct RunResult {
   Plan plan;
   Outcome outcome = Outcome::crashed;
   OracleCounts counts;
-  std::map<std::string, double> planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
+  std::map<std::string, double>
+      planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
+  std::map<std::string, double> sequence_counts;                ///< SequenceResult::counts
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
-  double prepare_seconds = 0;   ///< simulator preparation
+  double prepare_seconds = 0;                                   ///< simulator preparation
   double plan_seconds = 0;
 };
 

@@ -1,6 +1,7 @@
 /// Sequence planners: in which order do the parts come out?
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace dismantle {
 
-/// One step: a group of parts leaves the group that it was in.
+/// One step: a group of parts leaves the group that it was in, or (part_way) is shifted and stays in it.
 struct Removal {
-  std::vector<PartId> parts;   ///< as Path columns
+  std::vector<PartId> parts;  ///< as Path columns
   const AttemptResult* attempt = nullptr;
+  bool part_way = false;  ///< as in the Attempt that was proposed
 };
 
 struct Unsolved {
@@ -24,10 +26,12 @@ struct Unsolved {
 };
 
 struct SequenceResult {
-  Outcome outcome = Outcome::crashed;  ///< solved: at most one part is left
-  std::vector<Removal> removals;       ///< in order
-  std::vector<PartId> remaining;       ///< parts never removed (one when solved)
-  std::vector<Unsolved> unsolved;      ///< why the others are still there; empty when solved
+  /// solved: every group is down to one part, or to what the constraints keep together, or the target is out.
+  Outcome outcome = Outcome::crashed;
+  std::vector<Removal> removals;         ///< in order
+  std::vector<PartId> remaining;         ///< parts never removed (one when solved)
+  std::vector<Unsolved> unsolved;        ///< why the others are still there; empty when solved
+  std::map<std::string, double> counts;  ///< documented names of what the planner did itself
 };
 
 /// Receives finished removals at once, so that nothing is lost by an interruption.
@@ -41,6 +45,8 @@ class DISMANTLE_API SequenceObserver {
 class DISMANTLE_API SequencePlanner {
  public:
   virtual ~SequencePlanner();
+  /// False: a run with constraints is refused.
+  virtual bool keeps_constraints() const noexcept { return false; }
   virtual SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
                               RunContext& context) = 0;
 };

@@ -182,17 +182,18 @@ class Checker {
         problem(fmt::format("remaining: '{}' is unknown or listed twice", name));
   }
 
-  /// How far a pose may be off and still be taken for another, assembly units: what is left of numbers that were written
-  /// with twelve digits or more. Far below what the certificate of a motion resolves.
+  /// How far a pose may be off and still be taken for another, assembly units: what is left of numbers that were
+  /// written with twelve digits or more. Far below what the certificate of a motion resolves.
   double rounding() const { return 1e-3 * state_.tolerance(); }
 
-  /// Is `back`, from its pose `transfer` on, the checked step `index` backwards? Poses count as motions, not as numbers: q and -q are one rotation,
-  /// and no corner of the part's box may be off by more than rounding(). What that could add to the penetration must
-  /// fit under the tolerance beside what was certified.
+  /// Is `back`, from its pose `transfer` on, the checked step `index` backwards? Poses count as motions, not as
+  /// numbers: q and -q are one rotation, and no corner of the part's box may be off by more than rounding(). What that
+  /// could add to the penetration must fit under the tolerance beside what was certified.
   bool is_reverse(std::size_t index, const PlanStep& back) const {
     std::vector<std::string> found;
     const auto a = state_.read(plan_.disassembly[index].moves, found), b = state_.read(back.moves, found);
-    if (!a || !b || a->path.size() + back.transfer != b->path.size() || a->moving.size() != b->moving.size()) return false;
+    if (!a || !b || a->path.size() + back.transfer != b->path.size() || a->moving.size() != b->moving.size())
+      return false;
     if (result_.step_penetration[index] + 2 * rounding() > verifier_.options().max_penetration) return false;
     const std::size_t last = b->path.size() - 1;
     for (std::size_t i = 0; i < a->moving.size(); ++i) {
@@ -218,7 +219,9 @@ class Checker {
         if (const auto id = state_.find(move.part); id && !move.poses.empty()) {
           const Pose& first = move.poses.front();
           state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
-          present[*id] = step->transfer > 0;
+          // What is only shifted back is there from the beginning, unless an earlier step brings it.
+          present[*id] =
+              step->transfer > 0 || only_shifts(static_cast<std::size_t>(plan_.assembly_steps.rend() - step) - 1);
         }
 
     const std::size_t count = plan_.assembly_steps.size();
@@ -267,12 +270,19 @@ class Checker {
     if (!unmet.empty()) motion_holds({motion.moving, {at, motion.path.end()}}, unmet, kWhat, bound);
   }
 
+  /// True when assembly step `index` is a disassembly step backwards that separated nothing.
+  bool only_shifts(std::size_t index) const {
+    const std::size_t count = plan_.disassembly.size();
+    return plan_.assembly_steps.size() == count && plan_.disassembly[count - 1 - index].separates.empty();
+  }
+
   /// A plan that calls its assembly complete brings every part that was removed, from the layout.
   void claims() {
     if (plan_.assembly_status != AssemblyStatus::complete) return;
     std::set<std::string> brought;
-    for (const auto& step : plan_.assembly_steps) {
-      if (step.transfer == 0)
+    for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i) {
+      const PlanStep& step = plan_.assembly_steps[i];
+      if (step.transfer == 0 && !only_shifts(i))
         problem(fmt::format("the plan calls its assembly complete, but assembly step {} does not begin in the layout",
                             step.step));
       for (const auto& move : step.moves) brought.insert(move.part);

@@ -215,7 +215,8 @@ enum class StepKind { disassembly, assembly };
 PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Names& parts) {
   // Assembly steps are judged as the reverse of the disassembly; other programs need not repeat its figures.
   if (kind == StepKind::disassembly)
-    place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
+    place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"},
+                 {"after", "layer"});
   else
     place.object({"step", "moves"},
                  {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
@@ -239,6 +240,12 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   if (place.has("planner")) s.planner = place.at("planner").text();
   if (place.has("depth")) s.depth = place.at("depth").small_count();
   if (place.has("contacts")) s.contacts = read_group(place.at("contacts"), parts);
+  if (place.has("after"))
+    for (const Place& item : place.at("after").items()) {
+      s.after.push_back(item.small_count());
+      if (s.after.back() == 0 || s.after.back() >= number) item.fail("expected the number of an earlier step");
+    }
+  if (place.has("layer")) s.layer = place.at("layer").small_count();
   return s;
 }
 

@@ -45,6 +45,10 @@ Json step_json(const PlanStep& s, bool assembly) {
   out["planner"] = s.planner;
   out["depth"] = s.depth;
   out["contacts"] = s.contacts;
+  if (!assembly) {
+    out["after"] = s.after;
+    out["layer"] = s.layer;
+  }
   return out;
 }
 

@@ -63,7 +63,7 @@ struct Assembler::Scenery {
       groups.push_back(groups.back());
       for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
         poses.back()[steps[i].parts[k]] = steps[i].path->back()[k];
-        groups.back()[steps[i].parts[k]] = i + 1;
+        if (!steps[i].part_way) groups.back()[steps[i].parts[k]] = i + 1;
       }
     }
     place.resize(steps.size() + 1);
@@ -129,7 +129,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   for (std::size_t i = 0; i < n; ++i) {
     const BookedStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
-      rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
+      if (!step.part_way) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
       Aabb swept;
       for (const auto& instant : *step.path)
         swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
@@ -159,7 +159,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   std::vector<Aabb> boxes;
   std::vector<std::size_t> ours;
   for (std::size_t g = 1; g <= n; ++g)
-    if (!given[g]) {
+    if (!given[g] && !scenery.steps[g - 1].part_way) {
       boxes.push_back(rooms[g]);
       ours.push_back(g);
     }
@@ -298,7 +298,7 @@ AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const
   for (std::size_t i = 0; i < steps.size(); ++i) {
     context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
     Way way;
-    if (scenery.missing[i + 1].empty()) {
+    if (scenery.missing[i + 1].empty() && !steps[i].part_way) {
       if (context.should_stop())
         way.problem = "the run was stopped before";
       else

@@ -19,7 +19,8 @@ struct AssemblyPlan {
 
 /// Each step of the disassembly makes a group, and each group has a place in the layout: a displacement from where the
 /// disassembly left it. A group that is taken apart by later steps is put together at its place, and then moves in as
-/// a whole. So at every time each part is at one known place, and what moves is judged against all others.
+/// a whole. What was shifted part-way is shifted back where it is. So at every time each part is at one known place,
+/// and what moves is judged against all others.
 ///
 /// A group for which there is no way is left out of the layout: its step begins where the disassembly left it.
 class Assembler {

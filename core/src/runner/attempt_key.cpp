@@ -72,6 +72,7 @@ CastDigest digest_of(const Attempt& canonical_attempt) {
   bytes.reserve(64 * (canonical_attempt.moving.size() + canonical_attempt.still.size()) + 16);
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.still);
+  if (canonical_attempt.part_way) bytes.push_back('p');
   return sha256(bytes);
 }
 

@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// SHA-256 of who moves and who stands still, and where; without the depth.
+/// SHA-256 of who moves and who stands still, and where, and whether part-way; without the depth.
 using CastDigest = std::array<unsigned char, 32>;
 
 struct AttemptKey {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <stdexcept>
 #include <utility>
 
 #include "runner/stopwatch.h"
@@ -14,7 +15,6 @@ namespace dismantle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
 
 bool same_path(const Path& a, const Path& b) {
   const auto same_pose = [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); };
@@ -96,11 +96,12 @@ const Lock* AttemptRunner::locked(const Attempt& attempt) const {
 
 std::string AttemptRunner::describe(const Lock& lock) const {
   const Eigen::Vector3d at = assembly_.normalization.to_input(lock.point);
-  return fmt::format("'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
-                     "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
-                     "units; see verify.max_penetration)",
-                     assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(),
-                     lock.depth, lock.allowed);
+  return fmt::format(
+      "'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
+      "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
+      "units; see verify.max_penetration)",
+      assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(), lock.depth,
+      lock.allowed);
 }
 
 AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
@@ -132,6 +133,10 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
     }
     return j;
   }
+  if (attempt.part_way) {
+    j.verdict.accepted = true;
+    return j;
+  }
   std::vector<PlacedPart> group = attempt.moving;
   for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = j.written.path.back()[i];
   if (!verifier_.apart(group, attempt.still)) {
@@ -140,6 +145,38 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
   }
   j.verdict.accepted = true;
   return j;
+}
+
+ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const {
+  const Clock::time_point begin = Clock::now();
+  ComputedAttempt computed;
+  PathResult& result = computed.answer.result;
+  if (way.empty() || way.front().size() != attempt.moving.size())
+    throw std::invalid_argument("a proposed way needs instants, and one pose per moving part in each");
+  for (std::size_t i = 0; i < attempt.moving.size(); ++i)
+    if (!(way.front()[i].t == attempt.moving[i].pose.t) ||
+        !way.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
+      throw std::invalid_argument("a proposed way does not begin where its parts are");
+  Judgement j;
+  if (const Lock* lock = locked(attempt); lock != nullptr && !attempt.part_way) {
+    result = failure(Outcome::exhausted, describe(*lock));
+    result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
+  } else {
+    j = judge(attempt, way);
+    result.outcome = j.verdict.accepted ? Outcome::solved : Outcome::exhausted;
+    result.message = j.verdict.reason;
+    result.depth = 1;
+    if (j.verdict.accepted) {
+      computed.answer.max_penetration = j.check.max_penetration;
+      result.path = std::move(j.written.path);
+    } else if (j.verdict.has_witness) {
+      result.blocked_by = {holds(attempt.still, j.verdict.other) ? j.verdict.other : j.verdict.part};
+    }
+  }
+  drop_nonsense(result, attempt);
+  computed.interrupted = !is_success(result.outcome) && context.should_stop();
+  computed.answer.seconds = seconds_since(begin);
+  return computed;
 }
 
 PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context,

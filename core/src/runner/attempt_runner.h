@@ -27,6 +27,9 @@ class AttemptRunner {
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
                       const RunContext& context) const;
 
+  /// Judges a way in place of a search. `attempt` and the columns of `way` in the same order.
+  ComputedAttempt judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const;
+
   const std::string& planner_id() const { return planner_id_; }
 
  private:

@@ -29,6 +29,8 @@ void check(const Ingredients& ingredients) {
 Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
                const RunOptions& options, const Verifier& verifier, const RunContext& context)
     : part_count_((check(ingredients), assembly.parts.size())),
+      verifier_(verifier),
+      constraints_(options.constraints),
       make_planner_(ingredients.path_planner),
       runner_(assembly, prepared, ingredients, options, verifier, context.rng),
       planners_(std::max(1u, context.threads)) {
@@ -104,7 +106,6 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
   const Outcome outcome = result.result.outcome;
   if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
   asked_about_.emplace(&result, AskedAbout{key.cast, ids_of(attempt.moving)});
-  if (!is_success(outcome)) failed_.push_back({ids_of(attempt.moving), result.result.blocked_by});
   return result;
 }
 
@@ -151,10 +152,26 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
   pool_->hint(std::move(hints));
 }
 
+const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
+  const CastDigest cast = digest_of(canonical(attempt, part_count_));
+  const std::lock_guard lock(ask_mutex_);
+  ComputedAttempt computed = runner_.judge_way(attempt, way, context);
+  const AttemptResult& result = keep(std::move(computed.answer));
+  if (computed.interrupted) return result;
+  ++proposed_;
+  if (is_success(result.result.outcome))
+    asked_about_.emplace(&result, AskedAbout{cast, ids_of(attempt.moving)});
+  else
+    ++refused_;
+  return result;
+}
+
 OracleCounts Oracle::counts() const {
   OracleCounts counts;
   counts.attempts = planned_;
   counts.memoised = memoised_;
+  counts.proposed = proposed_;
+  counts.refused = refused_;
   counts.discarded = pool_ ? pool_->untaken() : 0;
   return counts;
 }

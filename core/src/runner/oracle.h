@@ -19,12 +19,6 @@ struct AskedAbout {
   std::vector<PartId> moving;  ///< columns of the path
 };
 
-/// A question that was answered with a failure by planning.
-struct FailedAttempt {
-  std::vector<PartId> moving;
-  std::vector<PartId> blocked_by;
-};
-
 class Oracle final : public PathOracle {
  public:
   Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients, const RunOptions& options,
@@ -32,11 +26,13 @@ class Oracle final : public PathOracle {
 
   const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
+  const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) override;
   OracleCounts counts() const override;
+  const Verifier* judge() const override { return &verifier_; }
+  const Constraints& constraints() const override { return constraints_; }
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
-  const std::vector<FailedAttempt>& failed() const { return failed_; }
   /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
   const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
 
@@ -53,6 +49,8 @@ class Oracle final : public PathOracle {
                                  const std::vector<PartId>& canonical_order, const std::vector<PartId>& order);
 
   std::size_t part_count_;
+  const Verifier& verifier_;
+  Constraints constraints_;
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;
   AttemptRunner runner_;
   std::mutex ask_mutex_;  ///< one question at a time; threads work behind it
@@ -61,9 +59,8 @@ class Oracle final : public PathOracle {
   std::map<CastDigest, Final> finals_;
   std::map<const AttemptResult*, AskedAbout> asked_about_;
   std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
-  std::vector<FailedAttempt> failed_;
   std::map<std::string, double> planner_counts_;
-  std::atomic<std::uint64_t> planned_{0}, memoised_{0};
+  std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
   std::mutex planner_mutex_;                            ///< the factory need not be safe to call from several threads
   std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone
   std::unique_ptr<AttemptPool> pool_;                   ///< last: its threads use all of the above

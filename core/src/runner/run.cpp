@@ -11,6 +11,7 @@
 #include "dismantle/runner.h"
 #include "runner/assembler.h"
 #include "runner/oracle.h"
+#include "runner/precedence.h"
 #include "runner/step_ledger.h"
 #include "runner/stopwatch.h"
 
@@ -36,6 +37,8 @@ void check(const Assembly& assembly, const Ingredients& ingredients, const RunOp
   if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
   if (options.only_part.empty() && !ingredients.sequence_planner)
     throw std::invalid_argument("no sequence planner given");
+  if (options.only_part.empty() && !options.constraints.empty() && !ingredients.sequence_planner->keeps_constraints())
+    throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
 }
 
 PartId part_named(const Assembly& assembly, const std::string& name) {
@@ -193,9 +196,10 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     sequence = plan_sequence(assembly, *ingredients.sequence_planner, oracle, booking, own);
 
   result.outcome = sequence.outcome;
+  result.sequence_counts = sequence.counts;
   if (only_one) {
     ledger.set_unsolved(sequence.unsolved);
-  } else if (ledger.complete()) {
+  } else if (ledger.fulfilled()) {
     result.outcome = Outcome::solved;
   } else {
     if (is_success(sequence.outcome)) {
@@ -205,7 +209,9 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     }
     ledger.set_unsolved(reasons(sequence, ledger.left()));
   }
-  for (const auto& [a, b] : precedence_of(oracle.failed(), ledger.left_in_order(), assembly.parts.size()))
+  const auto needed = needed_steps(ledger.booked(), assembly.parts.size(), verifier, own);
+  ledger.set_needed(needed);
+  for (const auto& [a, b] : part_precedence(ledger.booked(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
   if (prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty()) {
     own.rng = Rng(options.seed).fork(kTransferStream);

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "runner/precedence.h"
+
 namespace dismantle {
 
 namespace {
@@ -37,6 +39,7 @@ StepLedger::StepLedger(const Assembly& assembly, const Oracle& oracle, const Run
     : assembly_(assembly),
       oracle_(oracle),
       planner_id_(std::move(planner_id)),
+      constraints_(options.constraints),
       plan_(empty_plan(assembly, options)),
       poses_(assembly.parts.size()),
       groups_(1) {
@@ -57,14 +60,14 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   const PathResult& result = removal.attempt->result;
   PlanStep step;
   step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
-  step.separates.emplace_back();
+  if (!removal.part_way) step.separates.emplace_back();
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const std::string& name = assembly_.parts[removal.parts[i]].name;
     PlanMove move{name, {}};
     move.poses.reserve(result.path.size());
     for (const auto& instant : result.path) move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
     step.moves.push_back(std::move(move));
-    step.separates.back().push_back(name);
+    if (!removal.part_way) step.separates.back().push_back(name);
   }
   step.max_penetration = removal.attempt->max_penetration;
   step.seconds = removal.attempt->seconds;
@@ -80,6 +83,7 @@ void StepLedger::book(const Removal& removal) {
   if (asked == nullptr || !is_success(removal.attempt->result.outcome))
     throw std::logic_error("a removal that is not a successful answer of the oracle");
   Attempt question;
+  question.part_way = removal.part_way;
   for (const PartId id : removal.parts) question.moving.push_back({id, poses_[id]});
   std::vector<PartId> rest;
   for (const PartId id : group)
@@ -89,6 +93,8 @@ void StepLedger::book(const Removal& removal) {
   if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->cast)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
+  check_constraints(removal, rest);
+
   PlanStep step = to_step(removal);
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));
   plan_.disassembly.push_back(std::move(step));
@@ -97,12 +103,49 @@ void StepLedger::book(const Removal& removal) {
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const PartId id = removal.parts[i];
     poses_[id] = removal.attempt->result.path.back()[i];
-    if (std::find(order_.begin(), order_.end(), id) == order_.end()) order_.push_back(id);
   }
-  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path});
-  group = std::move(rest);
-  groups_.push_back(removal.parts);
+  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path,
+                     removal.part_way});
+  if (!removal.part_way) group = std::move(rest);
+  groups_.push_back(removal.part_way ? std::vector<PartId>{} : removal.parts);
   refresh_status();
+}
+
+void StepLedger::check_constraints(const Removal& removal, const std::vector<PartId>& rest) const {
+  const auto holds = [](const std::vector<PartId>& parts, PartId id) {
+    return std::find(parts.begin(), parts.end(), id) != parts.end();
+  };
+  for (const PartId id : constraints_.base)
+    if (holds(removal.parts, id)) throw std::logic_error("a removal that moves a part of the base");
+  for (const auto& list : constraints_.together) {
+    const auto moves = [&](PartId id) { return holds(removal.parts, id); };
+    if (std::any_of(list.begin(), list.end(), moves) && !std::all_of(list.begin(), list.end(), moves))
+      throw std::logic_error("a removal that parts what is to stay together");
+  }
+  for (const auto& [a, b] : constraints_.before)
+    if (!removal.part_way && holds(removal.parts, b) && holds(rest, a))
+      throw std::logic_error("a removal before another that is to come first");
+}
+
+/// One part, or parts that lists of the constraints hold together.
+bool StepLedger::stays_together(const std::vector<PartId>& group) const {
+  if (group.size() <= 1) return true;
+  std::vector<PartId> reached{group.front()};
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    for (const auto& list : constraints_.together)
+      if (std::find(list.begin(), list.end(), reached[k]) != list.end())
+        for (const PartId id : list)
+          if (std::find(reached.begin(), reached.end(), id) == reached.end()) reached.push_back(id);
+  return std::all_of(group.begin(), group.end(),
+                     [&](PartId id) { return std::find(reached.begin(), reached.end(), id) != reached.end(); });
+}
+
+bool StepLedger::fulfilled() const {
+  for (const auto& group : groups_)
+    if (constraints_.target && stays_together(group) &&
+        std::find(group.begin(), group.end(), *constraints_.target) != group.end())
+      return true;
+  return std::all_of(groups_.begin(), groups_.end(), [&](const auto& group) { return stays_together(group); });
 }
 
 bool StepLedger::complete() const {
@@ -152,33 +195,13 @@ PlanStep reversed(const PlanStep& step) {
   return back;
 }
 
-std::vector<std::pair<PartId, PartId>> precedence_of(const std::vector<FailedAttempt>& failed,
-                                                     const std::vector<PartId>& left_in_order, std::size_t part_count) {
-  const std::size_t never = left_in_order.size();
-  std::vector<std::size_t> rank(part_count, never);
-  for (std::size_t i = 0; i < never; ++i) rank[left_in_order[i]] = i;
-  // before[b]: parts that had to go before b. Every pair goes up in rank, so there is no cycle.
-  std::vector<std::vector<bool>> before(part_count, std::vector<bool>(part_count, false));
-  for (const auto& attempt : failed)
-    for (const PartId b : attempt.moving)
-      for (const PartId a : attempt.blocked_by)
-        if (rank[a] < rank[b]) before[b][a] = true;
-
-  std::vector<PartId> by_rank(part_count);
-  for (std::size_t i = 0; i < part_count; ++i) by_rank[i] = static_cast<PartId>(i);
-  std::stable_sort(by_rank.begin(), by_rank.end(), [&](PartId a, PartId b) { return rank[a] < rank[b]; });
-  std::vector<std::vector<bool>> closure(part_count, std::vector<bool>(part_count, false));
-  std::vector<std::pair<PartId, PartId>> pairs;
-  for (const PartId b : by_rank) {
-    std::vector<bool> indirect(part_count, false);
-    for (std::size_t a = 0; a < part_count; ++a)
-      if (before[b][a])
-        for (std::size_t c = 0; c < part_count; ++c) indirect[c] = indirect[c] || closure[a][c];
-    for (const PartId a : by_rank)
-      if (before[b][a] && !indirect[a]) pairs.emplace_back(a, b);
-    for (std::size_t a = 0; a < part_count; ++a) closure[b][a] = before[b][a] || indirect[a];
+void StepLedger::set_needed(const std::vector<std::vector<std::size_t>>& needed) {
+  const std::vector<unsigned> layers = layers_of(needed);
+  for (std::size_t i = 0; i < plan_.disassembly.size(); ++i) {
+    plan_.disassembly[i].after.clear();
+    for (const std::size_t a : needed.at(i)) plan_.disassembly[i].after.push_back(static_cast<unsigned>(a) + 1);
+    plan_.disassembly[i].layer = layers.at(i);
   }
-  return pairs;
 }
 
 }  // namespace dismantle

@@ -11,11 +11,12 @@
 
 namespace dismantle {
 
-/// A step that was booked. Step i makes group i + 1; group 0 is what was never left.
+/// A step that was booked. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
 struct BookedStep {
   std::vector<PartId> parts;
   std::size_t from = 0;        ///< the group that they left
   const Path* path = nullptr;  ///< of the oracle's answer
+  bool part_way = false;       ///< the parts stay in `from`; no group is made
 };
 
 /// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
@@ -34,14 +35,18 @@ class StepLedger {
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
   bool complete() const;
-  /// Parts in the order in which they left, each at the first step that moved it.
-  const std::vector<PartId>& left_in_order() const { return order_; }
+  /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
+  bool fulfilled() const;
   /// Sets plan().unsolved.
   void set_unsolved(const std::vector<Unsolved>& unsolved);
+  /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
+  void set_needed(const std::vector<std::vector<std::size_t>>& needed);
   /// Sets plan().assembly_steps in place of the disassembly backwards.
   void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
  private:
+  void check_constraints(const Removal& removal, const std::vector<PartId>& rest) const;
+  bool stays_together(const std::vector<PartId>& group) const;
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
   PlanStep to_step(const Removal& removal) const;
   void refresh_status();
@@ -49,19 +54,14 @@ class StepLedger {
   const Assembly& assembly_;
   const Oracle& oracle_;
   std::string planner_id_;
+  Constraints constraints_;
   Plan plan_;
   std::vector<Pose> poses_;                  // by part id
-  std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left
-  std::vector<PartId> order_;
+  std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
   std::vector<BookedStep> booked_;
 };
 
 /// The disassembly step run backwards (Algorithm 3 from the disassembled poses).
 PlanStep reversed(const PlanStep& step);
-
-/// (a, b): a left before b, and a failed attempt to remove b, made while a was there, had touched a. Pairs that
-/// follow from others are left out. Ascending by the order of leaving of b, then of a.
-std::vector<std::pair<PartId, PartId>> precedence_of(const std::vector<FailedAttempt>& failed,
-                                                     const std::vector<PartId>& left_in_order, std::size_t part_count);
 
 }  // namespace dismantle

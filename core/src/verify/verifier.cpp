@@ -27,7 +27,8 @@ constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1
 constexpr double kWorthwhile = 1e-3;
 /// A rung is tried if the deepest point known takes no more than this share of it.
 constexpr double kRoom = 0.8;
-/// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
+/// Budgets per pair of solids, in sweep tests: for passes(), for a rung that need not hold, and for one that decides.
+constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
 constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
 
@@ -216,6 +217,29 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
   result.valid = true;
   result.max_penetration = impl_->rungs[rung];
   return result;
+}
+
+bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const {
+  Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
+  Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
+  if (!a.swept.overlaps(b.swept)) return true;
+  for (const Lock& lock : impl_->locks)
+    if (std::minmax(lock.inside, lock.other) == std::minmax(moving, still)) return false;
+  const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
+  for (const auto& x : impl_->bodies[moving].solids)
+    for (const auto& y : impl_->bodies[still].solids) {
+      const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
+      Aabb grown = x.box;
+      grown.inflate(limits.most());
+      const verify::RelativeMotion forward(poses_a, poses_b, grown);
+      if (!forward.swept_box().overlaps(y.box)) continue;
+      grown = y.box;
+      grown.inflate(limits.most());
+      const verify::RelativeMotion backward(poses_b, poses_a, grown);
+      verify::Budget budget{kQuickTests, kQuickPatches, 0};
+      if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
+    }
+  return true;
 }
 
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {

@@ -88,6 +88,11 @@ class FakeOracle final : public PathOracle {
     return results_.back();
   }
   void prefetch(std::span<const Attempt> attempts, RunContext&) override { hinted += attempts.size(); }
+  const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
+    results_.emplace_back();
+    results_.back().result.outcome = Outcome::exhausted;
+    return results_.back();
+  }
   OracleCounts counts() const override { return counts_; }
 
   std::vector<std::pair<PartId, unsigned>> asked;

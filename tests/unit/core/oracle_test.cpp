@@ -466,5 +466,30 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
   EXPECT_TRUE(r.result.best_pose.empty());
 }
 
+TEST(Oracle, JudgesWaysThatItIsShown) {
+  Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
+  const auto up = [](const Attempt& a, double way) {
+    return fake::straight({a.moving, a.still}, Eigen::Vector3d(0, 0, way));
+  };
+  const Attempt top = leave(s.assembly, 2), low = leave(s.assembly, 1);
+  const AttemptResult& out = s.oracle->propose(top, up(top, 3), s.context);
+  EXPECT_EQ(out.result.outcome, Outcome::solved);
+  EXPECT_EQ(out.result.path.back()[0].t, Eigen::Vector3d(0, 0, 3));
+  const AttemptResult& blocked = s.oracle->propose(low, up(low, 3), s.context);
+  EXPECT_EQ(blocked.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(blocked.result.blocked_by, std::vector<PartId>{2});
+  EXPECT_FALSE(blocked.result.message.empty());
+  Attempt part_way = top;
+  EXPECT_EQ(s.oracle->propose(top, up(top, 0.5), s.context).result.outcome, Outcome::exhausted) << "not out";
+  part_way.part_way = true;
+  EXPECT_EQ(s.oracle->propose(part_way, up(top, 0.5), s.context).result.outcome, Outcome::solved);
+  Path elsewhere = up(top, 3);
+  elsewhere[0][0].t.x() += 0.1;
+  EXPECT_THROW(s.oracle->propose(top, elsewhere, s.context), std::invalid_argument);
+  EXPECT_EQ(s.oracle->counts().proposed, 4u);
+  EXPECT_EQ(s.oracle->counts().refused, 2u);
+  EXPECT_EQ(s.oracle->counts().attempts, 0u);
+}
+
 }  // namespace
 }  // namespace dismantle

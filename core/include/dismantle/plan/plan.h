@@ -32,6 +32,10 @@ struct PlanStep {
   /// Assembly steps: index of the pose at which the way from the layout ends and the disassembly path backwards begins.
   /// 0 = there is no such way, the step begins where the disassembly ended.
   std::size_t transfer = 0;
+  /// Disassembly steps: those that this one needs to have been done, by number, without those that follow from others.
+  std::vector<unsigned> after;
+  /// Disassembly steps: 1 + the largest layer of `after`, or 1. Steps of one layer need not wait for each other.
+  unsigned layer = 0;
 };
 
 struct PlanUnsolved {
@@ -55,9 +59,9 @@ struct PlanOverlap {
 
 struct PlanAssembly {
   std::string source, sha256;
-  double scale = 1;  ///< assembly units per input unit
+  double scale = 1;                                  ///< assembly units per input unit
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
-  Aabb box;          ///< input units
+  Aabb box;                                          ///< input units
   SurfaceRepair repair;
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason

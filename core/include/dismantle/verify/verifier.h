@@ -21,8 +21,8 @@ struct VerifyOptions {
 struct Violation {
   PartId part = 0, other = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of `part`, its assembled frame
-  double depth = 0;       ///< measured depth at `point` in `other`; beyond what the law allows there unless `uncertain`
-  double allowed = 0;     ///< initial overlap of the pair
+  double depth = 0;    ///< measured depth at `point` in `other`; beyond what the law allows there unless `uncertain`
+  double allowed = 0;  ///< initial overlap of the pair
   std::size_t segment = 0;  ///< path segment (between instants segment and segment + 1)
   double u = 0;             ///< place in the segment, [0, 1]
   bool uncertain = false;   ///< could not be certified at the resolution limit, but no point beyond was found
@@ -32,12 +32,12 @@ struct MotionCheck {
   bool valid = false;
   double max_penetration = 0;  ///< valid: certified upper bound above the initial overlap (a rung of a fixed ladder)
   std::optional<Violation> violation;
-  std::uint64_t tests = 0;     ///< elementary sweep tests done
+  std::uint64_t tests = 0;  ///< elementary sweep tests done
 };
 
 /// Two parts that overlap when assembled in such a way that no motion within the limits can part them: a point lies in
-/// both, deeper below the surface of `inside` than the pair may penetrate. When they are apart it is outside `other`, so on
-/// any way there it passes through the surface of `other`, which then is as deep in `inside`.
+/// both, deeper below the surface of `inside` than the pair may penetrate. When they are apart it is outside `other`,
+/// so on any way there it passes through the surface of `other`, which then is as deep in `inside`.
 struct Lock {
   PartId inside = 0, other = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled
@@ -75,6 +75,9 @@ class DISMANTLE_API Verifier {
   /// relative to each other are not looked at.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                            const Path& path) const;
+  /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
+  /// means refused, or not proved with a small share of the effort.
+  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;

@@ -1,0 +1,37 @@
+#include "blocking/blocking.h"
+
+#include "blocking/taking_apart.h"
+
+namespace dismantle {
+
+void BlockingParams::describe(Schema<BlockingParams>& schema) {
+  schema.add_choice("order", &BlockingParams::order,
+                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+                     {"large_first", PartOrder::large_first, "descending volume"}},
+                    "Order in which parts are taken when several are free.");
+  schema.add(
+      "straight", &BlockingParams::straight,
+      {.doc = "Take parts out along straight lines wherever the judge finds nothing in the way. Off: every way is "
+              "searched for by the path planner."});
+  schema.add("groups", &BlockingParams::groups,
+             {.doc = "When no single part is free, take out the smallest group that is, and take it apart by itself."});
+  schema.add("slide_states", &BlockingParams::slide_states,
+             {.unit = "1",
+              .min = 0,
+              .max = 1e8,
+              .doc = "When neither parts nor groups are free: largest number of states in the search for slides that "
+                     "leave parts part-way (puzzles). 0 = no such search."});
+  schema.add("max_depth", &BlockingParams::max_depth,
+             {.unit = "1",
+              .min = 1,
+              .max = 1e6,
+              .doc = "Largest depth of the path searches. They go one action deeper whenever no part left."});
+}
+
+SequenceResult Blocking::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                              RunContext& context) {
+  return blocking::TakingApart(params_, assembly, oracle, observer, context).run();
+}
+
+}  // namespace dismantle

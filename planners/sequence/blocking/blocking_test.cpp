@@ -1,0 +1,191 @@
+// The planner on boxes whose truth is plain, with a path planner that never finds anything.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "blocking/blocking.h"
+#include "dismantle/plan/check_plan.h"
+#include "fake_planning.h"
+#include "one_by_one/fake_oracle.h"
+
+namespace dismantle {
+namespace {
+
+PathResult helpless(const PathQuery&, RunContext&) { return fake::outcome(Outcome::exhausted); }
+
+RunResult take_apart(const Assembly& assembly, unsigned threads = 1, RunOptions options = {}) {
+  RunContext context;
+  context.threads = threads;
+  RunResult r =
+      run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(BlockingParams{})), options, context);
+  const PlanCheck check = check_plan(r.plan, assembly, options.verify, context);
+  EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
+  return r;
+}
+
+/// A drawer in a shaft below a bar, which is captive in a guide with room to slide off the shaft by 2.
+Assembly barred_shaft() {
+  return fake::assembly_of({{"frame",
+                             {{{-3, -2, -1}, {6, 2, 0}},
+                              {{-3, -2, 0}, {-1, 2, 2}},
+                              {{1, -2, 0}, {6, 2, 1}},
+                              {{-1, -2, 0}, {1, -1, 1}},
+                              {{-1, 1, 0}, {1, 2, 1}},
+                              {{-1, -2, 1}, {6, -1, 2}},
+                              {{-1, 1, 1}, {6, 2, 2}},
+                              {{5, -1, 1}, {6, 1, 2}},
+                              {{-3, -2, 2}, {-1, 2, 3}},
+                              {{1, -2, 2}, {6, 2, 3}},
+                              {{-1, -2, 2}, {1, -1, 3}},
+                              {{-1, 1, 2}, {1, 2, 3}}}},
+                            {"bar", {{{-0.9, -0.9, 1.1}, {2.9, 0.9, 1.9}}}},
+                            {"drawer", {{{-0.9, -0.9, 0.1}, {0.9, 0.9, 0.9}}}}});
+}
+
+/// Two combs that hold each other, in a tube that is open at the top: only together do they come out of it.
+Assembly combs_in_tube() {
+  const auto hook = [](double s) {  // a stem, and two teeth, each between two of the other's
+    std::vector<fake::Box> boxes{{{0.5, -0.9, 0.1}, {0.9, 0.9, 3.9}},
+                                 {{-0.4, -0.9, s > 0 ? 0.1 : 1.1}, {0.5, 0.9, s > 0 ? 0.9 : 1.9}},
+                                 {{-0.4, -0.9, s > 0 ? 2.1 : 3.1}, {0.5, 0.9, s > 0 ? 2.9 : 3.9}}};
+    for (auto& b : boxes)
+      if (s < 0) {
+        const Eigen::Vector3d lo(-b.hi.x(), b.lo.y(), b.lo.z()), hi(-b.lo.x(), b.hi.y(), b.hi.z());
+        b = {lo, hi};
+      }
+    return boxes;
+  };
+  return fake::assembly_of({{"tube",
+                             {{{-2, -2, -1}, {2, 2, 0}},
+                              {{-2, -2, 0}, {-1, 2, 4}},
+                              {{1, -2, 0}, {2, 2, 4}},
+                              {{-1, -2, 0}, {1, -1, 4}},
+                              {{-1, 1, 0}, {1, 2, 4}}}},
+                            {"left", hook(-1)},
+                            {"right", hook(1)}});
+}
+
+TEST(Blocking, OneProposalPerPartWhereAllLeaveStraight) {
+  for (const unsigned n : {1U, 3U, 8U}) {
+    const RunResult r = take_apart(fake::tube_with_blocks(n));
+    EXPECT_EQ(r.outcome, Outcome::solved);
+    EXPECT_EQ(r.counts.attempts, 0u);
+    EXPECT_EQ(r.counts.proposed, n);
+    EXPECT_EQ(r.counts.refused, 0u);
+    for (unsigned k = 0; k < n; ++k)
+      EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - k));
+  }
+}
+
+TEST(Blocking, StepsThatNeedNotWaitShareALayer) {
+  const RunResult row = take_apart(fake::row(6));
+  ASSERT_EQ(row.plan.disassembly.size(), 5u);
+  for (const PlanStep& step : row.plan.disassembly) EXPECT_EQ(step.layer, 1u);
+  const RunResult tube = take_apart(fake::tube_with_blocks(4));
+  ASSERT_EQ(tube.plan.disassembly.size(), 4u);
+  for (const PlanStep& step : tube.plan.disassembly) {
+    EXPECT_EQ(step.layer, step.step);
+    EXPECT_EQ(step.after, step.step == 1 ? std::vector<unsigned>{} : std::vector<unsigned>{step.step - 1});
+  }
+}
+
+TEST(Blocking, SaysWhatNeverComesOut) {
+  const RunResult r = take_apart(fake::closed_box());
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_TRUE(r.plan.disassembly.empty());
+  ASSERT_EQ(r.plan.unsolved.size(), 2u);
+  for (const auto& u : r.plan.unsolved) EXPECT_FALSE(u.message.empty());
+}
+
+TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
+  const RunResult r = take_apart(barred_shaft());
+  ASSERT_EQ(r.plan.disassembly.size(), 2u);
+  EXPECT_TRUE(r.plan.disassembly[0].separates.empty());
+  EXPECT_EQ(r.plan.disassembly[0].moves[0].part, "bar");
+  EXPECT_EQ(r.plan.disassembly[1].separates[0][0], "drawer");
+  EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
+  EXPECT_EQ(r.plan.status, PlanStatus::partial) << "the bar never leaves";
+  BlockingParams no_slides;
+  no_slides.slide_states = 0;
+  RunContext context;
+  const RunResult without = run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)),
+                                RunOptions{}, context);
+  EXPECT_TRUE(without.plan.disassembly.empty());
+}
+
+TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
+  RunOptions options;
+  options.constraints.base = {0};  // else it is the tube that leaves the two
+  const RunResult r = take_apart(combs_in_tube(), 1, options);
+  EXPECT_EQ(r.outcome, Outcome::solved);
+  ASSERT_GE(r.plan.disassembly.size(), 2u);
+  EXPECT_EQ(r.plan.disassembly[0].separates[0].size(), 2u);
+  EXPECT_EQ(r.plan.disassembly.back().separates[0].size(), 1u);
+}
+
+TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
+  for (const Assembly& assembly : {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube()}) {
+    std::set<std::string> plans;
+    std::set<double> shifts;
+    for (const unsigned threads : {1U, 2U, 3U}) {
+      RunResult r = take_apart(assembly, threads);
+      for (auto* steps : {&r.plan.disassembly, &r.plan.assembly_steps})
+        for (PlanStep& step : *steps) step.seconds = 0;
+      plans.insert(to_json(r.plan));
+    }
+    EXPECT_EQ(plans.size(), 1u);
+  }
+}
+
+TEST(Blocking, KeepsTheConstraints) {
+  RunOptions options;
+  options.constraints.base = {0};
+  options.constraints.target = 4;  // of six blocks: those above it have to go, and no others
+  const RunResult target = take_apart(fake::tube_with_blocks(6), 1, options);
+  std::string steps;
+  for (const auto& step : target.plan.disassembly)
+    for (const auto& name : step.separates[0]) steps += name + " ";
+  ASSERT_EQ(steps, "block6 block5 block4 ");
+  EXPECT_EQ(target.plan.disassembly.back().separates[0][0], "block4");
+  EXPECT_EQ(target.outcome, Outcome::solved);
+
+  options.constraints = {};
+  options.constraints.before = {{5, 0}, {0, 3}};
+  const RunResult ordered = take_apart(fake::row(6), 1, options);
+  std::vector<std::string> order;
+  for (const auto& step : ordered.plan.disassembly) order.push_back(step.separates[0][0]);
+  const auto at = [&](const char* name) { return std::find(order.begin(), order.end(), name) - order.begin(); };
+  EXPECT_LT(at("block5"), at("block0"));
+  EXPECT_LT(at("block0"), at("block3"));
+
+  options.constraints = {};
+  options.constraints.together = {{1, 2}, {2, 3}};
+  options.constraints.base = {0};
+  const RunResult kept = take_apart(fake::row(6), 1, options);
+  EXPECT_EQ(kept.outcome, Outcome::solved);
+  for (const auto& step : kept.plan.disassembly)
+    for (const auto& group : step.separates) {
+      const std::set<std::string> names(group.begin(), group.end());
+      EXPECT_FALSE(names.contains("block0"));
+      EXPECT_EQ(names.contains("block1"), names.contains("block2"));
+      EXPECT_EQ(names.contains("block1"), names.contains("block3"));
+    }
+}
+
+TEST(Blocking, DoesNotRepeatSearchesWhileTheirBlockersStand) {
+  // Without geometry all ways are searched for. A chain against the order of trying: whoever is blocked by one that is
+  // still there is not asked again at the same depth.
+  FakeMachine machine(12);
+  for (PartId k = 0; k + 1 < 12; ++k) machine.before[k] = {k + 1};
+  BlockingParams params;
+  params.order = PartOrder::as_given;
+  Blocking planner(params);
+  const FakeRun run = run_on(planner, machine, seeded(1));
+  expect_lawful(run, machine);
+  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_LE(run.asked.size(), 2 * machine.size()) << "once in vain, once when the blocker has left";
+  EXPECT_GT(run.result.counts.at("postponed"), 0);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,124 @@
+#include "blocking/directions.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kSame = 1 - 1e-6;      // cosine; 0.08 degrees
+constexpr std::size_t kOwnAxes = 5;     // flat faces of a part that count
+constexpr std::size_t kCommonAxes = 6;  // of the assembly, tried for every part
+constexpr double kLeastFlat = 0.02;     // share of a part's surface that a flat face needs
+
+struct Weighted {
+  Vec3 axis;
+  double area = 0;
+};
+
+/// +1 or -1: makes the first coefficient that is not all but zero positive.
+Vec3 with_sign(const Vec3& v) {
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(v[k]) > 1e-9) return v[k] < 0 ? Vec3(-v) : v;
+  return v;
+}
+
+void add(std::vector<Weighted>& list, const Vec3& axis, double area) {
+  for (auto& known : list)
+    if (std::abs(known.axis.dot(axis)) > kSame) {
+      known.area += area;
+      return;
+    }
+  list.push_back({axis, area});
+}
+
+void sort(std::vector<Weighted>& list) {
+  std::stable_sort(list.begin(), list.end(), [](const Weighted& a, const Weighted& b) { return a.area > b.area; });
+}
+
+std::vector<Weighted> weighted_axes(const Mesh& mesh, std::size_t most) {
+  // Normals are binned first: round surfaces have thousands.
+  std::map<std::array<long, 3>, Weighted> bins;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  double total = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 cross = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+    const double area = 0.5 * cross.norm();
+    if (!(area > 0)) continue;
+    const Vec3 n = with_sign(cross.normalized());
+    total += area;
+    spread += area * n * n.transpose();
+    auto& bin = bins[{std::lround(n.x() * 2000), std::lround(n.y() * 2000), std::lround(n.z() * 2000)}];
+    bin.axis += area * n;
+    bin.area += area;
+  }
+  std::vector<Weighted> sorted;
+  for (auto& [key, bin] : bins) sorted.push_back({bin.axis.normalized(), bin.area});
+  sort(sorted);
+  if (sorted.size() > 64) sorted.resize(64);
+  std::vector<Weighted> axes;
+  for (const auto& w : sorted) add(axes, w.axis, w.area);
+  sort(axes);
+  std::erase_if(axes, [&](const Weighted& w) { return w.area < kLeastFlat * total; });
+  if (axes.size() > most) axes.resize(most);
+  if (total > 0) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+    add(axes, with_sign(solver.eigenvectors().col(0)), 0.01 * total);
+  }
+  return axes;
+}
+
+}  // namespace
+
+std::vector<Vec3> axes_of(const Mesh& mesh, std::size_t most) {
+  std::vector<Vec3> axes;
+  for (const auto& w : weighted_axes(mesh, most)) axes.push_back(w.axis);
+  return axes;
+}
+
+Directions directions_of(const Assembly& assembly) {
+  std::vector<Weighted> all;  // in the order in which they are first met: indices stay
+  for (int k = 0; k < 3; ++k) all.push_back({Vec3::Unit(k), 0});
+  std::vector<std::vector<std::size_t>> own(assembly.parts.size());
+  std::map<const Mesh*, std::vector<Weighted>> known;  // copies of a part may share their mesh
+  for (const auto& part : assembly.parts) {
+    auto [entry, is_new] = known.try_emplace(part.mesh.get());
+    if (is_new) entry->second = weighted_axes(*part.mesh, kOwnAxes);
+    for (const auto& w : entry->second) {
+      add(all, w.axis, w.area);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        if (std::abs(all[k].axis.dot(w.axis)) > kSame) own[part.id].push_back(k);
+    }
+  }
+  std::vector<std::size_t> by_area(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) by_area[k] = k;
+  std::stable_sort(by_area.begin(), by_area.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
+  if (by_area.size() > kCommonAxes) by_area.resize(kCommonAxes);
+
+  Directions result;
+  for (const auto& w : all) {
+    result.all.push_back(w.axis);
+    result.all.push_back(-w.axis);
+  }
+  const auto both = [](std::vector<std::size_t>& list, std::size_t axis) {
+    list.push_back(2 * axis);
+    list.push_back(2 * axis + 1);
+  };
+  for (const std::size_t axis : by_area) both(result.common, axis);
+  for (auto& axes : own) {
+    for (std::size_t k = 0; k < 3; ++k) axes.push_back(k);
+    axes.insert(axes.end(), by_area.begin(), by_area.end());
+    std::sort(axes.begin(), axes.end());
+    axes.erase(std::unique(axes.begin(), axes.end()), axes.end());
+    result.of_part.emplace_back();
+    for (const std::size_t axis : axes) both(result.of_part.back(), axis);
+  }
+  return result;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,138 @@
+// Laws of the parts that the planner is made of: graphs, ways until contact, directions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "blocking/directions.h"
+#include "blocking/graph.h"
+#include "blocking/polyhedron.h"
+#include "fake_planning.h"
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+std::vector<std::vector<bool>> reach(const std::vector<std::vector<std::size_t>>& edges) {
+  const std::size_t n = edges.size();
+  std::vector<std::vector<bool>> r(n, std::vector<bool>(n, false));
+  for (std::size_t i = 0; i < n; ++i) {
+    r[i][i] = true;
+    for (const std::size_t j : edges[i]) r[i][j] = true;
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) r[i][j] = r[i][j] || (r[i][k] && r[k][j]);
+  return r;
+}
+
+TEST(BlockingGraph, ComponentsAreThoseThatReachEachOther) {
+  Rng rng(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::size_t n = 1 + rng.below(12);
+    const double density = rng.uniform(0, 0.4);
+    std::vector<std::vector<std::size_t>> edges(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (i != j && rng.uniform() < density) edges[i].push_back(j);
+    const auto reached = reach(edges);
+    std::vector<std::size_t> component(n, n);
+    const auto components = strong_components(edges);
+    for (std::size_t c = 0; c < components.size(); ++c)
+      for (const std::size_t i : components[c]) {
+        EXPECT_EQ(component[i], n);
+        component[i] = c;
+      }
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        EXPECT_EQ(component[i] == component[j], reached[i][j] && reached[j][i]);
+        if (reached[i][j]) {
+          EXPECT_LE(component[j], component[i]);
+        }
+      }
+    for (const auto& group : free_groups(edges)) {
+      EXPECT_LT(group.size(), n);
+      for (std::size_t j = 0; j < n; ++j) {
+        const bool member = std::binary_search(group.begin(), group.end(), j);
+        EXPECT_EQ(member, reached[group[0]][j]) << "all that it would run into, and nobody else";
+      }
+    }
+  }
+}
+
+/// The same for boxes, one axis at a time.
+double way_of_boxes(const fake::Box& a, const fake::Box& b, const Vec3& offset, const Vec3& d) {
+  double in = -std::numeric_limits<double>::infinity(), out = -in;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = b.lo[k] - a.hi[k] - offset[k], hi = b.hi[k] - a.lo[k] - offset[k];
+    if (d[k] == 0) {
+      if (lo >= 0 || hi <= 0) return std::numeric_limits<double>::infinity();
+    } else {
+      in = std::max(in, std::min(lo / d[k], hi / d[k]));
+      out = std::min(out, std::max(lo / d[k], hi / d[k]));
+    }
+  }
+  return in < out && in >= 0 ? in : std::numeric_limits<double>::infinity();
+}
+
+TEST(Polyhedron, WayUntilContactIsThatOfBoxes) {
+  Rng rng(6);
+  const auto random_box = [&] {
+    const Vec3 lo(std::round(rng.uniform(-3, 3)), std::round(rng.uniform(-3, 3)), std::round(rng.uniform(-3, 3)));
+    return fake::Box{lo, lo + Vec3(1 + std::round(rng.uniform(0, 2)), 1 + std::round(rng.uniform(0, 2)), 1)};
+  };
+  int met = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const fake::Box a = random_box(), b = random_box();
+    Vec3 offset = Vec3::Zero();
+    if (trial % 2 == 0) offset = {rng.uniform(-4, 4), rng.uniform(-4, 4), rng.uniform(-4, 4)};
+    const bool apart = (a.lo + offset - b.hi).maxCoeff() >= 0 || (b.lo - a.hi - offset).maxCoeff() >= 0;
+    if (!apart) continue;
+    Vec3 d = Vec3::Unit(static_cast<int>(rng.below(3))) * (rng.below(2) == 0 ? 1.0 : -1.0);
+    if (trial % 3 == 0) d = Vec3(rng.normal(), rng.normal(), rng.normal()).normalized();
+    const double inset = 0.003, tolerance = 0.001;
+    const Polyhedron p(fake::boxes({a}), inset), q(fake::boxes({b}), inset);
+    ASSERT_EQ(p.edges().size(), 12u);
+    ASSERT_EQ(p.faces().size(), 6u);
+    const double got = way_until_contact(p, q, offset, d, tolerance);
+    const auto shrunk = [&](const fake::Box& box, double by) {
+      return fake::Box{box.lo + Vec3::Constant(by), box.hi - Vec3::Constant(by)};
+    };
+    // Between the ways of boxes a little smaller and of boxes as large.
+    const double late = way_of_boxes(shrunk(a, inset), shrunk(b, inset), offset, d);
+    const double early = way_of_boxes(shrunk(a, inset - tolerance), shrunk(b, inset - tolerance), offset, d);
+    EXPECT_LE(got, late + 1e-9);
+    EXPECT_GE(got, early - 2 * tolerance / std::max(1e-3, d.cwiseAbs().minCoeff()) - 1e-9);
+    met += std::isfinite(late) ? 1 : 0;
+  }
+  EXPECT_GT(met, 100);
+}
+
+TEST(Polyhedron, SubdividedFacesAreOneFace) {
+  const Polyhedron two(fake::boxes({{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}}), 0.01);
+  EXPECT_EQ(two.faces().size(), 12u);
+  EXPECT_EQ(two.edges().size(), 24u);
+  EXPECT_NEAR(two.box().lo.x(), 0.01, 1e-12);
+  EXPECT_NEAR(two.box().hi.x(), 2.99, 1e-12);
+}
+
+TEST(Directions, ComeInOppositePairsAndHoldTheNormalsOfFlatFaces) {
+  const Assembly assembly = fake::tube_with_blocks(3);
+  const Directions directions = directions_of(assembly);
+  for (std::size_t d = 0; d < directions.all.size(); ++d) {
+    EXPECT_NEAR(directions.all[d].norm(), 1, 1e-12);
+    EXPECT_EQ(directions.all[Directions::opposite(d)], -directions.all[d]);
+    for (std::size_t e = 0; e < d; ++e) EXPECT_LT(directions.all[d].dot(directions.all[e]), 1 - 1e-7);
+  }
+  for (const auto& list : directions.of_part)
+    for (int k = 0; k < 3; ++k)
+      for (const double sign : {1.0, -1.0})
+        EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](std::size_t d) {
+          return directions.all[d].dot(sign * Vec3::Unit(k)) > 1 - 1e-9;
+        }));
+}
+
+}  // namespace
+}  // namespace dismantle::blocking

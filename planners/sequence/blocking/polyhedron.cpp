@@ -1,0 +1,222 @@
+#include "blocking/polyhedron.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kFlat = 1 - 1e-9;  // cosine between normals of one plane
+constexpr double kPlane = 1e-6;     // distance between planes that are one
+constexpr double kGlance = 1e-9;    // cosine below which a face is parallel to the way
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Adjacent {
+  std::uint32_t face;
+  Vec3 from, to;
+};
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// Displacement of a corner that moves all its planes inwards by `inset`, or nearly so where there are more than three.
+Vec3 inward(const std::vector<Vec3>& normals, double inset) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(normals.size()), 3);
+  for (std::size_t k = 0; k < normals.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = normals[k].transpose();
+  Vec3 move = rows.completeOrthogonalDecomposition().solve(
+      Eigen::VectorXd::Constant(static_cast<Eigen::Index>(normals.size()), -inset));
+  if (!(move.norm() < 4 * inset)) move = 4 * inset * move.normalized();
+  return move;
+}
+
+double cross2(double ax, double ay, double bx, double by) { return ax * by - ay * bx; }
+
+/// Is p, a point of the face's plane, in the face or no further than `tolerance` from its boundary?
+bool in_face(const Polyhedron& body, const Polyhedron::Face& face, const Vec3& p, double tolerance) {
+  int axis = 0;
+  face.normal.cwiseAbs().maxCoeff(&axis);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  bool inside = false;
+  for (const std::size_t e : face.edges) {
+    const auto& [a, b] = body.edges()[e];
+    const Vec3 ab = b - a, ap = p - a;
+    const double s = std::clamp(ap.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+    if ((ap - s * ab).squaredNorm() <= tolerance * tolerance) return true;
+    if ((a[v] > p[v]) != (b[v] > p[v]) && p[u] < a[u] + (p[v] - a[v]) * ab[u] / ab[v]) inside = !inside;
+  }
+  return inside;
+}
+
+/// First time at which a corner, going along d, meets a face of `target` from outside.
+void corners_to_faces(const std::vector<Vec3>& corners, const Vec3& offset, const Vec3& d, const Polyhedron& target,
+                      double tolerance, double& best) {
+  for (const auto& face : target.faces()) {
+    const double rate = face.normal.dot(d);
+    if (rate > -kGlance) continue;
+    for (const Vec3& c : corners) {
+      const Vec3 p = c + offset;
+      const double t = (face.offset - face.normal.dot(p)) / rate;
+      if (t < 0 || t >= best) continue;
+      if (in_face(target, face, p + t * d, tolerance)) best = t;
+    }
+  }
+}
+
+void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d, double tolerance,
+                    double& best) {
+  // Seen along d, the edges cross in two dimensions; the depths there tell when.
+  const Vec3 u = d.unitOrthogonal(), v = d.cross(u);
+  struct Flat {
+    double x, y, z, dx, dy, dz, length;
+  };
+  const auto flatten = [&](const Polyhedron& body, const Vec3& by) {
+    std::vector<Flat> out;
+    out.reserve(body.edges().size());
+    for (const auto& e : body.edges()) {
+      const Vec3 p = e.a + by, w = e.b - e.a;
+      const double dx = w.dot(u), dy = w.dot(v);
+      const double length = std::hypot(dx, dy);
+      if (length > 1e-9) out.push_back({p.dot(u), p.dot(v), p.dot(d), dx, dy, w.dot(d), length});
+    }
+    return out;
+  };
+  const std::vector<Flat> ours = flatten(a, offset), theirs = flatten(b, Vec3::Zero());
+  for (const Flat& e : ours) {
+    const double ex0 = std::min(e.x, e.x + e.dx) - tolerance, ex1 = std::max(e.x, e.x + e.dx) + tolerance;
+    const double ey0 = std::min(e.y, e.y + e.dy) - tolerance, ey1 = std::max(e.y, e.y + e.dy) + tolerance;
+    for (const Flat& f : theirs) {
+      if (std::min(f.x, f.x + f.dx) > ex1 || std::max(f.x, f.x + f.dx) < ex0 || std::min(f.y, f.y + f.dy) > ey1 ||
+          std::max(f.y, f.y + f.dy) < ey0)
+        continue;
+      const double det = cross2(e.dx, e.dy, f.dx, f.dy);
+      if (std::abs(det) < 1e-9 * e.length * f.length) continue;  // parallel: corners and faces see them
+      const double s = cross2(f.x - e.x, f.y - e.y, f.dx, f.dy) / det;
+      const double q = cross2(f.x - e.x, f.y - e.y, e.dx, e.dy) / det;
+      if (s < -tolerance / e.length || s > 1 + tolerance / e.length || q < -tolerance / f.length ||
+          q > 1 + tolerance / f.length)
+        continue;
+      const double t = (f.z + q * f.dz) - (e.z + s * e.dz);
+      if (t >= 0 && t < best) best = t;
+    }
+  }
+}
+
+}  // namespace
+
+Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::vector<Vec3> normals(count);
+  std::vector<std::uint32_t> parent(count);
+  std::iota(parent.begin(), parent.end(), 0U);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    normals[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).normalized();
+    for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
+  }
+  const auto neighbour = [&](std::uint32_t from, std::uint32_t to) {
+    const auto found = by_edge.find({to, from});
+    return found == by_edge.end() ? count : found->second;
+  };
+  for (std::uint32_t t = 0; t < count; ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t n = neighbour(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      if (n == count || normals[t].dot(normals[n]) < kFlat) continue;
+      if (std::abs(normals[t].dot(mesh.vertex(n, 0) - mesh.vertex(t, 0))) > kPlane ||
+          std::abs(normals[t].dot(mesh.vertex(n, 1) - mesh.vertex(t, 0))) > kPlane)
+        continue;
+      parent[root_of(parent, t)] = root_of(parent, n);
+    }
+
+  // Corners, moved inwards by the planes that meet there.
+  std::vector<std::vector<Vec3>> planes(mesh.vertices.size());
+  for (std::uint32_t t = 0; t < count; ++t)
+    for (const std::uint32_t v : mesh.triangles[t])
+      if (std::none_of(planes[v].begin(), planes[v].end(), [&](const Vec3& n) { return n.dot(normals[t]) > kFlat; }))
+        planes[v].push_back(normals[t]);
+  std::vector<Vec3> moved = mesh.vertices;
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    if (!planes[v].empty()) moved[v] += inward(planes[v], inset);
+
+  // Edges between faces. Those of two faces on one line that meet end to end are one.
+  struct Piece {
+    std::uint32_t from, to;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Piece>> between;
+  for (const auto& [ends, t] : by_edge) {
+    const std::uint32_t n = neighbour(ends.first, ends.second);
+    if (n == count || ends.first > ends.second) continue;
+    const std::uint32_t f = root_of(parent, t), g = root_of(parent, n);
+    if (f != g) between[std::minmax(f, g)].push_back({ends.first, ends.second});
+  }
+  std::map<std::uint32_t, std::size_t> index;
+  const auto face_at = [&](std::uint32_t root) -> Face& {
+    const auto [entry, is_new] = index.try_emplace(root, faces_.size());
+    if (is_new) {
+      faces_.emplace_back();
+      faces_.back().normal = normals[root];
+      faces_.back().offset = normals[root].dot(mesh.vertex(root, 0)) - inset;
+    }
+    return faces_[entry->second];
+  };
+  std::vector<bool> is_corner(moved.size(), false);
+  for (auto& [pair, pieces] : between) {
+    const Vec3 along = (mesh.vertices[pieces[0].to] - mesh.vertices[pieces[0].from]).normalized();
+    const auto at = [&](std::uint32_t v) { return along.dot(mesh.vertices[v]); };
+    for (auto& p : pieces)
+      if (at(p.from) > at(p.to)) std::swap(p.from, p.to);
+    std::sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) { return at(a.from) < at(b.from); });
+    std::vector<Piece> merged;
+    for (const Piece& p : pieces) {
+      const bool goes_on = !merged.empty() && merged.back().to == p.from &&
+                           (mesh.vertices[p.to] - mesh.vertices[p.from]).normalized().dot(along) > kFlat &&
+                           planes[p.from].size() <= 2;
+      if (goes_on)
+        merged.back().to = p.to;
+      else
+        merged.push_back(p);
+    }
+    for (const Piece& p : merged) {
+      is_corner[p.from] = is_corner[p.to] = true;
+      const std::size_t e = edges_.size();
+      edges_.push_back({moved[p.from], moved[p.to]});
+      face_at(pair.first).edges.push_back(e);
+      face_at(pair.second).edges.push_back(e);
+    }
+  }
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    if (is_corner[v]) corners_.push_back(moved[v]);
+  for (const Vec3& c : corners_) box_.extend(c);
+}
+
+double way_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d,
+                         double tolerance) {
+  // By boxes first, across each axis that the way has no part in.
+  double past = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    const double lo = a.box().lo[k] + offset[k], hi = a.box().hi[k] + offset[k];
+    if (d[k] > kGlance)
+      past = std::min(past, (b.box().hi[k] + tolerance - lo) / d[k]);
+    else if (d[k] < -kGlance)
+      past = std::min(past, (b.box().lo[k] - tolerance - hi) / d[k]);
+    else if (lo > b.box().hi[k] + tolerance || hi < b.box().lo[k] - tolerance)
+      return kInfinity;
+  }
+  if (past < 0) return kInfinity;
+  double best = kInfinity;
+  corners_to_faces(a.corners(), offset, d, b, tolerance, best);
+  corners_to_faces(b.corners(), -offset, -d, a, tolerance, best);
+  edges_to_edges(a, b, offset, d, tolerance, best);
+  return best;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,64 @@
+/// Who is in whose way: part j blocks part i along direction d if i, moved in a straight line along d until it is past
+/// j, would cut into it. That depends on no other part, so it is computed once (Wilson and Latombe 1994: the
+/// directional blocking graphs of an assembly).
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "blocking/directions.h"
+#include "dismantle/verify/verifier.h"
+
+namespace dismantle::blocking {
+
+/// A pair of parts that stand, relative to each other, as when assembled or translated from there.
+struct Pair {
+  PartId moving = 0, still = 0;
+  std::size_t direction = 0;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
+};
+
+/// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
+/// its end. Not safe to call from several threads; works on several itself.
+class Relations {
+ public:
+  /// All references must outlive this.
+  Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions);
+
+  bool blocks(const Pair& pair);
+  /// The same for many, on so many threads.
+  void compute(std::span<const Pair> pairs, unsigned threads);
+  bool known(const Pair& pair) const;
+  /// Certainly apart all the way, by boxes alone.
+  bool far(const Pair& pair) const;
+  /// Way along d after which `moving` is past `still`.
+  double way_past(const Pair& pair) const;
+  /// Extent of a part along a direction, assembled.
+  std::pair<double, double> extent(PartId part, std::size_t direction) const;
+  std::uint64_t computed() const { return computed_; }
+
+ private:
+  struct Shadow {
+    double lo[3], hi[3];  // along the direction and two across it
+  };
+  using Key = std::tuple<PartId, PartId, std::size_t, long, long, long>;
+  static Key key_of(const Pair& pair);
+  const Shadow& shadow(PartId part, std::size_t direction) const;
+  bool ask(const Pair& pair) const;
+
+  const Assembly& assembly_;
+  const Verifier& judge_;
+  const Directions& directions_;
+  std::vector<std::vector<Eigen::Vector3d>> hulls_;
+  std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
+  mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
+  std::map<Key, bool> blocks_;
+  std::uint64_t computed_ = 0;
+};
+
+}  // namespace dismantle::blocking

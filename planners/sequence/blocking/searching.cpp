@@ -1,0 +1,213 @@
+// Where no straight motion exists: slides that leave parts part-way, and the path planner.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "blocking/taking_apart.h"
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr std::size_t kRefusals = 12;       // of the judge, before the slides are given up
+constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
+
+bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
+
+}  // namespace
+
+/// Moves `units` by a translation and leaves them there. `answer`: the judge's, kept or refused.
+bool TakingApart::shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by,
+                        const AttemptResult*& answer) {
+  Attempt attempt = question(group, units);
+  attempt.part_way = true;
+  Path way(2);
+  for (const auto& p : attempt.moving) {
+    way[0].push_back(p.pose);
+    way[1].push_back({p.pose.t + by, p.pose.q});
+  }
+  answer = &oracle_.propose(attempt, way, context_);
+  if (!is_success(answer->result.outcome)) return false;
+  const bool groups_done = group.groups_done;
+  book(group, units, attempt, *answer);
+  group.groups_done = groups_done;
+  ++counts_["shifts"];
+  return true;
+}
+
+/// Slides found by the search over places of all parts, as far as the judge lets them.
+bool TakingApart::slide(Group& group) {
+  if (std::any_of(group.units.begin(), group.units.end(),
+                  [&](UnitId u) { return units_[u].size() > 1 || !translated_only(poses_[units_[u].front()]); }))
+    return false;
+  const std::vector<PartId> parts = parts_of(group.units);
+  for (std::size_t refusals = 0; refusals < kRefusals && !stop(); ++refusals) {
+    Places places;
+    for (const PartId id : parts) places[id] = poses_[id].t;
+    const SlideSearch::Answer found = slides_.search(places, static_cast<std::size_t>(params_.slide_states), context_);
+    counts_["slide_states"] += static_cast<double>(found.states);
+    if (found.end == SlideSearch::End::exhausted)
+      slides_said_ =
+          std::to_string(found.states) +
+          " arrangements can be reached by straight slides between places where faces are flush, and in none "
+          "of them a part or group is free";
+    if (found.end == SlideSearch::End::limit)
+      slides_said_ =
+          "slides that leave parts part-way were given up after " + std::to_string(found.states) + " arrangements";
+    if (found.end != SlideSearch::End::found) return false;
+    slides_said_.clear();
+    bool refused = false;
+    for (const Slide& slide : found.slides) {
+      // The rest may move just as well: for the user it is the smaller part that does.
+      std::vector<UnitId> units;
+      for (const PartId id : slide.parts) units.push_back(unit_of_[id]);
+      Eigen::Vector3d direction = slide.direction;
+      std::vector<UnitId> rest;
+      for (const UnitId u : group.units)
+        if (std::find(units.begin(), units.end(), u) == units.end()) rest.push_back(u);
+      if (rest.size() < units.size() || (!may_leave(group, units) && may_leave(group, rest))) {
+        std::swap(units, rest);
+        direction = -direction;
+      }
+      const AttemptResult* answer = nullptr;
+      if (std::isinf(slide.way)) {
+        if (!may_leave(group, units)) return false;
+        const auto same = [&](const Eigen::Vector3d& d) { return d.dot(direction) > 1 - 1e-9; };
+        const auto known = std::find_if(directions_.all.begin(), directions_.all.end(), same);
+        if (known == directions_.all.end()) return false;
+        if (leave(group, units, static_cast<std::size_t>(known - directions_.all.begin()))) return true;
+        refused = true;
+      } else if (!shift(group, units, slide.way * direction, answer)) {
+        refused = true;
+      }
+      if (!refused) continue;
+      const std::vector<PartId> moving = parts_of(units);
+      for (const PartId m : moving)
+        for (const PartId s : parts)
+          if (!std::binary_search(moving.begin(), moving.end(), s) &&
+              (answer == nullptr || answer->result.blocked_by.empty() || answer->result.blocked_by.front() == s))
+            slides_.forbid(m, s, poses_[m].t - poses_[s].t, direction);
+      break;
+    }
+  }
+  return false;
+}
+
+/// A search that failed is not repeated as deep as it was while those that it touched are all still there: it would
+/// most likely fail again. Most likely, not certainly (the hulls of what stays count too), so before anything is given
+/// up all searches are made once more for the group as it is then.
+bool TakingApart::worth_trying(const Group& group, UnitId unit, unsigned depth) const {
+  const auto known = tried_.find(units_[unit].front());
+  if (known == tried_.end()) return true;
+  const Tried& last = known->second;
+  const bool room = std::any_of(last.blocked_by.begin(), last.blocked_by.end(),
+                                [&](PartId b) { return !in_group(group, unit_of_[b]); });
+  if (room) return true;
+  return last.outcome == Outcome::depth_limit && last.depth < depth;
+}
+
+bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next) {
+  Attempt question_now = question(group, {unit});
+  question_now.max_depth = depth;
+  const PartId part = units_[unit].front();
+  context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[part].name);
+  if (context_.threads > 1) {
+    std::vector<Attempt> ahead{question_now};
+    for (std::size_t k = 0; k < next.size() && k < kAheadPerThread * context_.threads; ++k) {
+      ahead.push_back(question(group, {next[k]}));
+      ahead.back().max_depth = depth;
+    }
+    oracle_.prefetch(ahead, context_);
+  }
+  const AttemptResult& answer = oracle_.attempt(question_now, context_);
+  const PathResult& result = answer.result;
+  if (is_success(result.outcome)) {
+    const unsigned reached = group.depth;
+    book(group, {unit}, question_now, answer);
+    group.depth = reached;
+    ++counts_["searched"];
+    return true;
+  }
+  if (!stop() || !said_.contains(part))
+    said_[part] = Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message};
+  tried_[part] = {depth, result.outcome, result.blocked_by, group.units.size()};
+  return false;
+}
+
+/// Those whose leaving would open ways for others come first, the housing of it all last: searches are expensive, and a
+/// success makes many of them needless. A unit's use is the sum of its shares in what holds others the least.
+void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
+  if (!relations_) return;
+  std::map<UnitId, double> use;
+  double largest = 0;
+  UnitId housing = units.empty() ? 0 : units.front();
+  for (const UnitId u : group.units) {
+    std::vector<UnitId> fewest;
+    bool found = false;
+    for (const std::size_t d : directions_.common) {
+      std::vector<Pair> pairs;
+      for (const UnitId other : group.units)
+        if (other != u)
+          for (const Pair& pair : pairs_of(u, other, d)) pairs.push_back(pair);
+      relations_->compute(pairs, context_.threads);
+      if (stop()) return;
+      std::vector<UnitId> in_way;
+      for (const Pair& pair : pairs)
+        if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
+          in_way.push_back(unit_of_[pair.still]);
+      if (!found || in_way.size() < fewest.size()) fewest = in_way;
+      found = true;
+    }
+    for (const UnitId other : fewest) use[other] += 1.0 / static_cast<double>(fewest.size());
+    Aabb box;
+    for (const PartId id : units_[u]) box.extend(assembly_.parts[id].mesh->box());
+    if (!box.empty() && box.size().prod() > largest) {
+      largest = box.size().prod();
+      housing = u;
+    }
+  }
+  std::stable_sort(units.begin(), units.end(), [&](UnitId a, UnitId b) {
+    if ((a == housing) != (b == housing)) return b == housing;
+    return use[a] > use[b];
+  });
+}
+
+/// Algorithm 2 for the rest: every part a little, then a little more.
+bool TakingApart::search(Group& group) {
+  std::vector<UnitId> single;
+  for (const UnitId u : group.units)
+    if (units_[u].size() == 1 && may_leave(group, {u})) single.push_back(u);
+  sort_by_use(group, single);
+  const auto run = [&](unsigned depth, const std::vector<UnitId>& list) {
+    for (std::size_t k = 0; k < list.size() && !stop(); ++k)
+      if (attempt(group, list[k], depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()})) return true;
+    return false;
+  };
+  while (!stop()) {
+    std::vector<UnitId> list;
+    for (const UnitId u : single) {
+      if (worth_trying(group, u, group.depth))
+        list.push_back(u);
+      else
+        ++counts_["postponed"];
+    }
+    if (run(group.depth, list)) return true;
+    const bool deeper = std::any_of(single.begin(), single.end(), [&](UnitId u) {
+      const auto known = tried_.find(units_[u].front());
+      return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
+    });
+    if (!deeper || group.depth >= params_.max_depth) break;
+    ++group.depth;
+  }
+  // Nothing was found: what was put off is made up for.
+  std::vector<UnitId> list;
+  for (const UnitId u : single) {
+    const auto known = tried_.find(units_[u].front());
+    if (known == tried_.end() || known->second.group_size != group.units.size() || known->second.depth < group.depth)
+      if (known == tried_.end() || known->second.outcome != Outcome::exhausted ||
+          known->second.group_size != group.units.size())
+        list.push_back(u);
+  }
+  return !stop() && run(group.depth, list);
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,277 @@
+#include "blocking/slides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_set>
+
+#include "blocking/directions.h"
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInset = 0.003;      // assembly units: less than half of what the judge allows for each of two parts
+constexpr double kTolerance = 0.001;  // below the inset
+constexpr double kGrid = 1e-4;        // places that differ by less are the same
+constexpr double kLeastStep = 0.05;   // of a slide
+constexpr double kStandOff = 0.002;   // from what a part meets
+constexpr double kPlay = 0.25;        // slides up to contact that are shorter only use up the play between parts
+constexpr std::size_t kMostAxes = 9;
+constexpr std::size_t kMostParts = 64;
+
+std::int64_t grid(double x) { return std::llround(x / kGrid); }
+
+using Set = std::uint64_t;  // of parts, by their index in the group
+
+/// One state of the search. Places are relative to those of the group's first part.
+struct Node {
+  std::vector<Vec3> at;
+  std::int64_t parent = -1;
+  Set moved = 0;
+  std::size_t direction = 0;
+  double way = 0;
+};
+
+struct PlacesHash {
+  std::size_t operator()(const std::vector<std::int64_t>& key) const {
+    std::uint64_t h = 0x9e3779b97f4a7c15ULL;
+    for (const std::int64_t v : key) h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 29;
+    return static_cast<std::size_t>(h);
+  }
+};
+
+std::vector<std::int64_t> key_of_places(const std::vector<Vec3>& at) {
+  std::vector<std::int64_t> key;
+  for (std::size_t i = 1; i < at.size(); ++i)
+    for (int k = 0; k < 3; ++k) key.push_back(grid(at[i][k] - at[0][k]));
+  return key;
+}
+
+}  // namespace
+
+std::size_t SlideSearch::Hash::operator()(const Key& k) const {
+  std::uint64_t h = k.pair;
+  for (const std::int64_t v : {k.x, k.y, k.z})
+    h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 31;
+  return static_cast<std::size_t>(h);
+}
+
+SlideSearch::SlideSearch(const Assembly& assembly) : assembly_(assembly) {}
+
+const SlideSearch::Shape& SlideSearch::shape(PartId part) { return shapes_.at(part); }
+
+/// Shapes and directions for a group. False when it is not for this search.
+bool SlideSearch::prepare(const Places& places) {
+  if (places.size() > kMostParts) return false;
+  for (const auto& [part, at] : places) {
+    const auto known = shapes_.find(part);
+    if (known != shapes_.end()) {
+      if (!known->second.body.simple()) return false;
+      continue;
+    }
+    const Mesh& mesh = *assembly_.parts[part].mesh;
+    if (mesh.triangles.size() > 200 * Polyhedron::kMostEdges) return false;
+    const auto [entry, is_new] = shapes_.emplace(part, Shape{Polyhedron(mesh, kInset), {}});
+    if (!entry->second.body.simple()) return false;
+  }
+  if (directions_.empty()) {
+    // Axes along which much of the surface of the parts looks, of all parts of the assembly: indices stay the same.
+    std::vector<std::pair<Vec3, double>> axes;
+    for (const auto& part : assembly_.parts) {
+      double weight = 1;
+      for (const Vec3& axis : axes_of(*part.mesh, 6)) {
+        const auto same = std::find_if(axes.begin(), axes.end(),
+                                       [&](const auto& a) { return std::abs(a.first.dot(axis)) > 1 - 1e-6; });
+        if (same == axes.end())
+          axes.emplace_back(axis, weight);
+        else
+          same->second += weight;
+        weight *= 0.5;
+      }
+    }
+    std::stable_sort(axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    if (axes.size() > kMostAxes) axes.resize(kMostAxes);
+    for (const auto& [axis, weight] : axes) {
+      directions_.push_back(axis);
+      directions_.push_back(-axis);
+    }
+  }
+  for (auto& [part, shape] : shapes_) {
+    if (!shape.planes.empty()) continue;
+    shape.planes.resize(directions_.size());
+    for (const auto& face : shape.body.faces())
+      for (std::size_t d = 0; d < directions_.size(); ++d)
+        if (face.normal.dot(directions_[d]) > 1 - 1e-6) shape.planes[d].push_back(face.offset);
+    for (auto& list : shape.planes) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end(), [](double a, double b) { return b - a < kGrid; }), list.end());
+    }
+  }
+  return true;
+}
+
+SlideSearch::Key SlideSearch::key_of(PartId moving, PartId still, const Vec3& offset, std::size_t direction,
+                                     double& sign) const {
+  sign = moving < still ? 1 : -1;
+  const std::uint64_t a = std::min(moving, still), b = std::max(moving, still);
+  const std::size_t d = moving < still ? direction : Directions::opposite(direction);
+  return {(a << 40) ^ (b << 16) ^ d, grid(sign * offset.x()), grid(sign * offset.y()), grid(sign * offset.z())};
+}
+
+double SlideSearch::way_free(PartId moving, PartId still, const Vec3& offset, std::size_t direction) {
+  double sign = 1;
+  const Key key = key_of(moving, still, offset, direction, sign);
+  const auto known = free_.find(key);
+  if (known != free_.end()) return known->second;
+  const double way =
+      way_until_contact(shape(moving).body, shape(still).body, offset, directions_[direction], kTolerance);
+  return free_.emplace(key, way).first->second;
+}
+
+void SlideSearch::forbid(PartId moving, PartId still, const Vec3& offset, const Vec3& direction) {
+  for (std::size_t d = 0; d < directions_.size(); ++d) {
+    if (directions_[d].dot(direction) < 1 - 1e-9) continue;
+    double sign = 1;
+    free_[key_of(moving, still, offset, d, sign)] = 0;
+  }
+}
+
+SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, const RunContext& context) {
+  if (!prepare(places)) return {};
+  // Places on contact multiply the states, and most puzzles do without.
+  const Answer flush = search(places, most_states, false, context);
+  if (flush.end != End::exhausted) return flush;
+  Answer both = search(places, most_states, true, context);
+  both.states += flush.states;
+  return both;
+}
+
+SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, bool to_contact,
+                                        const RunContext& context) {
+  Answer answer;
+  const std::size_t n = places.size();
+  std::vector<PartId> id;
+  Node first;
+  for (const auto& [part, at] : places) {
+    id.push_back(part);
+    first.at.push_back(at);
+  }
+  const Set everyone = n == 64 ? ~Set{0} : (Set{1} << n) - 1;
+
+  std::vector<Node> nodes{first};
+  std::unordered_set<std::vector<std::int64_t>, PlacesHash> seen{key_of_places(first.at)};
+  std::vector<double> free(n * n);
+  const auto unwind = [&](std::size_t node, Set leaving, std::size_t direction) {
+    const auto parts_of = [&](Set set) {
+      std::vector<PartId> parts;
+      for (std::size_t i = 0; i < n; ++i)
+        if (set >> i & 1) parts.push_back(id[i]);
+      return parts;
+    };
+    answer.slides.push_back({parts_of(leaving), directions_[direction], kInfinity});
+    for (std::int64_t k = static_cast<std::int64_t>(node); nodes[static_cast<std::size_t>(k)].parent >= 0;
+         k = nodes[static_cast<std::size_t>(k)].parent) {
+      const Node& step = nodes[static_cast<std::size_t>(k)];
+      answer.slides.push_back({parts_of(step.moved), directions_[step.direction], step.way});
+    }
+    std::reverse(answer.slides.begin(), answer.slides.end());
+    // Slides of the same parts along the same direction are one.
+    for (std::size_t k = 0; k + 1 < answer.slides.size();) {
+      Slide &a = answer.slides[k], &b = answer.slides[k + 1];
+      if (a.parts == b.parts && a.direction == b.direction) {
+        a.way += b.way;
+        answer.slides.erase(answer.slides.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      } else {
+        ++k;
+      }
+    }
+    answer.end = End::found;
+  };
+
+  for (std::size_t current = 0; current < nodes.size(); ++current) {
+    if (context.should_stop()) {
+      answer.end = End::stopped;
+      return answer;
+    }
+    answer.states = current + 1;
+    if (current >= most_states) {
+      answer.end = End::limit;
+      return answer;
+    }
+    const std::vector<Vec3> at = nodes[current].at;
+    for (std::size_t d = 0; d < directions_.size(); ++d) {
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          free[i * n + j] = i == j ? kInfinity : way_free(id[i], id[j], at[i] - at[j], d);
+      /// All that moves when part i does, by `way`: whom it runs into it takes along.
+      const auto taken_along = [&](std::size_t i, double way) {
+        Set set = Set{1} << i;
+        std::vector<std::size_t> open{i};
+        while (!open.empty()) {
+          const std::size_t g = open.back();
+          open.pop_back();
+          for (std::size_t j = 0; j < n; ++j)
+            if ((set >> j & 1) == 0 && free[g * n + j] < way) {
+              set |= Set{1} << j;
+              open.push_back(j);
+            }
+        }
+        return set;
+      };
+      Set best = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Set leaving = taken_along(i, kInfinity);
+        if (leaving != everyone && (best == 0 || __builtin_popcountll(leaving) < __builtin_popcountll(best)))
+          best = leaving;
+      }
+      if (best != 0) {
+        unwind(current, best, d);
+        return answer;
+      }
+      std::set<std::pair<Set, std::int64_t>> tried;
+      for (std::size_t i = 0; i < n; ++i) {
+        // The next place where a face of part i is flush with one of another part that looks the same way.
+        double next = kInfinity, meets = kInfinity;
+        for (std::size_t j = 0; j < n; ++j) {
+          if (j == i) continue;
+          meets = std::min(meets, free[i * n + j]);
+          const double along = (at[j] - at[i]).dot(directions_[d]);
+          for (const std::size_t side : {d, Directions::opposite(d)}) {
+            const double sign = side == d ? 1 : -1;
+            for (const double a : shape(id[i]).planes[side])
+              for (const double b : shape(id[j]).planes[side]) {
+                const double way = sign * (b - a) + along;
+                if (way > kLeastStep && way < next) next = way;
+              }
+          }
+        }
+        std::vector<double> ways;
+        if (next < kInfinity) ways.push_back(next);
+        if (to_contact && meets < next && meets - kStandOff > kPlay && next - meets > kPlay)
+          ways.push_back(meets - kStandOff);
+        for (const double way : ways) {
+          const Set set = taken_along(i, way);
+          if (set == everyone || !tried.insert({set, grid(way)}).second) continue;
+          Node node;
+          node.at = at;
+          for (std::size_t k = 0; k < n; ++k)
+            if (set >> k & 1) node.at[k] += way * directions_[d];
+          if (!seen.insert(key_of_places(node.at)).second) continue;
+          node.parent = static_cast<std::int64_t>(current);
+          node.moved = set;
+          node.direction = d;
+          node.way = way;
+          nodes.push_back(std::move(node));
+        }
+      }
+    }
+  }
+  answer.end = End::exhausted;
+  return answer;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,76 @@
+/// Search over the places of all parts of a group: straight slides of one part, or of as many as it takes along, until
+/// some part or group is free. What single parts at their assembled places cannot do (burrs, sliding puzzles).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "blocking/polyhedron.h"
+#include "dismantle/model/assembly.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::blocking {
+
+/// Parts move along a direction together, by the same way.
+struct Slide {
+  std::vector<PartId> parts;  ///< ascending
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+  double way = 0;  ///< assembly units; infinite: they leave
+};
+
+/// The places of parts are translations of the assembled ones.
+using Places = std::map<PartId, Eigen::Vector3d>;
+
+/// A state is one translation per part. From it, any part may slide along any direction that faces of the parts
+/// suggest, to the next place where a face of it is flush with one of another part, or (when that is not enough) where
+/// it meets one; whom it would run into it takes along. Where faces are flush openings are open, and slides that stop
+/// nowhere else are sums of such ones. Breadth first, so with the fewest such steps. Shapes are those of the parts, a
+/// little thinner; what is found here is for the judge to confirm.
+class SlideSearch {
+ public:
+  explicit SlideSearch(const Assembly& assembly);
+
+  enum class End { found, exhausted, limit, stopped, unsuited };
+  struct Answer {
+    End end = End::unsuited;
+    std::vector<Slide> slides;  ///< the last has infinite way
+    std::size_t states = 0;
+  };
+  /// Up to `most_states`. Unsuited: some shapes are not made of flat faces, or overlap.
+  Answer search(const Places& places, std::size_t most_states, const RunContext& context);
+  /// From now on `moving` at these places cannot go along that direction past `still`: the judge said so.
+  void forbid(PartId moving, PartId still, const Eigen::Vector3d& offset, const Eigen::Vector3d& direction);
+
+ private:
+  struct Shape {
+    Polyhedron body;
+    std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces that look along it, ascending
+  };
+  Answer search(const Places& places, std::size_t most_states, bool to_contact, const RunContext& context);
+  const Shape& shape(PartId part);
+  double way_free(PartId moving, PartId still, const Eigen::Vector3d& offset, std::size_t direction);
+  bool prepare(const Places& places);
+
+  struct Key {
+    std::uint64_t pair;
+    std::int64_t x, y, z;
+    bool operator==(const Key&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Key& k) const;
+  };
+  Key key_of(PartId moving, PartId still, const Eigen::Vector3d& offset, std::size_t direction, double& sign) const;
+
+  const Assembly& assembly_;
+  std::map<PartId, Shape> shapes_;
+  std::vector<Eigen::Vector3d> directions_;  ///< in opposite pairs
+  std::unordered_map<Key, double, Hash> free_;
+};
+
+}  // namespace dismantle::blocking

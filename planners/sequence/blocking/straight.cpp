@@ -1,0 +1,269 @@
+// Straight ways out, by the blocking relations.
+#include <algorithm>
+#include <limits>
+
+#include "blocking/graph.h"
+#include "blocking/taking_apart.h"
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr std::size_t kWave = 4;       // directions of one part that are looked at together, nearest way out first
+constexpr std::size_t kLookAhead = 4;  // parts per thread that are looked at together
+constexpr double kBeyond = 1e-3;       // assembly units: how far past the last part a way leads at most
+constexpr int kHalvings = 12;          // of the way, to find where the hulls come apart
+constexpr std::size_t kProposals = 8;  // groups that are put to the judge before something else is tried
+
+}  // namespace
+
+/// Questions about parts that together say whether `moving` can pass `still`.
+std::vector<Pair> TakingApart::pairs_of(UnitId moving, UnitId still, std::size_t direction) const {
+  std::vector<Pair> pairs;
+  for (const PartId a : units_[moving])
+    for (const PartId b : units_[still]) {
+      const Pair pair{a, b, direction, poses_[a].t - poses_[b].t};
+      if (!relations_->far(pair)) pairs.push_back(pair);
+    }
+  return pairs;
+}
+
+double TakingApart::way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const {
+  const Eigen::Vector3d& d = directions_.all[direction];
+  double ours = std::numeric_limits<double>::infinity(), theirs = -ours;
+  for (const UnitId u : group.units) {
+    const bool leaves = std::find(units.begin(), units.end(), u) != units.end();
+    for (const PartId id : units_[u]) {
+      const auto [lo, hi] = relations_->extent(id, direction);
+      const double shift = poses_[id].t.dot(d);
+      if (leaves)
+        ours = std::min(ours, lo + shift);
+      else
+        theirs = std::max(theirs, hi + shift);
+    }
+  }
+  return std::max(0.0, theirs - ours);
+}
+
+/// Directions of a unit, shortest way out first.
+std::vector<std::size_t> TakingApart::directions_of(const Group& group, UnitId unit) const {
+  std::vector<std::size_t> list;
+  for (const PartId id : units_[unit]) {
+    const auto& of_part = directions_.of_part[id];
+    list.insert(list.end(), of_part.begin(), of_part.end());
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  std::vector<std::pair<double, std::size_t>> ways;
+  for (const std::size_t d : list) ways.emplace_back(way_out(group, {unit}, d), d);
+  std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
+  list.clear();
+  for (const auto& [way, d] : ways) list.push_back(d);
+  return list;
+}
+
+/// What has to be known next to decide whether `unit` is free along `direction`. Nothing: it is decided; then
+/// watched_ names one that is in the way, or nobody.
+std::optional<Pair> TakingApart::open_question(const Group& group, UnitId unit, std::size_t direction) {
+  const auto watched = watched_[unit].find(direction);
+  if (watched != watched_[unit].end()) {
+    if (in_group(group, watched->second)) return std::nullopt;  // as long as that one is there
+    watched_[unit].erase(watched);
+  }
+  std::optional<Pair> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const UnitId other : group.units) {
+    if (other == unit) continue;
+    for (const Pair& pair : pairs_of(unit, other, direction)) {
+      if (relations_->known(pair)) {
+        if (!relations_->blocks(pair)) continue;
+        watched_[unit][direction] = other;
+        return std::nullopt;
+      }
+      // The nearest is the likeliest to be in the way.
+      const double gap = relations_->extent(pair.still, direction).first -
+                         relations_->extent(pair.moving, direction).second -
+                         pair.offset.dot(directions_.all[direction]);
+      if (gap < least) {
+        least = gap;
+        nearest = pair;
+      }
+    }
+  }
+  return nearest;
+}
+
+/// Decides the directions of `units` wave by wave, each unit until it has a free one.
+void TakingApart::resolve(const Group& group, const std::vector<UnitId>& units) {
+  struct Task {
+    UnitId unit;
+    std::vector<std::size_t> directions;
+    std::size_t wave = 0;
+  };
+  std::vector<Task> tasks;
+  for (const UnitId u : units) tasks.push_back({u, directions_of(group, u), 0});
+  while (!tasks.empty() && !stop()) {
+    std::vector<Pair> questions;
+    for (auto task = tasks.begin(); task != tasks.end();) {
+      const std::size_t first = task->wave * kWave;
+      const std::size_t last = std::min(first + kWave, task->directions.size());
+      bool open = false, free = false;
+      for (std::size_t k = first; k < last; ++k) {
+        const std::size_t d = task->directions[k];
+        if (const auto question = open_question(group, task->unit, d)) {
+          questions.push_back(*question);
+          open = true;
+        } else {
+          free = free || !watched_[task->unit].contains(d);
+        }
+      }
+      if (open) {
+        ++task;
+      } else if (free || last == task->directions.size()) {
+        task = tasks.erase(task);
+      } else {
+        ++task->wave;
+      }
+    }
+    relations_->compute(questions, context_.threads);
+  }
+}
+
+/// The shortest way out among the first wave of directions that has a free one.
+std::optional<std::size_t> TakingApart::free_direction(const Group& group, UnitId unit) {
+  resolve(group, {unit});
+  if (stop()) return std::nullopt;
+  for (const std::size_t d : directions_of(group, unit)) {
+    if (watched_[unit].contains(d) || refused_.contains({units_[unit], d})) continue;
+    if (open_question(group, unit, d)) continue;  // not looked at: a nearer wave had a free one, which was refused
+    if (!watched_[unit].contains(d)) return d;
+  }
+  return std::nullopt;
+}
+
+/// Puts a straight way out to the judge, as short as the test of hulls allows; books it if it holds.
+bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::size_t direction) {
+  const Attempt attempt = question(group, units);
+  const Eigen::Vector3d& d = directions_.all[direction];
+  const auto moved = [&](double way) {
+    std::vector<PlacedPart> parts = attempt.moving;
+    for (auto& p : parts) p.pose.t += way * d;
+    return parts;
+  };
+  double within = 0, out = way_out(group, units, direction) + kBeyond;
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (within + out);
+    (oracle_.judge()->apart(moved(middle), attempt.still) ? out : within) = middle;
+  }
+  Path way(2);
+  for (const auto& p : attempt.moving) way[0].push_back(p.pose);
+  for (const auto& p : moved(out)) way[1].push_back(p.pose);
+  context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[attempt.moving.front().part].name);
+  const AttemptResult& answer = oracle_.propose(attempt, way, context_);
+  if (!is_success(answer.result.outcome)) {
+    refused_.insert({parts_of(units), direction});
+    for (const PartId id : parts_of(units))
+      said_[id] = Unsolved{id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message};
+    return false;
+  }
+  book(group, units, attempt, answer);
+  ++counts_[units.size() == 1 ? "straight" : "groups"];
+  return true;
+}
+
+bool TakingApart::remove_free_unit(Group& group) {
+  const std::vector<UnitId> units = group.units;
+  const std::size_t ahead = context_.threads > 1 ? kLookAhead * context_.threads : 1;
+  for (std::size_t k = 0; k < units.size() && !stop(); ++k) {
+    if (k % ahead == 0 && ahead > 1)  // only makes the answers known sooner
+      resolve(group, {units.begin() + static_cast<std::ptrdiff_t>(k),
+                      units.begin() + static_cast<std::ptrdiff_t>(std::min(k + ahead, units.size()))});
+    if (!may_leave(group, {units[k]})) continue;
+    while (const auto d = free_direction(group, units[k]))
+      if (leave(group, {units[k]}, *d)) return true;
+  }
+  return false;
+}
+
+/// One step towards the target: itself if it is free, else a free one among those in its way, and in theirs.
+bool TakingApart::remove_for_target(Group& group) {
+  std::vector<UnitId> wanted{unit_of_[*oracle_.constraints().target]};
+  for (std::size_t k = 0; k < wanted.size() && !stop(); ++k) {
+    const UnitId unit = wanted[k];
+    if (may_leave(group, {unit}))
+      while (const auto d = free_direction(group, unit))
+        if (leave(group, {unit}, *d)) return true;
+    // Along which direction is least in the way?
+    std::vector<UnitId> fewest;
+    bool found = false;
+    for (const std::size_t d : directions_of(group, unit)) {
+      std::vector<Pair> pairs;
+      for (const UnitId other : group.units)
+        if (other != unit)
+          for (const Pair& pair : pairs_of(unit, other, d)) pairs.push_back(pair);
+      relations_->compute(pairs, context_.threads);
+      std::vector<UnitId> in_way;
+      for (const Pair& pair : pairs)
+        if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
+          in_way.push_back(unit_of_[pair.still]);
+      if (!found || in_way.size() < fewest.size()) fewest = in_way;
+      found = true;
+    }
+    for (const UnitId other : fewest)
+      if (std::find(wanted.begin(), wanted.end(), other) == wanted.end()) wanted.push_back(other);
+  }
+  return false;
+}
+
+/// No single part is free: takes out the smallest group that is.
+bool TakingApart::split(Group& group) {
+  struct Candidate {
+    std::vector<UnitId> units;
+    std::size_t parts, direction;
+  };
+  std::vector<Candidate> candidates;
+  const std::size_t n = group.units.size();
+  for (const std::size_t d : directions_.common) {
+    if (stop()) return false;
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (i != j)
+          for (const Pair& pair : pairs_of(group.units[i], group.units[j], d)) pairs.push_back(pair);
+    relations_->compute(pairs, context_.threads);
+    std::vector<std::vector<std::size_t>> in_way(n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) {
+        if (i == j) continue;
+        const auto between = pairs_of(group.units[i], group.units[j], d);
+        if (std::any_of(between.begin(), between.end(), [&](const Pair& p) { return relations_->blocks(p); }))
+          in_way[i].push_back(j);
+      }
+    for (const auto& members : free_groups(in_way)) {
+      Candidate c{{}, 0, d};
+      for (const std::size_t i : members) c.units.push_back(group.units[i]);
+      c.parts = parts_of(c.units).size();
+      Candidate rest{{}, 0, Directions::opposite(d)};  // what is left moves the other way just as well
+      for (const UnitId u : group.units)
+        if (std::find(c.units.begin(), c.units.end(), u) == c.units.end()) rest.units.push_back(u);
+      rest.parts = parts_of(rest.units).size();
+      const bool first = c.parts <= rest.parts;
+      for (const Candidate& candidate : {first ? c : rest, first ? rest : c})
+        if (may_leave(group, candidate.units)) {
+          candidates.push_back(candidate);
+          break;
+        }
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.parts < b.parts; });
+  std::size_t tried = 0;
+  for (const Candidate& c : candidates) {
+    if (stop() || tried == kProposals) return false;
+    if (refused_.contains({parts_of(c.units), c.direction})) continue;
+    ++tried;
+    if (leave(group, c.units, c.direction)) return true;
+  }
+  return false;
+}
+
+}  // namespace dismantle::blocking

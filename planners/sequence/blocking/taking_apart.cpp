@@ -1,0 +1,203 @@
+#include "blocking/taking_apart.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dismantle::blocking {
+
+TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle,
+                         SequenceObserver& observer, RunContext& context)
+    : params_(params),
+      assembly_(assembly),
+      oracle_(oracle),
+      observer_(observer),
+      context_(context),
+      unit_of_(assembly.parts.size(), kUnknown),
+      poses_(assembly.parts.size()),
+      slides_(assembly) {
+  const Constraints& wishes = oracle.constraints();
+  // Lists that share a part are one unit.
+  std::vector<PartId> root(assembly.parts.size());
+  std::iota(root.begin(), root.end(), PartId{0});
+  const auto find = [&](PartId id) {
+    while (root[id] != id) id = root[id];
+    return id;
+  };
+  for (const auto& list : wishes.together)
+    for (const PartId id : list) root[find(id)] = find(list.front());
+  Group all;
+  for (const PartId id : ordered_parts(assembly, params.order)) {
+    UnitId& unit = unit_of_[find(id)];
+    if (unit == kUnknown) {
+      unit = units_.size();
+      units_.emplace_back();
+      all.units.push_back(unit);
+    }
+    units_[unit].push_back(id);
+    unit_of_[id] = unit;
+  }
+  for (auto& unit : units_) std::sort(unit.begin(), unit.end());
+  all.first = true;
+  watched_.resize(units_.size());
+  groups_.push_back(std::move(all));
+  if (oracle.judge() != nullptr && params.straight) {
+    directions_ = blocking::directions_of(assembly);
+    relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_);
+  }
+}
+
+bool TakingApart::stop() {
+  interrupted_ = interrupted_ || context_.should_stop();
+  return interrupted_ || target_out_;
+}
+
+SequenceResult TakingApart::run() {
+  while (!groups_.empty()) {
+    Group group = std::move(groups_.back());
+    groups_.pop_back();
+    dismantle(std::move(group));
+  }
+  return finish();
+}
+
+/// What costs least and proves most comes first; after each removal from the beginning.
+void TakingApart::dismantle(Group group) {
+  while (group.units.size() > 1 && !stop()) {
+    if (relations_ && oracle_.constraints().target && in_group(group, unit_of_[*oracle_.constraints().target]) &&
+        remove_for_target(group))
+      continue;
+    if (relations_ && remove_free_unit(group)) continue;
+    if (relations_ && params_.groups && !group.groups_done) {
+      if (split(group)) continue;
+      group.groups_done = true;
+    }
+    if (params_.slide_states > 0 && oracle_.judge() != nullptr && !group.slides_done) {
+      if (slide(group)) continue;
+      group.slides_done = true;
+    }
+    if (!search(group)) break;
+  }
+  give_up(group);
+}
+
+bool TakingApart::in_group(const Group& group, UnitId unit) const {
+  return std::find(group.units.begin(), group.units.end(), unit) != group.units.end();
+}
+
+/// Do the constraints let `units` leave what else is in the group?
+bool TakingApart::may_leave(const Group& group, const std::vector<UnitId>& units) const {
+  const Constraints& wishes = oracle_.constraints();
+  const auto leaves = [&](PartId id) { return std::find(units.begin(), units.end(), unit_of_[id]) != units.end(); };
+  const auto stays = [&](PartId id) { return !leaves(id) && in_group(group, unit_of_[id]); };
+  if (std::any_of(wishes.base.begin(), wishes.base.end(), leaves)) return false;
+  return std::none_of(wishes.before.begin(), wishes.before.end(),
+                      [&](const auto& pair) { return leaves(pair.second) && stays(pair.first); });
+}
+
+std::vector<PartId> TakingApart::parts_of(const std::vector<UnitId>& units) const {
+  std::vector<PartId> parts;
+  for (const UnitId u : units) parts.insert(parts.end(), units_[u].begin(), units_[u].end());
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+Attempt TakingApart::question(const Group& group, const std::vector<UnitId>& units) const {
+  Attempt attempt;
+  for (const PartId id : parts_of(units)) attempt.moving.push_back({id, poses_[id]});
+  std::vector<UnitId> rest;
+  for (const UnitId u : group.units)
+    if (std::find(units.begin(), units.end(), u) == units.end()) rest.push_back(u);
+  for (const PartId id : parts_of(rest)) attempt.still.push_back({id, poses_[id]});
+  return attempt;
+}
+
+/// Notes where the parts are now, and that they left the group unless they were only shifted.
+void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Attempt& attempt,
+                       const AttemptResult& answer) {
+  Removal removal;
+  for (std::size_t i = 0; i < attempt.moving.size(); ++i) {
+    const PartId id = attempt.moving[i].part;
+    removal.parts.push_back(id);
+    poses_[id] = answer.result.path.back()[i];
+  }
+  removal.attempt = &answer;
+  removal.part_way = attempt.part_way;
+  removals_.push_back(removal);
+  for (const UnitId u : units) watched_[u].clear();
+  refused_.clear();
+  group.slides_done = group.groups_done = false;
+  if (attempt.part_way) {
+    for (auto& known : watched_) known.clear();  // what was in the way may not be any more
+    for (const UnitId u : group.units)
+      for (const PartId id : units_[u]) tried_.erase(id);
+    observer_.removed(removals_.back(), assembly_.parts.size() - out_);
+    return;
+  }
+  std::erase_if(group.units, [&](UnitId u) { return std::find(units.begin(), units.end(), u) != units.end(); });
+  out_ += units.size();
+  if (units.size() > 1) {
+    Group own;
+    own.units = units;
+    std::sort(own.units.begin(), own.units.end());  // units are numbered in the order of trying
+    groups_.push_back(std::move(own));
+    --out_;
+  }
+  const auto& target = oracle_.constraints().target;
+  if (target && (units.size() == 1 ? unit_of_[*target] == units[0]
+                                   : group.units.size() == 1 && group.units[0] == unit_of_[*target]))
+    target_out_ = true;
+  observer_.removed(removals_.back(), assembly_.parts.size() - out_);
+  context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[removal.parts.front()].name);
+}
+
+void TakingApart::give_up(const Group& group) {
+  const std::vector<PartId> parts = parts_of(group.units);
+  if (group.first || group.units.size() > 1) remaining_.insert(remaining_.end(), parts.begin(), parts.end());
+  if (group.units.size() <= 1 || target_out_) return;
+  for (const PartId id : parts) {
+    const auto said = said_.find(id);
+    Unsolved u;
+    u.part = id;
+    if (said != said_.end()) {
+      u = said->second;
+      std::erase_if(u.blocked_by, [&](PartId b) { return !std::binary_search(parts.begin(), parts.end(), b); });
+    } else if (interrupted_) {
+      u.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+      u.message = "not tried: stopped before its turn";
+    } else {
+      u.message =
+          may_leave(group, {unit_of_[id]}) ? "no straight way, and no search was made" : "the constraints hold it back";
+    }
+    if (!slides_said_.empty()) u.message += (u.message.empty() ? "" : "; ") + slides_said_;
+    unsolved_.push_back(std::move(u));
+  }
+}
+
+SequenceResult TakingApart::finish() const {
+  SequenceResult result;
+  result.removals = removals_;
+  result.remaining = remaining_;
+  result.unsolved = unsolved_;
+  result.counts = counts_;
+  if (relations_) result.counts["relations"] = static_cast<double>(relations_->computed());
+  if (unsolved_.empty()) {
+    result.outcome = Outcome::solved;
+    return result;
+  }
+  const auto any = [&](Outcome o) {
+    return std::any_of(unsolved_.begin(), unsolved_.end(), [&](const Unsolved& u) { return u.outcome == o; });
+  };
+  result.outcome = Outcome::exhausted;
+  const auto all = [&](Outcome o) {
+    return std::all_of(unsolved_.begin(), unsolved_.end(), [&](const Unsolved& u) { return u.outcome == o; });
+  };
+  if (any(Outcome::depth_limit)) result.outcome = Outcome::depth_limit;
+  if (any(Outcome::timeout)) result.outcome = Outcome::timeout;
+  for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported})
+    if (all(o)) result.outcome = o;
+  if (interrupted_) result.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+  if (any(Outcome::crashed)) result.outcome = Outcome::crashed;
+  return result;
+}
+
+}  // namespace dismantle::blocking

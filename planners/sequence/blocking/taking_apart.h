@@ -1,0 +1,103 @@
+/// One run of the `blocking` planner.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "blocking/blocking.h"
+#include "blocking/relations.h"
+#include "blocking/slides.h"
+
+namespace dismantle::blocking {
+
+/// Parts are handled in units: one part, or those that a constraint keeps together. A group is what still hangs
+/// together; it begins with all units, and each removal splits one group in two.
+class TakingApart {
+ public:
+  TakingApart(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+              RunContext& context);
+  SequenceResult run();
+
+ private:
+  using UnitId = std::size_t;
+  struct Group {
+    std::vector<UnitId> units;  ///< in the order in which they are tried
+    bool first = false;         ///< what is left of the whole
+    bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
+    bool groups_done = false;   ///< likewise groups
+    unsigned depth = 1;         ///< of searches by simulation
+  };
+  /// The last search for the way of a part.
+  struct Tried {
+    unsigned depth = 0;
+    Outcome outcome = Outcome::exhausted;
+    std::vector<PartId> blocked_by;
+    std::size_t group_size = 0;  ///< when it was made
+  };
+  static constexpr UnitId kUnknown = static_cast<UnitId>(-1);
+
+  // taking_apart.cpp: order of things, bookkeeping
+  void dismantle(Group group);
+  bool stop();
+  bool may_leave(const Group& group, const std::vector<UnitId>& units) const;
+  bool in_group(const Group& group, UnitId unit) const;
+  std::vector<PartId> parts_of(const std::vector<UnitId>& units) const;
+  Attempt question(const Group& group, const std::vector<UnitId>& units) const;
+  void book(Group& group, const std::vector<UnitId>& units, const Attempt& attempt, const AttemptResult& answer);
+  void give_up(const Group& group);
+  SequenceResult finish() const;
+
+  // straight.cpp: by the blocking relations
+  bool remove_free_unit(Group& group);
+  bool remove_for_target(Group& group);
+  bool split(Group& group);
+  bool leave(Group& group, const std::vector<UnitId>& units, std::size_t direction);
+  void resolve(const Group& group, const std::vector<UnitId>& units);
+  std::optional<std::size_t> free_direction(const Group& group, UnitId unit);
+  std::optional<Pair> open_question(const Group& group, UnitId unit, std::size_t direction);
+  std::vector<Pair> pairs_of(UnitId moving, UnitId still, std::size_t direction) const;
+  std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
+  double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
+
+  // searching.cpp: where no straight motion exists
+  bool slide(Group& group);
+  bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
+  bool search(Group& group);
+  void sort_by_use(const Group& group, std::vector<UnitId>& units);
+  bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
+  bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
+
+  const BlockingParams& params_;
+  const Assembly& assembly_;
+  PathOracle& oracle_;
+  SequenceObserver& observer_;
+  RunContext& context_;
+  std::vector<std::vector<PartId>> units_;
+  std::vector<UnitId> unit_of_;  // by part
+  std::vector<Pose> poses_;      // by part
+  std::vector<Group> groups_;    // waiting, last first
+  std::vector<Removal> removals_;
+  std::size_t out_ = 0;  // units that are alone
+  std::vector<Unsolved> unsolved_;
+  std::vector<PartId> remaining_;
+  bool crashed_ = false, interrupted_ = false, target_out_ = false;
+  Outcome worst_ = Outcome::solved;
+  std::map<std::string, double> counts_;
+
+  Directions directions_;
+  std::unique_ptr<Relations> relations_;                // null without a judge
+  std::vector<std::map<std::size_t, UnitId>> watched_;  // by unit, by direction: one that is in the way
+  std::set<std::pair<std::vector<PartId>, std::size_t>>
+      refused_;  // ways that the judge refused, for the group as it is
+  SlideSearch slides_;
+  std::map<PartId, Tried> tried_;
+  std::map<PartId, Unsolved> said_;  // by part: the last that was said
+  std::string slides_said_;
+};
+
+}  // namespace dismantle::blocking
