@@ -5,6 +5,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/sdf/contact_scene.h"
+#include "dismantle/sdf/field_parameters.h"
 
 namespace dismantle::sdf_penalty {
 
@@ -71,18 +72,7 @@ struct Parameters {
         {{"exact", sdf::DistanceModel::exact, "grid far away, closest triangle near the surface"},
          {"grid", sdf::DistanceModel::grid, "trilinear grid everywhere: the paper's, blind below a cell"}},
         "Where contact takes its distances from.");
-    s.add("cell", &Parameters::cell,
-          {.unit = "unit", .min = 1e-3, .max = 1, .doc = "Largest cell of the distance field (appendix A)."});
-    s.add("cells_per_edge", &Parameters::cells_per_edge,
-          {.unit = "1",
-           .min = 1,
-           .max = 1000,
-           .doc = "At least so many cells along each edge of the part's box (appendix A)."});
-    s.add("contact_spacing", &Parameters::contact_spacing,
-          {.unit = "unit",
-           .min = 1e-3,
-           .max = 10,
-           .doc = "Distance of contact points along edges; halved or doubled at most, after the thinnest part."});
+    sdf::describe_fields(s);
   }
 };
 
