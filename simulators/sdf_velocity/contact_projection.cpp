@@ -8,7 +8,9 @@ namespace {
 
 /// A face that a point is behind of by more than this is not where it can pass an edge (assembly units).
 constexpr double kBehind = 2e-4;
-constexpr int kRounds = 5;
+constexpr int kRounds = 24;
+/// What is nearer to a face lies on it.
+constexpr double kOnFace = 1e-6;
 /// A lift that leads away from what was wanted by more than so many times the depth is a squeeze.
 constexpr double kSqueeze = 4;
 
@@ -17,22 +19,33 @@ constexpr double kSqueeze = 4;
 /// For each contact the face that `x` enters least.
 void ContactProjection::choose(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x) {
   for (Group& g : groups_) {
-    if (g.count == 1) continue;
-    double now = rows[g.first].gap;
-    for (std::size_t k = 1; k < g.count; ++k) now = std::max(now, rows[g.first + k].gap);
-    const double least = std::min(now, -kBehind);
     bool any = false;
     double best = 0;
-    for (std::size_t k = 0; k < g.count; ++k) {
-      const sdf::ContactRow& row = rows[g.first + k];
-      if (row.gap < least) continue;
-      const double gap = row.gap_at(x, per_body);
+    for (std::size_t k = g.first; k < g.first + g.count; ++k) {
+      if (rows[k].gap < g.least) continue;
+      const double gap = rows[k].gap_at(x, per_body);
       if (any && gap <= best) continue;
       any = true;
       best = gap;
-      g.chosen = g.first + k;
+      g.chosen = k;
     }
   }
+}
+
+/// Each contact that holds the solution x takes the face `turn` places further on, of those that x lies on or outside
+/// of: x remains possible. False when no contact has another one.
+bool ContactProjection::exchange(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x,
+                                 std::size_t turn) {
+  bool any = false;
+  for (const Eigen::Index i : holding_) {
+    Group& g = groups_[static_cast<std::size_t>(i)];
+    if (turn >= g.count) continue;
+    const std::size_t other = g.first + (g.chosen - g.first + turn) % g.count;
+    if (rows[other].gap < g.least || rows[other].gap_at(x, per_body) < -kOnFace) continue;
+    g.chosen = other;
+    any = true;
+  }
+  return any;
 }
 
 bool ContactProjection::solve(const std::vector<sdf::ContactRow>& rows, int per_body, Below below, const Vector& wanted,
@@ -65,14 +78,14 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
     scale_[k] = k % per_body < 3 ? 1.0 : radii[static_cast<std::size_t>(k / per_body)];
   groups_.clear();
   deepest_ = 0;
-  bool edges = false;
+  std::size_t most = 1;
   for (std::size_t i = 0; i < rows.size();) {
     const auto count = 1 + static_cast<std::size_t>(rows[i].alternatives);
-    groups_.push_back({i, count, i});
     double gap = rows[i].gap;
     for (std::size_t k = 1; k < count; ++k) gap = std::max(gap, rows[i + k].gap);
+    groups_.push_back({i, count, i, std::min(gap, -kBehind)});
     deepest_ = std::max(deepest_, -gap);
-    edges = edges || count > 1;
+    most = std::max(most, count);
     i += count;
   }
   const Vector nothing = Vector::Zero(wanted.size());
@@ -87,11 +100,20 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
     return;
   }
   const auto cost = [&](const Vector& at) { return (at - wanted).cwiseProduct(scale_).squaredNorm(); };
-  for (int round = 1; edges && round < kRounds; ++round) {
-    choose(rows, per_body, x);
-    Vector better(wanted.size());
-    if (!solve(rows, per_body, Below::lift, wanted, better) || cost(better) >= cost(x) * (1 - 1e-9)) break;
-    x = better;
+  Vector better(wanted.size());
+  std::size_t turn = 1;
+  holding_ = nearest_.active();
+  for (int round = 0; turn < most && round < kRounds; ++round) {
+    const std::vector<Group> before = groups_;
+    if (exchange(rows, per_body, x, turn) && solve(rows, per_body, Below::lift, wanted, better) &&
+        cost(better) < cost(x) * (1 - 1e-9)) {
+      x = better;
+      holding_ = nearest_.active();
+      turn = 1;
+      continue;
+    }
+    groups_ = before;
+    ++turn;
   }
 }
 

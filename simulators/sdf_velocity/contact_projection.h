@@ -16,8 +16,8 @@ namespace dismantle::sdf_velocity {
 /// done, for being squeezed from several sides, nothing gets deeper. So x = 0 is always possible at worst.
 ///
 /// At a convex edge it is enough to be outside of one of the faces: each contact takes that which the wanted
-/// displacement enters least, of those that it is outside of now, and takes another if that brings x nearer to what is
-/// wanted. That ends in a local minimum of a problem that is not convex.
+/// displacement enters least, of those that it is outside of now, and takes others as long as that brings x nearer to
+/// what is wanted. That ends in a local minimum of a problem that is not convex.
 class ContactProjection {
  public:
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, sdf::kMaxDof, 1>;
@@ -32,14 +32,17 @@ class ContactProjection {
   enum class Below { lift, hold };  ///< what to do with contacts that are below the surface
   struct Group {
     std::size_t first = 0, count = 0, chosen = 0;
+    double least = 0;  ///< faces with a smaller gap are not where the point can pass
   };
 
   void choose(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x);
+  bool exchange(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x, std::size_t turn);
   bool solve(const std::vector<sdf::ContactRow>& rows, int per_body, Below below, const Vector& wanted, Vector& x);
 
   NearestPoint nearest_;
   Vector scale_;  ///< per coordinate of x
   std::vector<Group> groups_;
+  std::vector<Eigen::Index> holding_;  ///< groups that hold x
   double deepest_ = 0;
   Eigen::VectorXd target_, y_;
 };

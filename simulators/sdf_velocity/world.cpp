@@ -7,7 +7,7 @@ namespace dismantle::sdf_velocity {
 namespace {
 
 /// An advance that gets less far than this share of the free way counts as standing still.
-constexpr double kStallShare = 0.1;
+constexpr double kStallShare = 0.02;
 /// A step that covers less than this share of the free one leads nowhere: without inertia the next would be the same.
 constexpr double kStuckShare = 2e-3;
 /// A point goes no further than this (assembly units) where it is not certain what it may meet: less than half the
