@@ -5,6 +5,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/sdf/contact_scene.h"
+#include "dismantle/sdf/field_parameters.h"
 
 namespace dismantle::sdf_penalty {
 
@@ -82,11 +83,7 @@ struct Parameters {
            .min = 1,
            .max = 1000,
            .doc = "At least so many cells along each edge of the part's box under `distance: grid` (appendix A)."});
-    s.add("contact_spacing", &Parameters::contact_spacing,
-          {.unit = "unit",
-           .min = 1e-3,
-           .max = 10,
-           .doc = "Distance of contact points along edges; halved or doubled at most, after the thinnest part."});
+    sdf::describe_points(s);
   }
 };
 

@@ -27,7 +27,7 @@ Mesh brush(bool scattered) {
 
 struct Rig {
   Assembly assembly;
-  sdf_penalty::PreparedShapes shapes;
+  sdf::PreparedShapes shapes;
   std::unique_ptr<sdf_penalty::PenaltyWorld> world;
 
   Rig(bool scattered, Dynamics dynamics, MotionSpace space) {

@@ -13,8 +13,8 @@ using namespace contract;
 
 TEST(Simulators, TheOnesOfThisProjectAreThere) {
   const auto found = ids(PluginKind::simulator);
-  EXPECT_EQ(std::count(found.begin(), found.end(), "sdf_penalty"), 1)
-      << registry().why_missing(PluginKind::simulator, "sdf_penalty");
+  for (const char* id : {"sdf_penalty", "sdf_velocity"})
+    EXPECT_EQ(std::count(found.begin(), found.end(), id), 1) << registry().why_missing(PluginKind::simulator, id);
 }
 
 class SimulatorContract : public testing::TestWithParam<std::string> {

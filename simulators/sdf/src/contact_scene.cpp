@@ -31,7 +31,7 @@ bool recall(const DirectedContacts& set, const SurfaceQuery& surface, std::uint3
   sample.value = surface.plane_distance(p, known.triangle);
   sample.normal = known.normal;
   sample.triangle = known.triangle;
-  sample.flat_radius = std::sqrt(known.squared_radius);
+  sample.flat_radius = std::sqrt(known.squared_radius) - (p - known.point).norm();
   return true;
 }
 
@@ -137,6 +137,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   const auto emit = [&](const Eigen::Vector3d& p, const Touch& touch, double allowed) {
     ContactPoint c;
     c.gap = touch.distance + allowed;
+    c.certain = std::max(std::abs(touch.distance), touch.sample.flat_radius);
     c.normal = to_world * touch.sample.normal;
     c.point = to_world * p + world_[surface].t;
     c.owner = owner < moving_ ? static_cast<int>(owner) : -1;

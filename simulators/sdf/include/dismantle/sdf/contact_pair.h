@@ -20,6 +20,8 @@ struct ContactPoint {
   double gap = 0;          ///< signed distance plus what the pair may overlap; < 0 = in contact
   Eigen::Vector3d normal;  ///< world, unit, out of the surface that is touched
   Eigen::Vector3d point;   ///< world
+  /// Moved by less than this, the point meets no surface but the ones listed here.
+  double certain = 0;
   int owner = -1;          ///< moving body that carries the point, -1 = a part that stands still
   int surface = -1;        ///< moving body that carries the surface, likewise
   PartId owner_part = 0, surface_part = 0;

@@ -5,22 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace dismantle::sdf_penalty {
+#include "dismantle/sdf/contact_row.h"
 
-constexpr int kMaxBodies = 8;
-constexpr int kMaxDof = 6 * kMaxBodies;
-
-/// Row of a contact in the generalised displacement x of all bodies: gap(x) = gap + j . x. At most two
-/// bodies take part; `first` and `second` are where their degrees of freedom begin, -1 = none.
-/// A contact on a convex edge has several rows in a run, `alternatives` counts those that follow: its gap is
-/// the largest of theirs.
-struct ContactRow {
-  double gap = 0;
-  double stiffness = 0;
-  int first = -1, second = -1;
-  int alternatives = 0;
-  Eigen::Matrix<double, 6, 1> j_first, j_second;  ///< only the first `dof per body` entries are used
-};
+namespace dismantle::sdf {
 
 /// Minimises  1/2 (x - x*)^T W (x - x*) + 1/2 sum_i k_i min(0, gap_i + j_i . x)^2  over x.
 /// Piecewise quadratic, and convex but for contacts on edges: Newton on the active set with step halving
@@ -61,15 +48,6 @@ class StepSolver {
   }
 
  private:
-  static double gap_at(const ContactRow& row, int per_body, const Vector& x) {
-    double g = row.gap;
-    if (row.first >= 0)
-      for (int k = 0; k < per_body; ++k) g += row.j_first[k] * x[row.first + k];
-    if (row.second >= 0)
-      for (int k = 0; k < per_body; ++k) g += row.j_second[k] * x[row.second + k];
-    return g;
-  }
-
   static void add_block(Matrix& h, int row0, const Eigen::Matrix<double, 6, 1>& a, int col0,
                         const Eigen::Matrix<double, 6, 1>& b, int n, double k) {
     for (int c = 0; c < n; ++c)
@@ -87,9 +65,9 @@ class StepSolver {
     }
     for (std::size_t i = 0; i < rows.size(); i += 1 + static_cast<std::size_t>(rows[i].alternatives)) {
       std::size_t best = i;
-      double g = gap_at(rows[i], per_body, x);
+      double g = rows[i].gap_at(x, per_body);
       for (std::size_t k = 1; g < 0 && k <= static_cast<std::size_t>(rows[i].alternatives); ++k)
-        if (const double other = gap_at(rows[i + k], per_body, x); other > g) g = other, best = i + k;
+        if (const double other = rows[i + k].gap_at(x, per_body); other > g) g = other, best = i + k;
       if (g >= 0) continue;
       const ContactRow& row = rows[best];
       energy += 0.5 * row.stiffness * g * g;
@@ -112,4 +90,4 @@ class StepSolver {
   }
 };
 
-}  // namespace dismantle::sdf_penalty
+}  // namespace dismantle::sdf

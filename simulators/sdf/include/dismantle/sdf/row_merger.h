@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "step_solver.h"
+#include "dismantle/sdf/contact_row.h"
 
-namespace dismantle::sdf_penalty {
+namespace dismantle::sdf {
 
 /// For bodies that only translate: two contacts with the same normals and gaps have the same rows, so that one with the
 /// sum of their stiffness replaces both. Alike means to within kNormal and kGap, far below what moves a part.
@@ -87,4 +87,4 @@ class RowMerger {
   std::uint32_t round_ = 1;
 };
 
-}  // namespace dismantle::sdf_penalty
+}  // namespace dismantle::sdf

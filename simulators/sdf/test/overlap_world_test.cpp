@@ -1,25 +1,28 @@
-// What parts may overlap: what they did when assembled, and the threshold; never a way through anything.
-#include "scene.h"
+// What parts may overlap: what they did when assembled; never a way through anything.
+#include "world_scene.h"
 
-namespace dismantle::sdf_penalty {
+namespace dismantle::sdf {
 namespace {
 
 using namespace test;
 
 /// Part 0 stands `overlap` deep in part 1 and flush on part 2.
-Scene overlapping(double overlap, ParamSet given = {}) {
-  return Scene({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1 - overlap, -1, -0.5), Vector3d(2, 2, 1)),
+Scene overlapping(const std::string& simulator, double overlap, ParamSet given = {}) {
+  return Scene(simulator,
+               {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1 - overlap, -1, -0.5), Vector3d(2, 2, 1)),
                 box(Vector3d(-3, -3, -1), Vector3d(0.5, 3, 0))},
                given, {{0, 1, overlap}});
 }
+class Overlap : public testing::TestWithParam<std::string> {};
+
 constexpr double kSlack = 0.004;  // a pair that overlaps may be given a little more than it had
 const double kOverlaps[] = {0.002, 0.008, 0.012, 0.03, 0.05, 0.2};
 
-TEST(Overlap, IsAllowedToItsPairAndToNoOther) {
+TEST_P(Overlap, IsAllowedToItsPairAndToNoOther) {
   for (const double overlap : kOverlaps)
     for (const double max_travel : {0.02, 0.004}) {
       SCOPED_TRACE(testing::Message() << overlap << ", steps of " << max_travel);
-      const Scene scene = overlapping(overlap, {{"max_travel", max_travel}});
+      const Scene scene = overlapping(GetParam(), overlap, {{"max_travel", max_travel}});
       auto world = scene.world({0});
       for (const bool relaxed : {false, true}) {
         if (relaxed) world->relax();
@@ -37,10 +40,10 @@ TEST(Overlap, IsAllowedToItsPairAndToNoOther) {
     }
 }
 
-TEST(Overlap, HoldsNothingBackOnceRelaxed) {
+TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
   for (const double overlap : kOverlaps) {
     SCOPED_TRACE(overlap);
-    const Scene scene = overlapping(overlap);
+    const Scene scene = overlapping(GetParam(), overlap);
     auto world = scene.world({0});
     world->relax();
     EXPECT_FALSE(world->strict()) << "nothing is left to relax";
@@ -52,9 +55,10 @@ TEST(Overlap, HoldsNothingBackOnceRelaxed) {
   }
 }
 
-TEST(Overlap, IsNoWayThroughAWall) {
+TEST_P(Overlap, IsNoWayThroughAWall) {
   // The part overlaps the foot of a wall by more than the wall is thick, and the wall stays a wall.
   const Scene scene(
+      GetParam(),
       {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),
        joined(box(Vector3d(0.96, -1, -1), Vector3d(3, 2, 0.2)), box(Vector3d(1.3, -3, -1), Vector3d(1.33, 4, 3)))},
       {}, {{0, 1, 0.04}});
@@ -66,25 +70,7 @@ TEST(Overlap, IsNoWayThroughAWall) {
   EXPECT_LT(way(*world, s).x(), 0.3 + 0.012);
 }
 
-TEST(Overlap, AThresholdWiderThanAStepStillResists) {
-  const Scene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
-                    with({{"contact_threshold", 0.01}, {"max_travel", 0.002}}));
-  auto world = scene.world({0});
-  EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.03))), 0.02, 1e-12);
-  State s = world->initial_state();
-  world->advance(s, push(Vector3d(0, 0, -100)), 0.2, nullptr);
-  EXPECT_NEAR(way(*world, s).z(), -0.01, 1e-3);
-}
-
-TEST(Overlap, TheWidestThresholdIsGrantedInFull) {
-  const Scene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
-                    with({{"contact_threshold", 0.1}}));
-  auto world = scene.world({0});
-  EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.12))), 0.02, 1e-12);
-  State s = world->initial_state();
-  world->advance(s, push(Vector3d(0, 0, -100)), 0.2, nullptr);
-  EXPECT_NEAR(way(*world, s).z(), -0.1, 1e-3);
-}
+INSTANTIATE_TEST_SUITE_P(Simulators, Overlap, testing::Values("sdf_penalty", "sdf_velocity"));
 
 }  // namespace
-}  // namespace dismantle::sdf_penalty
+}  // namespace dismantle::sdf

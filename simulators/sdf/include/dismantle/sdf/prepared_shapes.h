@@ -1,0 +1,40 @@
+/// What the physics simulators compute once for an assembly.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "dismantle/sdf/contact_pair.h"
+#include "dismantle/sdf/shape.h"
+#include "dismantle/simulator.h"
+
+namespace dismantle::sdf {
+
+/// What a pair may overlap beyond its depth when assembled; assembly units, a third of what the verifier lets pass
+/// by default.
+constexpr double kFacetAllowance = 0.003;
+
+/// Shapes, and the depth to which each pair overlaps when assembled.
+class PreparedShapes final : public Prepared {
+ public:
+  std::vector<Placed> placed;
+  std::map<std::pair<PartId, PartId>, double> overlap;  ///< a < b; only pairs that overlap
+  mutable RestContacts rest;                            ///< filled by the worlds as they need it
+  double allowed(PartId a, PartId b) const {
+    const auto found = overlap.find(std::minmax(a, b));
+    return found == overlap.end() ? 0.0 : found->second;
+  }
+};
+
+/// What overlaps when assembled may overlap as deep while it moves, pair by pair (end of B.1). Round fits overlap by
+/// the facets of their meshes, more or less as they slide: they get half as much again, at most kFacetAllowance.
+std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options,
+                                               RunContext& context);
+
+/// The shapes in `prepared`. @throws InputError naming the first part of the cast that was not prepared.
+const PreparedShapes& shapes_of(const Prepared& prepared, const Assembly& assembly, const Cast& cast);
+
+}  // namespace dismantle::sdf

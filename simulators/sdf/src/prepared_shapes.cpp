@@ -1,0 +1,28 @@
+#include "dismantle/sdf/prepared_shapes.h"
+
+#include "dismantle/errors.h"
+
+namespace dismantle::sdf {
+
+std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options,
+                                               RunContext& context) {
+  auto prepared = std::make_shared<PreparedShapes>();
+  prepared->placed = build_shapes(assembly, options, context);
+  if (context.should_stop()) return prepared;
+  for (const InitialOverlap& o : assembly.overlaps)
+    if (o.depth > 0) prepared->overlap[std::minmax(o.a, o.b)] = o.depth + std::min(0.5 * o.depth, kFacetAllowance);
+  return prepared;
+}
+
+const PreparedShapes& shapes_of(const Prepared& prepared, const Assembly& assembly, const Cast& cast) {
+  const auto& shapes = dynamic_cast<const PreparedShapes&>(prepared);
+  for (const auto* group : {&cast.moving, &cast.still})
+    for (const PlacedPart& p : *group)
+      if (p.part >= shapes.placed.size() || !shapes.placed[p.part].shape)
+        throw InputError(
+            p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
+            "was not prepared (the preparation was interrupted)");
+  return shapes;
+}
+
+}  // namespace dismantle::sdf

@@ -1,0 +1,139 @@
+#include "world.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::sdf_velocity {
+namespace {
+
+/// An advance that gets less far than this share of the free way counts as standing still.
+constexpr double kStallShare = 0.02;
+/// A step that covers less than this share of the free one leads nowhere: without inertia the next would be the same.
+constexpr double kStuckShare = 2e-3;
+/// A point goes no further than this (assembly units) where it is not certain what it may meet: less than half the
+/// thickness of a wall that is to hold.
+constexpr double kBlindWay = 0.02;
+/// A step that enters a surface deeper than this, and cannot be put right in place, is taken back and halved down to
+/// kLeastStep.
+constexpr double kTooDeep = 1e-3, kLeastStep = 2e-3;
+
+sdf::ContactOptions contact_options(const Parameters& p) {
+  return {.margin = p.max_travel, .max_travel = p.max_travel};
+}
+
+}  // namespace
+
+VelocityWorld::VelocityWorld(const sdf::PreparedShapes& prepared, const Cast& cast, MotionSpace space,
+                             const Parameters& parameters)
+    : BodyWorld(prepared, cast, space, contact_options(parameters)), parameters_(parameters) {
+  for (const auto& body : bodies()) radii_.push_back(body.radius);
+}
+
+/// Displacement of all bodies in one second under the action alone.
+VelocityWorld::Vector VelocityWorld::free_motion(const State& state, const Action& action) const {
+  Vector motion = Vector::Zero(dof());
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i) * per_body();
+    Wrench wrench = action.wrenches[i];
+    if (action.turns_along) {
+      const auto& q = state.bodies[i].pose.q;
+      wrench = {q * wrench.force, q * wrench.torque};
+    }
+    motion.segment<3>(at) = wrench.force / parameters_.drag;
+    if (per_body() == 6) motion.segment<3>(at + 3) = wrench.torque / (parameters_.drag * radii_[i] * radii_[i]);
+  }
+  return motion;
+}
+
+/// The largest share of x that leads no point further than it is certain what it may meet, and kBlindWay.
+double VelocityWorld::certain_share(const State& state, const Vector& x) const {
+  double share = 1;
+  for (const auto& c : touching()) {
+    const double way =
+        (shift_of<Eigen::Dynamic>(c.owner, c.point, state, x) - shift_of<Eigen::Dynamic>(c.surface, c.point, state, x))
+            .norm();
+    const double certain = c.certain + kBlindWay;
+    if (way * share > certain) share = certain / way;
+  }
+  return share;
+}
+
+/// One step from the contacts of the last update; leaves them updated. No point goes further than `limit`, and the
+/// action alone no further than `free_way`.
+VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, double free_way, double limit) {
+  const Vector motion = free_motion(state, action);
+  const double speed = travel_of<Eigen::Dynamic>(motion);
+  Vector x(dof());
+  const auto try_way = [&](double way) {
+    projection_.project(rows(), per_body(), radii_, way / speed * motion, x);
+    return travel_of<Eigen::Dynamic>(x);
+  };
+  build_rows(state, 0);
+  // Contact may leave so little of the motion that all of it fits into one step.
+  Step done;
+  done.free = free_way;
+  done.way = try_way(done.free);
+  if (done.way < kStuckShare * done.free) return {done.free, 0};
+  if (done.way > limit && done.free > limit) {
+    done.free = std::max(limit, done.free * limit / done.way);
+    done.way = try_way(done.free);
+  }
+  // What is nearer than x along a straight line enters no more than x does.
+  const double share = std::min(done.way > limit ? limit / done.way : 1.0, certain_share(state, x));
+  x *= share;
+  done.free *= share;
+  done.way = displace<Eigen::Dynamic>(state, x);
+  update_contacts(state);
+  return done;
+}
+
+StepReport VelocityWorld::advance(State& state, const Action& action, double duration, Trace* trace) {
+  begin(state, action);
+  StepReport report;
+  const State begin_state = state;
+  const double free = duration * travel_of<Eigen::Dynamic>(free_motion(state, action));
+  if (!(free > 0)) {  // no force: nothing happens
+    report.stalled = true;
+    return report;
+  }
+  double left = free, limit = parameters_.max_travel;
+  while (left > 1e-9 * free) {
+    const State before = state;
+    const double allowed = std::max(kTooDeep, deepest());
+    const Step done = step(state, action, left, limit);
+    ++report.steps;
+    if (!std::isfinite(done.way)) {
+      state = begin_state;
+      report.finite = false;
+      report.stalled = true;
+      return report;
+    }
+    report.stalled = done.way == 0;
+    if (report.stalled) break;
+    settle<Eigen::Dynamic>(state, parameters_.depth);
+    if (deepest() > allowed) {
+      state = before;
+      update_contacts(state);
+      limit = 0.5 * std::min(limit, done.way);
+      report.stalled = limit < kLeastStep;
+      if (report.stalled) break;
+      continue;
+    }
+    left -= done.free;
+    limit = std::min(2 * limit, parameters_.max_travel);
+    if (trace != nullptr) {
+      std::vector<Pose> instant;
+      for (const auto& b : state.bodies) instant.push_back(b.pose);
+      trace->push_back(std::move(instant));
+    }
+  }
+  for (std::size_t i = 0; i < bodies().size(); ++i)
+    report.travel =
+        std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
+                                             per_body() == 3 ? 0.0 : bodies()[i].radius));
+  // To and fro in place is standing still, too.
+  if (report.travel < kStallShare * free) report.stalled = true;
+  return report;
+}
+
+}  // namespace dismantle::sdf_velocity
