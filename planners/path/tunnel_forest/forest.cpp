@@ -22,6 +22,8 @@ constexpr double kDetour = 2;
 constexpr double kTryJoin = 0.5, kTryOther = 0.1;
 /// A pose in a tunnel keeps so much from contact if it can, and penetrates no deeper (assembly units).
 constexpr double kClearance = 0.002;
+/// A pose that is drawn costs about as much as so many simulated steps; tunnels get no more of the work than growth.
+constexpr std::uint64_t kStepsPerDraw = 60;
 /// One more tunnel after so many extensions.
 constexpr std::uint64_t kExtensionsPerTunnel = 100;
 /// Still parts count for tunnels when their boxes come so near to what moves (share of its size).
@@ -98,8 +100,9 @@ void Forest::look_for_tunnels() {
 
 void Forest::plant_tunnel(const std::function<bool()>& stop) {
   if (!tunnel_poses_) look_for_tunnels();
-  constexpr int kDraws = 20;
+  constexpr int kDraws = 4;
   for (int k = 0; k < kDraws && !tunnel_poses_->empty() && !stop(); ++k) {
+    ++draws_;
     const TunnelPoses::Match match = tunnel_poses_->draw(rng_);
     State state = map_.node(0).state;
     for (std::size_t i = 0; i < start_.size(); ++i) state.bodies[i].pose = match.displacement * start_[i];
@@ -229,7 +232,9 @@ void Forest::try_joins(Index n, const std::function<bool()>& stop) {
 
 bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
   const auto wanted = static_cast<std::uint64_t>(parameters_.tunnels);
-  if (rigid_ && wanted > 0 && tunnels_ < wanted + iterations_ / kExtensionsPerTunnel) plant_tunnel(stop);
+  if (rigid_ && wanted > 0 && tunnels_ < wanted + iterations_ / kExtensionsPerTunnel &&
+      draws_ * kStepsPerDraw <= guide_.steps())
+    plant_tunnel(stop);
   ++iterations_;
   if (stop()) return false;
 

@@ -83,7 +83,7 @@ class Forest {
   std::vector<Pose> start_;
   Roadmap map_;
   std::optional<TunnelPoses> tunnel_poses_;
-  std::uint64_t iterations_ = 0, looks_ = 0, refused_ = 0, tunnels_ = 0;
+  std::uint64_t iterations_ = 0, looks_ = 0, refused_ = 0, tunnels_ = 0, draws_ = 0;
   Index farthest_ = 0;
   double farthest_way_ = 0;
   std::map<PartId, std::uint64_t> touched_;

@@ -8,10 +8,12 @@ namespace {
 /// Nearer than this is there (assembly units): a motion over it may penetrate by half as much.
 constexpr double kArrived = 2e-3;
 /// A push that moves nothing by more than this share of a free one has met something.
-constexpr double kStuck = 0.05;
+constexpr double kStuck = 0.02;
 /// So many pushes in a row may bring the bodies no nearer: around a corner the way is longer.
 constexpr int kPatience = 2;
-constexpr double kNearer = 0.05;  ///< of a free push
+/// A push was free when so much of its travel (share) brought the bodies nearer.
+constexpr double kStraight = 0.98;
+constexpr double kNearer = 0.01;  ///< of a free push
 constexpr int kMostPushes = 1000;
 
 }  // namespace
@@ -72,11 +74,13 @@ Guide::Trip Guide::go(const State& from, const std::vector<Pose>& target, double
       trip.way.resize(instants);
       return trip;
     }
-    reach_ = std::max(reach_, report.travel);
     trip.length += report.travel;
+    const double was = left;
     left = distance(poses_of(trip.end), target);
+    // Straight to the target: nothing was in the way. Pushed out of something, bodies jump further than any push goes.
+    if (share == 1 && was - left > kStraight * report.travel) reach_ = std::max(reach_, report.travel);
     const double free = share * reach_;
-    if (report.stalled || report.travel < kStuck * free) {
+    if (report.travel < kStuck * free) {
       trip.blocked = true;
       trip.arrived = left < kArrived;
       return trip;

@@ -38,7 +38,7 @@ class Guide {
  private:
   World& world_;
   double force_, push_time_;
-  double reach_ = 0;  ///< longest way that a full push went so far
+  double reach_ = 0;  ///< longest way that a full push went with nothing in its way; 0: none has yet
   std::vector<path::Ball> bodies_;
   std::uint64_t steps_ = 0;
 };
