@@ -32,7 +32,7 @@ bool Forest::is_free(const std::vector<Pose>& poses) {
 /// and free.
 Path Forest::shortcut(const Path& path) {
   Path best = path;
-  for (std::int64_t k = 0; k < parameters_.shortcuts && best.size() > 2; ++k) {
+  for (std::int64_t k = 0; k < parameters_.shortcuts && best.size() > 2 && !halted_(); ++k) {
     const auto n = static_cast<std::uint64_t>(best.size());
     auto a = static_cast<std::size_t>(rng_.below(n)), b = static_cast<std::size_t>(rng_.below(n));
     if (a > b) std::swap(a, b);
@@ -67,13 +67,15 @@ Path Forest::eased(const Path& path) {
   Path dense{path.front()};
   State state = map_.node(0).state;
   for (std::size_t k = 1; k < path.size(); ++k) {
+    if (halted_()) return path;
     const auto& before = path[k - 1];
     const int pieces = std::max(1, static_cast<int>(std::ceil(guide_.distance(before, path[k]) / kEaseEvery)));
     for (int i = 1; i <= pieces; ++i) {
       for (std::size_t b = 0; b < before.size(); ++b)
         state.bodies[b].pose = screw_interpolate(before[b], path[k][b], static_cast<double>(i) / pieces);
       ++looks_;
-      world_->retreat(state, parameters_.clearance);
+      // The end is out, and has to remain so.
+      if (i < pieces || k + 1 < path.size()) world_->retreat(state, parameters_.clearance);
       dense.push_back(poses_of(state));
     }
   }
@@ -84,7 +86,7 @@ Path Forest::eased(const Path& path) {
 /// the judge's last, about `shown`.
 bool Forest::passes(const Path& path, PathResult& result, Verdict& verdict, Path& shown) {
   shown = eased(path);
-  for (int round = 0; round <= kRepairs; ++round) {
+  for (int round = 0; round <= kRepairs && !halted_(); ++round) {
     verdict = query_.judge(shown);
     if (verdict.accepted) {
       result.outcome = Outcome::solved;
@@ -113,13 +115,16 @@ bool Forest::judged(PathResult& result) {
       at = map_.other_end(e, at);
       ends.push_back(at);
     }
-    result.depth = static_cast<unsigned>(edges.size());
     const Path thinned = path::thin(full, guide_.bodies(), parameters_.thinning);
     Verdict verdict;
     Path shown;
     const Path shorter = shortcut(thinned);
-    if (shorter.size() < thinned.size() && passes(shorter, result, verdict, shown)) return true;
-    if (passes(thinned, result, verdict, shown)) return true;
+    if ((shorter.size() < thinned.size() && passes(shorter, result, verdict, shown)) ||
+        passes(thinned, result, verdict, shown)) {
+      result.depth = static_cast<unsigned>(edges.size());
+      return true;
+    }
+    if (halted_()) return false;
     // Easing moves instants by little: the edge at fault is the one that comes nearest to where it cuts.
     std::size_t guilty = edges.size() - 1;
     if (verdict.has_witness) {

@@ -43,9 +43,11 @@ void append(Mesh& to, const Mesh& mesh, const Pose& pose) {
 
 }  // namespace
 
-Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng)
+Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng,
+               std::function<bool()> halted)
     : query_(query),
       parameters_(parameters),
+      halted_(std::move(halted)),
       rng_(rng),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
       rigid_(motion == MotionSpace::rigid),

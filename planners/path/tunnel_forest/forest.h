@@ -19,7 +19,9 @@ namespace dismantle::tunnel_forest {
 
 class Forest {
  public:
-  Forest(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng);
+  /// `halted`: there is no time left, or somebody wants an end; work that is no simulation asks it, too.
+  Forest(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng,
+         std::function<bool()> halted);
 
   bool starts_out() { return world_->separated(map_.node(0).state); }
   /// One extension, and what joins follow from it. True when that led to a path that the judge accepts; then `result`
@@ -73,6 +75,7 @@ class Forest {
 
   const PathQuery& query_;
   Parameters parameters_;
+  std::function<bool()> halted_;
   Rng rng_;
   std::unique_ptr<World> world_;
   bool rigid_, sees_contacts_;

@@ -70,7 +70,8 @@ class TunnelForest final : public PathPlanner {
 
    private:
     void add(MotionSpace motion, std::uint64_t stream) {
-      forests_.push_back({std::make_unique<Forest>(query_, motion, parameters_, context_.rng.fork(stream))});
+      forests_.push_back({std::make_unique<Forest>(query_, motion, parameters_, context_.rng.fork(stream),
+                                                   [this] { return halted(); })});
     }
 
     bool take_turn(Grown& grown) {
@@ -92,10 +93,8 @@ class TunnelForest final : public PathPlanner {
       for (const auto& g : forests_) steps += g.forest->steps();
       return steps;
     }
-    bool stopped() const {
-      return context_.cancel.cancelled() || deadline_.passed() ||
-             (query_.effort.max_steps > 0 && used() >= query_.effort.max_steps);
-    }
+    bool halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
+    bool stopped() const { return halted() || (query_.effort.max_steps > 0 && used() >= query_.effort.max_steps); }
     bool given_up() const {
       return std::any_of(forests_.begin(), forests_.end(), [&](const Grown& g) {
         return g.forest->refused() >= static_cast<std::uint64_t>(parameters_.max_refusals);
