@@ -72,8 +72,9 @@ bool any_crash(const RunResult& result) {
          std::ranges::any_of(result.plan.unsolved, [](const PlanUnsolved& u) { return u.outcome == Outcome::crashed; });
 }
 
-int status_of(const RunResult& result, bool one_part, const RunContext& context) {
-  const bool done = one_part ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
+/// `constrained`: the outcome says whether all was done that the constraints leave to do.
+int status_of(const RunResult& result, bool one_part, bool constrained, const RunContext& context) {
+  const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
   if (done) return kComplete;
   if (context.cancel.cancelled()) return kInterrupted;
   return any_crash(result) ? kPluginFailed : kPartial;
@@ -114,11 +115,16 @@ int plan(const PlanOptions& options) {
   write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
 
   Saver saver(folder / "plan.json", console);
-  const RunResult result = run(assembly, ingredients, run_options_of(config, options.part), context, std::ref(saver));
+  RunOptions run_options = run_options_of(config, options.part);
+  run_options.constraints = constraints_of(config.constraints, assembly);
+  if (!run_options.constraints.empty() && options.part.empty() && !ingredients.sequence_planner->keeps_constraints())
+    throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any",
+                            config.sequence_planner.type));
+  const RunResult result = run(assembly, ingredients, run_options, context, std::ref(saver));
   const auto files = write_results(result, assembly, folder);
   console.end_progress();
 
-  const int status = status_of(result, !options.part.empty(), context);
+  const int status = status_of(result, !options.part.empty(), !run_options.constraints.empty(), context);
   std::string text = summary_text(result.plan);
   text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)",
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <thread>
@@ -59,7 +60,19 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
   return stoppable(context, [&] {
     InputParts parts = read_input(input, importers_of(registry), options, context);
     for (const auto& warning : parts.warnings) context.log(LogLevel::warning, warning);
-    return prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+    const auto& ignore = config.constraints.ignore;
+    std::vector<ExcludedPart> ignored;
+    for (const auto& part : parts.parts)
+      if (std::find(ignore.begin(), ignore.end(), part.name) != ignore.end())
+        ignored.push_back({part.name, "the configuration says to ignore it (constraints.ignore)"});
+    std::erase_if(parts.parts,
+                  [&](const auto& part) { return std::find(ignore.begin(), ignore.end(), part.name) != ignore.end(); });
+    for (const auto& name : ignore)
+      if (std::none_of(ignored.begin(), ignored.end(), [&](const ExcludedPart& p) { return p.name == name; }))
+        throw InputError(input, "has no part '" + name + "', which constraints.ignore names");
+    Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+    assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());
+    return assembly;
   });
 }
 

@@ -85,6 +85,27 @@ run.yaml:12:9: error: verify must be a map of keys, not a value
 )");
 }
 
+TEST_F(Config, Constraints) {
+  const RunConfig config = load_text(
+      "schema: 1\nconstraints: {base: [a], together: [[b, c]], before: [[d, e, f]], target: g, ignore: [h, i]}\n");
+  const NamedConstraints expected{{"a"}, {{"b", "c"}}, {{"d", "e", "f"}}, "g", {"h", "i"}};
+  EXPECT_EQ(config.constraints, expected);
+  Assembly assembly;
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g"}) {
+    assembly.parts.emplace_back();
+    assembly.parts.back().id = static_cast<PartId>(assembly.parts.size() - 1);
+    assembly.parts.back().name = name;
+  }
+  const Constraints ids = constraints_of(config.constraints, assembly);
+  EXPECT_EQ(ids.before, (std::vector<std::pair<PartId, PartId>>{{3, 4}, {4, 5}}));
+  EXPECT_EQ(ids.target, PartId{6});
+  assembly.parts.pop_back();
+  EXPECT_THROW(constraints_of(config.constraints, assembly), InputError);
+  EXPECT_NE(errors_of("schema: 1\nconstraints: {base: a}\n").find("list of"), std::string::npos);
+  EXPECT_NE(errors_of("schema: 1\nconstraints: {bse: [a]}\n").find("base"), std::string::npos);
+  EXPECT_NE(errors_of("schema: 1\nconstraints: {together: [[a]]}\n").find("two or more"), std::string::npos);
+}
+
 TEST_F(Config, IdsOfTheWrongKind) {
   EXPECT_EQ(errors_of("schema: 1\npath_planner: {type: progressive}\nsimulator: {type: bfs}\n"),
             "run.yaml:2:22: error: 'progressive' is a sequence_planner, not a path_planner\n"

@@ -32,6 +32,7 @@ class Resolved : public testing_support::Scratch {
       EXPECT_EQ(pose.q.coeffs(), b.layout.poses.at(part).q.coeffs());
     }
     EXPECT_EQ(a.sections, b.sections);
+    EXPECT_EQ(a.constraints, b.constraints);
     EXPECT_EQ(a.run.seed, b.run.seed);
     EXPECT_EQ(a.verify.max_penetration, b.verify.max_penetration);
   }
@@ -126,6 +127,16 @@ TEST_F(Resolved, RandomValuesRoundTrip) {
       config.layout.poses["part \"" + std::to_string(rng.below(9)) + "\"\n: x"] = {
           {rng.normal(), 1e9 * rng.normal(), rng.normal()},
           rotation_from_vector({rng.normal(), rng.normal(), rng.normal()})};
+    const auto names = [&rng](std::size_t least) {
+      std::vector<std::string> list;
+      for (auto n = least + rng.below(3); n > 0; --n) list.push_back("p: \"" + std::to_string(rng.below(99)) + "'");
+      return list;
+    };
+    config.constraints.base = names(0);
+    config.constraints.ignore = names(0);
+    for (auto n = rng.below(3); n > 0; --n) config.constraints.together.push_back(names(2));
+    for (auto n = rng.below(3); n > 0; --n) config.constraints.before.push_back(names(2));
+    if (rng.below(2) == 0) config.constraints.target = names(1).front();
     config.run.seed = std::get<std::int64_t>(config.sections["run"]["seed"]);
     config.verify.max_penetration = std::get<double>(config.sections["verify"]["max_penetration"]);
     const std::string text = resolved(config);

@@ -26,7 +26,9 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
              {.unit = "1",
               .min = 1,
               .max = 1e6,
-              .doc = "Largest depth of the path searches. They go one action deeper whenever no part left."});
+              .doc = "Largest depth of the path searches. They go one action deeper whenever no part left. The search "
+                     "for the ways "
+                     "of the last two parts of a group has no limit."});
 }
 
 SequenceResult Blocking::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,

@@ -46,15 +46,15 @@ bool TakingApart::slide(Group& group) {
     const SlideSearch::Answer found = slides_.search(places, static_cast<std::size_t>(params_.slide_states), context_);
     counts_["slide_states"] += static_cast<double>(found.states);
     if (found.end == SlideSearch::End::exhausted)
-      slides_said_ =
+      group.slides_said =
           std::to_string(found.states) +
           " arrangements can be reached by straight slides between places where faces are flush, and in none "
           "of them a part or group is free";
     if (found.end == SlideSearch::End::limit)
-      slides_said_ =
+      group.slides_said =
           "slides that leave parts part-way were given up after " + std::to_string(found.states) + " arrangements";
     if (found.end != SlideSearch::End::found) return false;
-    slides_said_.clear();
+    group.slides_said.clear();
     bool refused = false;
     for (const Slide& slide : found.slides) {
       // The rest may move just as well: for the user it is the smaller part that does.
@@ -120,6 +120,9 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   }
   const AttemptResult& answer = oracle_.attempt(question_now, context_);
   const PathResult& result = answer.result;
+  context_.log(LogLevel::debug, "search for a way of '" + assembly_.parts[part].name + "' to depth " +
+                                    std::to_string(depth) + ": " + std::string(to_string(result.outcome)) + ", " +
+                                    std::to_string(answer.seconds) + " s");
   if (is_success(result.outcome)) {
     const unsigned reached = group.depth;
     book(group, {unit}, question_now, answer);
@@ -171,43 +174,61 @@ void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
   });
 }
 
-/// Algorithm 2 for the rest: every part a little, then a little more.
-bool TakingApart::search(Group& group) {
+/// Single parts that may leave, most useful first.
+std::vector<TakingApart::UnitId> TakingApart::searchable(const Group& group) {
   std::vector<UnitId> single;
   for (const UnitId u : group.units)
     if (units_[u].size() == 1 && may_leave(group, {u})) single.push_back(u);
   sort_by_use(group, single);
-  const auto run = [&](unsigned depth, const std::vector<UnitId>& list) {
-    for (std::size_t k = 0; k < list.size() && !stop(); ++k)
-      if (attempt(group, list[k], depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()})) return true;
-    return false;
-  };
-  while (!stop()) {
-    std::vector<UnitId> list;
-    for (const UnitId u : single) {
-      if (worth_trying(group, u, group.depth))
-        list.push_back(u);
-      else
-        ++counts_["postponed"];
-    }
-    if (run(group.depth, list)) return true;
-    const bool deeper = std::any_of(single.begin(), single.end(), [&](UnitId u) {
-      const auto known = tried_.find(units_[u].front());
-      return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
-    });
-    if (!deeper || group.depth >= params_.max_depth) break;
-    ++group.depth;
-  }
-  // Nothing was found: what was put off is made up for.
+  return single;
+}
+
+/// One round of Algorithm 2: every part a little; the next time a little more.
+bool TakingApart::search(Group& group) {
+  const std::vector<UnitId> single = searchable(group);
   std::vector<UnitId> list;
   for (const UnitId u : single) {
-    const auto known = tried_.find(units_[u].front());
-    if (known == tried_.end() || known->second.group_size != group.units.size() || known->second.depth < group.depth)
-      if (known == tried_.end() || known->second.outcome != Outcome::exhausted ||
-          known->second.group_size != group.units.size())
-        list.push_back(u);
+    if (worth_trying(group, u, group.depth))
+      list.push_back(u);
+    else
+      ++counts_["postponed"];
   }
-  return !stop() && run(group.depth, list);
+  for (std::size_t k = 0; k < list.size() && !stop(); ++k)
+    if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
+      return true;
+  const bool deeper = std::any_of(single.begin(), single.end(), [&](UnitId u) {
+    const auto known = tried_.find(units_[u].front());
+    return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
+  });
+  if (!deeper || group.depth >= params_.max_depth || group.units.size() == 2)
+    group.searched_out = true;
+  else
+    ++group.depth;
+  return false;
+}
+
+/// The ways of two parts that are left, without limit of depth.
+bool TakingApart::search_without_end(Group& group) {
+  for (const UnitId u : searchable(group)) {
+    const auto known = tried_.find(units_[u].front());
+    if (known != tried_.end() && known->second.outcome != Outcome::depth_limit) continue;
+    if (stop()) return false;
+    if (attempt(group, u, 0, {})) return true;
+  }
+  return false;
+}
+
+/// What was put off is made up for, with the group as it is now.
+bool TakingApart::make_up_for(Group& group) {
+  std::vector<UnitId> list;
+  for (const UnitId u : searchable(group)) {
+    const auto known = tried_.find(units_[u].front());
+    if (known == tried_.end() || known->second.group_size != group.units.size()) list.push_back(u);
+  }
+  for (std::size_t k = 0; k < list.size() && !stop(); ++k)
+    if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
+      return true;
+  return false;
 }
 
 }  // namespace dismantle::blocking

@@ -159,6 +159,10 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
   for (const auto& p : moved(out)) way[1].push_back(p.pose);
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[attempt.moving.front().part].name);
   const AttemptResult& answer = oracle_.propose(attempt, way, context_);
+  context_.log(LogLevel::debug, "straight way of '" + assembly_.parts[attempt.moving.front().part].name + "' and " +
+                                    std::to_string(attempt.moving.size() - 1) +
+                                    " more: " + std::string(to_string(answer.result.outcome)) + ", " +
+                                    std::to_string(answer.seconds) + " s " + answer.result.message);
   if (!is_success(answer.result.outcome)) {
     refused_.insert({parts_of(units), direction});
     for (const PartId id : parts_of(units))

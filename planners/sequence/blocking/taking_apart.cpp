@@ -53,14 +53,15 @@ bool TakingApart::stop() {
 
 SequenceResult TakingApart::run() {
   while (!groups_.empty()) {
-    Group group = std::move(groups_.back());
-    groups_.pop_back();
+    Group group = std::move(groups_.front());
+    groups_.pop_front();
     dismantle(std::move(group));
   }
   return finish();
 }
 
-/// What costs least and proves most comes first; after each removal from the beginning.
+/// What costs least and proves most comes first; after each removal from the beginning. A group that needs a deeper
+/// search waits until the others have had theirs.
 void TakingApart::dismantle(Group group) {
   while (group.units.size() > 1 && !stop()) {
     if (relations_ && oracle_.constraints().target && in_group(group, unit_of_[*oracle_.constraints().target]) &&
@@ -75,7 +76,23 @@ void TakingApart::dismantle(Group group) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
-    if (!search(group)) break;
+    if (!group.searched_out) {
+      if (search(group)) continue;
+      if (group.searched_out || groups_.empty() || stop()) continue;
+      groups_.push_back(std::move(group));
+      return;
+    }
+    if (group.units.size() == 2 && !group.searched_without_end) {
+      // There is nobody else to turn to, in this group; but others may still be easier.
+      if (std::any_of(groups_.begin(), groups_.end(),
+                      [](const Group& g) { return g.units.size() > 1 && !g.searched_out; })) {
+        groups_.push_back(std::move(group));
+        return;
+      }
+      group.searched_without_end = true;
+      if (search_without_end(group)) continue;
+    }
+    if (!make_up_for(group)) break;
   }
   give_up(group);
 }
@@ -125,7 +142,7 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
   removals_.push_back(removal);
   for (const UnitId u : units) watched_[u].clear();
   refused_.clear();
-  group.slides_done = group.groups_done = false;
+  group.slides_done = group.groups_done = group.searched_out = false;
   if (attempt.part_way) {
     for (auto& known : watched_) known.clear();  // what was in the way may not be any more
     for (const UnitId u : group.units)
@@ -168,7 +185,7 @@ void TakingApart::give_up(const Group& group) {
       u.message =
           may_leave(group, {unit_of_[id]}) ? "no straight way, and no search was made" : "the constraints hold it back";
     }
-    if (!slides_said_.empty()) u.message += (u.message.empty() ? "" : "; ") + slides_said_;
+    if (!group.slides_said.empty()) u.message += (u.message.empty() ? "" : "; ") + group.slides_said;
     unsolved_.push_back(std::move(u));
   }
 }

@@ -1,6 +1,7 @@
 /// One run of the `blocking` planner.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,6 +32,9 @@ class TakingApart {
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
     unsigned depth = 1;         ///< of searches by simulation
+    bool searched_out = false;  ///< more depth does not help, or is not allowed
+    bool searched_without_end = false;  ///< pairs only
+    std::string slides_said;            ///< why the search for slides found nothing
   };
   /// The last search for the way of a part.
   struct Tried {
@@ -68,6 +72,9 @@ class TakingApart {
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
   bool search(Group& group);
+  bool search_without_end(Group& group);
+  bool make_up_for(Group& group);
+  std::vector<UnitId> searchable(const Group& group);
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
@@ -80,7 +87,7 @@ class TakingApart {
   std::vector<std::vector<PartId>> units_;
   std::vector<UnitId> unit_of_;  // by part
   std::vector<Pose> poses_;      // by part
-  std::vector<Group> groups_;    // waiting, last first
+  std::deque<Group> groups_;     // waiting
   std::vector<Removal> removals_;
   std::size_t out_ = 0;  // units that are alone
   std::vector<Unsolved> unsolved_;
@@ -97,7 +104,6 @@ class TakingApart {
   SlideSearch slides_;
   std::map<PartId, Tried> tried_;
   std::map<PartId, Unsolved> said_;  // by part: the last that was said
-  std::string slides_said_;
 };
 
 }  // namespace dismantle::blocking

@@ -12,6 +12,7 @@
 #include "dismantle/export.h"
 #include "dismantle/layout.h"
 #include "dismantle/parameters.h"
+#include "dismantle/path_oracle.h"
 #include "dismantle/prepare/prepare.h"
 #include "dismantle/registry.h"
 #include "dismantle/verify/verifier.h"
@@ -34,6 +35,18 @@ struct PluginChoice {
   ParamSet params;
 };
 
+/// What the user asks of the order, by names of parts. See Constraints.
+struct NamedConstraints {
+  std::vector<std::string> base;
+  std::vector<std::vector<std::string>> together;
+  std::vector<std::vector<std::string>> before;  ///< each in the order in which they are to leave
+  std::string target;                            ///< empty: none
+  std::vector<std::string> ignore;               ///< parts that are left out of the assembly
+  bool operator==(const NamedConstraints&) const = default;
+};
+/// @throws InputError when a part is not there.
+DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
+
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
@@ -41,6 +54,7 @@ struct RunConfig {
   RunSettings run;
   VerifyOptions verify;
   LayoutOptions layout;
+  NamedConstraints constraints;
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
   /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "config/constraints.h"
 #include "config/layers.h"
 #include "dismantle/config_bind.h"
 
@@ -35,6 +36,8 @@ class Loader {
       }
       config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
     }
+    if (const ConfigNode* section = node("constraints"); section != nullptr)
+      config_.constraints = read_constraints(*section, problems_);
     check_capabilities();
     return std::move(config_);
   }
@@ -52,7 +55,7 @@ class Loader {
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)

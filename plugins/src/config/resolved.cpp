@@ -70,6 +70,24 @@ class Writer {
     line(row);
   }
 
+  std::string list(const std::vector<std::string>& names) {
+    std::string out;
+    for (const auto& name : names) out += (out.empty() ? "" : ", ") + quoted(name);
+    return "[" + out + "]";
+  }
+
+  void constraints(const NamedConstraints& c) {
+    if (c.base.empty() && c.together.empty() && c.before.empty() && c.target.empty() && c.ignore.empty()) return;
+    line("constraints:");
+    if (!c.base.empty()) line("  base: " + list(c.base));
+    for (const auto& [key, lists] : {std::pair("together", &c.together), std::pair("before", &c.before)}) {
+      if (!lists->empty()) line(fmt::format("  {}:", key));
+      for (const auto& names : *lists) line("    - " + list(names));
+    }
+    if (!c.target.empty()) line("  target: " + quoted(c.target));
+    if (!c.ignore.empty()) line("  ignore: " + list(c.ignore));
+  }
+
   void values(const std::string& section, const std::vector<ParamSpec>& specs, const ParamSet& params) {
     for (const auto& spec : specs) {
       const auto it = params.find(spec.name);
@@ -135,6 +153,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
     writer.line("  poses:");
     for (const auto& [part, pose] : config.layout.poses) writer.pose(part, pose);
   }
+  writer.constraints(config.constraints);
   fixed("run");
   fixed("verify");
   return writer.take();

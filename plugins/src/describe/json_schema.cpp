@@ -71,6 +71,14 @@ std::string json_schema(const Registry& registry) {
                                     {"description", "Folders of plugins, relative to this file."}}}});
   for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry);
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs));
+  const nlohmann::ordered_json name = {{"type", "string"}};
+  const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
+  const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};
+  properties["constraints"] = {
+      {"type", "object"},
+      {"additionalProperties", false},
+      {"description", "What the order has to keep to, by names of parts."},
+      {"properties", {{"base", names}, {"together", lists}, {"before", lists}, {"target", name}, {"ignore", names}}}};
   properties["layout"]["properties"]["poses"] = {
       {"type", "object"},
       {"description",
