@@ -246,7 +246,7 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
                                   FacePlane* out, int& count) const {
   // A point this far behind a face is still taken to be in front of it; a corner this far in front of one sticks out.
   constexpr double kBehind = 2e-4, kSticksOut = 1e-6;
-  constexpr double kSmooth = 0.87, kFacing = 0.87;
+  constexpr double kSmooth = 0.87, kBeside = 0.6, kFacing = 0.87;
   if (!cells_ || !cells_->covers(p)) return 0;
   const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
   if (!list.usable) return 0;
@@ -258,7 +258,7 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
     if (candidate.squared_distance(p) >= certain * certain) continue;
     const Plane& plane = planes_[face_of_[triangle_[candidate.slot]]];
     const double gap = plane.normal.dot(p) - plane.offset;
-    if (gap < -kBehind || gap >= certain || plane.normal.dot(fronts[0].normal) > kSmooth) continue;
+    if (gap < -kBehind || gap >= certain) continue;
     // What lies behind all fronts is out of reach.
     const Corner& k = corners_[candidate.slot];
     bool in_reach = false;
@@ -275,6 +275,8 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
     const Closest c = closest(p, k.a, k.ab, k.ac);
     if (c.squared >= certain * certain) continue;
     const double distance = std::sqrt(c.squared);
+    // Where the surface goes on, only a little bent.
+    if (plane.normal.dot(fronts[0].normal) > kSmooth && gap < kBeside * distance) continue;
     if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > kFacing * distance))
       out[count++] = {plane.normal, std::max(gap, 0.0)};
     else
