@@ -10,6 +10,7 @@ struct Parameters {
   double drag = 40;
   double max_travel = 0.05;
   double depth = 2e-4;
+  double contact_threshold = 0;
   double contact_spacing = 0.1;
 
   static void describe(Schema<Parameters>& s) {
@@ -25,6 +26,13 @@ struct Parameters {
            .min = 1e-6,
            .max = 0.01,
            .doc = "What a step that turned out to enter a surface deeper than this did is put right in place."});
+    s.add(
+        "contact_threshold", &Parameters::contact_threshold,
+        {.unit = "unit",
+         .min = 0,
+         .max = 0.1,
+         .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap: for fits that have to "
+                "give. What it allows, the verifier has to allow too."});
     sdf::describe_points(s);
   }
 };

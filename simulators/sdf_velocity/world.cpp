@@ -18,7 +18,7 @@ constexpr double kBlindWay = 0.02;
 constexpr double kTooDeep = 1e-3, kLeastStep = 2e-3;
 
 sdf::ContactOptions contact_options(const Parameters& p) {
-  return {.margin = p.max_travel, .max_travel = p.max_travel};
+  return {.surroundings = true, .margin = p.max_travel, .threshold = p.contact_threshold, .max_travel = p.max_travel};
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ BodyWorld::BodyWorld(const PreparedShapes& prepared, const Cast& cast, MotionSpa
   if (cast.moving.empty() || cast.moving.size() > kMaxBodies)
     throw std::invalid_argument("1 to " + std::to_string(kMaxBodies) + " parts can move at once, not " +
                                 std::to_string(cast.moving.size()));
+  if (options.surroundings) scene_.see_surroundings();
   per_body_ = space == MotionSpace::translation ? 3 : 6;
   for (std::size_t i = 0; i < cast.moving.size(); ++i) {
     const Placed& placed = prepared.placed[cast.moving[i].part];

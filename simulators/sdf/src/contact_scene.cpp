@@ -13,6 +13,8 @@ constexpr double kFarEnough = 2, kGoodBound = 0.05;
 /// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
 /// below what the verifier lets pass.
 constexpr double kOnEdge = 2e-4;
+/// A point that can go this share of the margin for certain need not look around.
+constexpr double kEnoughCertain = 0.6;
 /// Distances that are linear over less than this are not worth remembering.
 constexpr double kLeastFlat = 5e-4;
 
@@ -151,7 +153,24 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         c.planes[i].gap += allowed;
       }
     }
+    if (!surroundings_ || c.certain >= kEnoughCertain * margin || touch.sample.triangle == kNoTriangle || allowed > 0) {
+      out.push_back(c);
+      return;
+    }
+    FacePlane fronts[kMaxPlanes + 1], more[kMaxPlanes];
+    int count = 0;
+    fronts[0] = {touch.sample.normal, touch.distance};
+    for (int i = 0; i < c.plane_count; ++i)
+      fronts[1 + i] = {to_world.transpose() * c.planes[i].normal, c.planes[i].gap};
+    c.certain = std::max(
+        c.certain, target.solids[touch.solid].surface->surroundings(p, fronts, 1 + c.plane_count, margin, more, count));
     out.push_back(c);
+    c.plane_count = 0;
+    for (int i = 0; i < count; ++i) {
+      c.gap = more[i].gap;
+      c.normal = to_world * more[i].normal;
+      out.push_back(c);
+    }
   };
   const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, std::uint32_t* linear, double allowed) {
     const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, kOnEdge + allowed};
@@ -232,6 +251,7 @@ void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
     const auto& known = rest_->of(a.part, b.part, [&](RestContacts::Entry& entry) {
       ContactScene alone(
           {a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
+      alone.surroundings_ = surroundings_;
       alone.update({a.pose}, entry.points);
       entry.pair = std::move(alone.pairs_.front());
     });

@@ -242,6 +242,49 @@ int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double 
   return count > 1 ? count : 0;
 }
 
+double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach,
+                                  FacePlane* out, int& count) const {
+  // A point this far behind a face is still taken to be in front of it; a corner this far in front of one sticks out.
+  constexpr double kBehind = 2e-4, kSticksOut = 1e-6;
+  constexpr double kSmooth = 0.87, kBeside = 0.6, kFacing = 0.87;
+  if (!cells_ || !cells_->covers(p)) return 0;
+  const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
+  if (!list.usable) return 0;
+  const double off = (p - list.center).norm();
+  double certain = std::min(reach, list.reach - off);
+  for (const Candidate& candidate : list.candidates) {
+    if (certain <= 0) return 0;
+    if (candidate.from_center - off >= certain) break;
+    if (candidate.squared_distance(p) >= certain * certain) continue;
+    const Plane& plane = planes_[face_of_[triangle_[candidate.slot]]];
+    const double gap = plane.normal.dot(p) - plane.offset;
+    if (gap < -kBehind || gap >= certain) continue;
+    // What lies behind all fronts is out of reach.
+    const Corner& k = corners_[candidate.slot];
+    bool in_reach = false;
+    for (int i = 0; i < front_count && !in_reach; ++i) {
+      const double here = fronts[i].gap + fronts[i].normal.dot(k.a - p);
+      const double highest = here + std::max({0.0, fronts[i].normal.dot(k.ab), fronts[i].normal.dot(k.ac)});
+      in_reach = highest > kSticksOut;
+    }
+    if (!in_reach) continue;
+    bool known = false;
+    for (int i = 0; i < count && !known; ++i)
+      known = (out[i].normal - plane.normal).squaredNorm() < 1e-8 && std::abs(out[i].gap - std::max(gap, 0.0)) < 1e-6;
+    if (known) continue;
+    const Closest c = closest(p, k.a, k.ab, k.ac);
+    if (c.squared >= certain * certain) continue;
+    const double distance = std::sqrt(c.squared);
+    // Where the surface goes on, only a little bent.
+    if (plane.normal.dot(fronts[0].normal) > kSmooth && gap < kBeside * distance) continue;
+    if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > kFacing * distance))
+      out[count++] = {plane.normal, std::max(gap, 0.0)};
+    else
+      certain = distance;
+  }
+  return certain;
+}
+
 void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids,
                          const std::vector<Aabb>& boxes) {
   const std::size_t self = nodes_.size();

@@ -23,11 +23,12 @@ struct MovingBody {
 /// How contact is sensed and resisted.
 struct ContactOptions {
   DistanceModel distance = DistanceModel::exact;
-  double margin = 0.025;     ///< contacts with a smaller gap are listed
-  double threshold = 0;      ///< depth granted to all pairs
-  double stiffness = 1e6;    ///< of a contact, N / unit
-  double damping = 0;        ///< N s / unit^2
-  double max_travel = 0.02;  ///< most that a correction in place may move a point
+  bool surroundings = false;  ///< see ContactScene::see_surroundings
+  double margin = 0.025;      ///< contacts with a smaller gap are listed
+  double threshold = 0;       ///< depth granted to all pairs
+  double stiffness = 1e6;     ///< of a contact, N / unit
+  double damping = 0;         ///< N s / unit^2
+  double max_travel = 0.02;   ///< most that a correction in place may move a point
 };
 
 /// Keeps the contacts of the last state asked for, answers what does not depend on the dynamics, and corrects states

@@ -22,8 +22,8 @@ struct ContactPoint {
   Eigen::Vector3d point;   ///< world
   /// Moved by less than this, the point meets no surface but the ones listed here.
   double certain = 0;
-  int owner = -1;          ///< moving body that carries the point, -1 = a part that stands still
-  int surface = -1;        ///< moving body that carries the surface, likewise
+  int owner = -1;    ///< moving body that carries the point, -1 = a part that stands still
+  int surface = -1;  ///< moving body that carries the surface, likewise
   PartId owner_part = 0, surface_part = 0;
   /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
   /// it is outside of one of them: gap(x) is the largest of all.

@@ -49,6 +49,9 @@ class ContactScene {
   static constexpr double kTight = 0.01;
   /// The same members, samples and allowances as they are now, with nothing measured yet.
   ContactScene with_margin(double margin) const;
+  /// Also lists the faces around each contact that its point can run into (SurfaceQuery::surroundings), and tells how
+  /// far it can go for certain. To be called before the first update; exact distances only.
+  void see_surroundings() { surroundings_ = true; }
   bool strict() const;  ///< relax() would grant something
   void relax();
 
@@ -82,6 +85,7 @@ class ContactScene {
 
   DistanceModel model_;
   double margin_, threshold_, slack_;
+  bool surroundings_ = false;
   std::size_t moving_ = 0;
   std::vector<Member> members_;   ///< moving first
   std::vector<Pose> world_;       ///< shape frame -> world, now

@@ -55,6 +55,13 @@ class SurfaceQuery {
   /// single normal would hold them in directions that are free.
   int planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const;
 
+  /// What p can run into, besides what it is closest to, while it stays in front of one of `fronts`. Appends the planes
+  /// of faces that p is in front of and near the middle of, up to kMaxPlanes in all, with gaps >= 0. Returns a
+  /// distance: moved by less, p meets no face but those, and such as bend from the first of `fronts` by less than 30
+  /// degrees. At most `reach`; 0 where it is not known.
+  double surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach, FacePlane* out,
+                      int& count) const;
+
   /// Signed distance of p from the plane of a triangle. Where the closest point lies inside a face this is `value`, bit
   /// by bit, for each triangle of that face.
   double plane_distance(const Eigen::Vector3d& p, std::uint32_t triangle) const {
