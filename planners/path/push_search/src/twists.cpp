@@ -1,11 +1,11 @@
-#include "twists.h"
+#include "dismantle/push/twists.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -93,4 +93,4 @@ std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vec
   return twists;
 }
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -1,24 +1,32 @@
+#include <ctime> // TRACE
+#include <cstdio> // TRACE
 // Runs along screw motions: gliding where nothing is in the way, simulating where something is.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
-#include "search.h"
+#include "dismantle/push/search.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
-/// Way between two looks at penetration while gliding, and the shortest tried before giving up (assembly units). What
-/// is thinner than a step may be jumped; the judge sees it.
-constexpr double kGlideStep = 0.1, kLeastGlideStep = 0.0125;
+/// Way between two looks at penetration while gliding: as it begins, the longest that it grows to while nothing is in
+/// the way, and the shortest tried before giving up (assembly units). What is thinner than a step may be jumped; the
+/// judge sees it, and from then on steps do not grow.
+constexpr double kGlideStep = 0.1, kMostGlideStep = 0.8, kLeastGlideStep = 0.0125;
 /// Penetration that counts as none, and the room that a part is given before it glides on.
 constexpr double kGlideDepth = 1e-3, kGlideClearance = 0.02;
 /// A glide that covers less is not worth another one.
 constexpr double kLeastGlide = 0.15;
 /// What is kept of a glide that got stuck.
 constexpr double kKept = 0.75;
-/// Steps between two looks at everything else.
-constexpr int kGlideLook = 3;
+/// Way between two looks at everything else.
+constexpr double kGlideLook = 0.3;
+/// Ways along a screw at which we look whether the hulls are apart grow by this factor, up to the most.
+constexpr double kWayOutFactor = 1.25, kMostWayOut = 2000;
+/// Share of turning from which on a screw is one, and the axial share of a push that leans.
+constexpr double kTurns = 0.3, kLean = 0.5;
 /// Half turns with a smaller sine do not tell their axis.
 constexpr double kTellsAxis = 0.3;
 
@@ -62,50 +70,81 @@ Twist refit(const Twist& rough, const Pose& from, const Pose& to, const Eigen::V
 
 }  // namespace
 
+/// How far along the screw the hulls are apart, were nothing in the way; roughly, infinite if they never are.
+double Search::way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center) {
+  const double most = twist.angular.isZero(0) ? kMostWayOut / 10 : kMostWayOut;
+  State there = from;
+  for (double way = kGlideStep; way < most; way *= kWayOutFactor) {
+    for (std::size_t i = 0; i < there.bodies.size(); ++i)
+      there.bodies[i].pose = moved(from.bodies[i].pose, twist, center, way);
+    if (world_->separated(there)) return way;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 /// Along what the contacts let slip, both ways, the shorter way out first.
 std::vector<Twist> Search::twists_at(const Node& node) {
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
   const Eigen::Vector3d center = node.state.bodies[0].pose * bodies_[0].center;
-  std::vector<Twist> twists;
+  std::vector<std::pair<double, Twist>> by_way;
   for (const Twist& t : slipping(contacts, query_.cast.moving, center, world_->torque_arm(0)))
-    for (const double sign : {1.0, -1.0}) twists.push_back({sign * t.linear, sign * t.angular});
+    for (const double sign : {1.0, -1.0}) {
+      const Twist twist{sign * t.linear, sign * t.angular};
+      by_way.emplace_back(way_out(node.state, twist, center), twist);
+    }
+  std::stable_sort(by_way.begin(), by_way.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Twist> twists;
+  for (const auto& [way, twist] : by_way) twists.push_back(twist);
   return twists;
 }
 
 /// Moves along a screw exactly as long as nothing is entered: far faster than by simulation, and the path is clean.
 Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
-  State look = run.state;
   const Eigen::Vector3d center = run.state.bodies[0].pose * bodies_[0].center;
   const State start = run.state;
-  double step = kGlideStep, way = 0;
+  const double most = short_glides_ ? kGlideStep : kMostGlideStep;
+  State look = run.state;
+  double step = kGlideStep, way = 0, looked = 0, noted = run.length;
+  int in_a_row = 0;
   bool left_start = false;
-  for (int k = 1;; ++k) {
+  const auto at = [&](double along) {
+    State there = start;
+    for (auto& b : there.bodies) b.pose = moved(b.pose, twist, center, along);
+    return there;
+  };
+  while (true) {
     if (out_of_budget()) return GlideEnd::stop;
-    State next = start;
-    for (auto& b : next.bodies) b.pose = moved(b.pose, twist, center, way + step);
+    const State next = at(way + step);
     ++looks_;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min<std::uint64_t>(*limits_.steps_left, 1);
     if (world_->penetration(next) > kGlideDepth) {
       step *= 0.5;
+      in_a_row = 0;
       if (step < kLeastGlideStep) return GlideEnd::blocked;
       continue;
     }
+    // Instants and states are as dense as if every step had been short.
+    const int instants = std::max(1, static_cast<int>(std::ceil(step / kGlideStep - 1e-9)));
+    for (int k = 1; k <= instants; ++k) {
+      run.state = at(way + k * step / instants);
+      run.length += step / instants;
+      run.way.push_back(poses_of(run.state));
+      if (run.length < noted + kGlideLook * (1 - 1e-9) || seen_.similar(run.state, look)) continue;
+      noted = run.length;
+      look = run.state;
+      run.last = add_node(run.last, depth, run.state, std::move(run.way), true);
+      run.way.clear();
+      run.marks.emplace_back(run.length, run.last);
+      if (tactics_.intermediate > 0) enqueue(run.last);
+    }
     way += step;
-    run.length += step;
-    run.state = next;
-    run.way.push_back(poses_of(next));
-    if (k % kGlideLook != 0) continue;
-    if (world_->separated(next)) return GlideEnd::out;
-    left_start = left_start || !seen_.similar(next, start);
-    const auto size = static_cast<std::uint32_t>(nodes_.size());
-    if (left_start && seen_.has_similar(next, run.first, size)) return GlideEnd::known;
-    if (seen_.similar(next, look)) continue;
-    look = next;
-    run.last = add_node(run.last, depth, next, std::move(run.way), true);
-    run.way.clear();
-    run.marks.emplace_back(run.length, run.last);
-    if (parameters_.intermediate > 0) enqueue(run.last);
+    if (++in_a_row >= 2) step = std::min(most, 2 * step), in_a_row = 0;
+    if (way < looked + kGlideLook * (1 - 1e-9)) continue;
+    looked = way;
+    if (world_->separated(run.state)) return GlideEnd::out;
+    left_start = left_start || !seen_.similar(run.state, start);
+    if (left_start && seen_.has_similar(run.state, run.first, static_cast<std::uint32_t>(nodes_.size()))) return GlideEnd::known;
   }
 }
 
@@ -125,9 +164,13 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   while (true) {
     const double before = run.length;
     const GlideEnd end = glide(twist, depth, run);
+    if (getenv("TRACE")) fprintf(stderr, "%.2f  from %d glide %d length %.3f -> %.4f %.4f %.4f ang %.4f %.4f %.4f lin %.4f %.4f %.4f looks %lu\n", std::clock()/1e6, from, (int)end, run.length, run.state.bodies[0].pose.t.x(), run.state.bodies[0].pose.t.y(), run.state.bodies[0].pose.t.z(), twist.angular.x(), twist.angular.y(), twist.angular.z(), twist.linear.x(), twist.linear.y(), twist.linear.z(), looks_); // TRACE
     if (end == GlideEnd::stop) return RunEnd::stop;
-    if (end == GlideEnd::out)
-      return judge(add_node(run.last, depth, run.state, std::move(run.way), false), origin, result);
+    if (end == GlideEnd::out) {
+      const RunEnd judged = judge(add_node(run.last, depth, run.state, std::move(run.way), false), origin, result);
+      if (judged == RunEnd::refused || judged == RunEnd::refused_learned) short_glides_ = true;
+      return judged;
+    }
     if (end == GlideEnd::known) return RunEnd::blocked;
     const Pose& here = run.state.bodies[0].pose;
     if (screw_travel(stuck_at, here, bodies_[0].center, world_->radius(0)) < kLeastGlide) break;
@@ -149,17 +192,33 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
     if (fine_.has_similar(run.state) && run.last != from) return RunEnd::blocked;
     run.last = add_node(run.last, depth, run.state, std::move(run.way), false);
   }
-  Action action;
-  action.turns_along = true;
-  const Eigen::Vector3d center = run.state.bodies[0].pose * bodies_[0].center;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Pose& pose = run.state.bodies[i].pose;
-    const double arm = world_->torque_arm(i);
-    const Eigen::Vector3d v = twist.linear + twist.angular.cross(pose * bodies_[i].center - center);
-    action.wrenches.push_back({pose.q.conjugate() * (parameters_.force * v),
-                               pose.q.conjugate() * (parameters_.force * arm * arm * twist.angular)});
-  }
-  return follow(run.last, action, Stage::twists, depth, result);
+  return follow(run.last, along(twist, run.state), Stage::twists, depth, result);
 }
 
-}  // namespace dismantle::bfs
+/// The wrench that drives the bodies along a screw from where they are, turning with them.
+Action Search::along(const Twist& twist, const State& state, const Eigen::Vector3d& lean) const {
+  Action action;
+  action.turns_along = true;
+  const Eigen::Vector3d center = state.bodies[0].pose * bodies_[0].center;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Pose& pose = state.bodies[i].pose;
+    const double arm = world_->torque_arm(i);
+    const Eigen::Vector3d v = twist.linear + twist.angular.cross(pose * bodies_[i].center - center) + lean;
+    action.wrenches.push_back({pose.q.conjugate() * (tactics_.force * v),
+                               pose.q.conjugate() * (tactics_.force * arm * arm * twist.angular)});
+  }
+  return action;
+}
+
+/// Along the turns that the contacts leave free, while leaning along their axes: the way to find a slot there.
+std::vector<Action> Search::leaning_turns(const Node& node) {
+  std::vector<Action> actions;
+  for (const Twist& twist : twists_at(node)) {
+    if (twist.angular.norm() * world_->torque_arm(0) < kTurns) continue;
+    const Eigen::Vector3d axis = twist.angular.normalized();
+    for (const double sign : {1.0, -1.0}) actions.push_back(along(twist, node.state, sign * kLean * axis));
+  }
+  return actions;
+}
+
+}  // namespace dismantle::push

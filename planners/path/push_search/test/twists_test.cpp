@@ -1,5 +1,5 @@
 /// Laws of slippage: surfaces of known freedom give their motions, wherever they lie.
-#include "../twists.h"
+#include "dismantle/push/twists.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "dismantle/run_context.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 using Eigen::Vector3d;
@@ -130,4 +130,4 @@ TEST(Moved, IsTheFlowOfTheTwist) {
 }
 
 }  // namespace
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -6,7 +6,7 @@
 
 #include "dismantle/simulator.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 
 /// An instantaneous rigid motion, world axes: velocity of `center` and angular velocity about it.
 struct Twist {
@@ -28,4 +28,4 @@ Pose moved(const Pose& pose, const Twist& twist, const Eigen::Vector3d& center, 
 std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
                             const Eigen::Vector3d& center, double radius);
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

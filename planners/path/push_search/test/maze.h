@@ -12,7 +12,7 @@
 #include "dismantle/path_planner.h"
 #include "dismantle/registry.h"
 
-namespace dismantle::bfs::test {
+namespace dismantle::push::test {
 
 using Eigen::Vector3d;
 
@@ -185,4 +185,4 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
   run.result = registry().create<PathPlanner>("bfs", given)->plan(query, context);
 }
 
-}  // namespace dismantle::bfs::test
+}  // namespace dismantle::push::test
