@@ -139,7 +139,6 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
                           decides ? kFullPatches : kTryPatches, 0};
     Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     result.tests += budget.tests_done;
-    if (getenv("TRACE")) fprintf(stderr, "rung %g answer %d tests %lu at %.3f of %zu t=%.2f\n", rungs[rung], (int)f.answer, (unsigned long)budget.tests_done, f.time, forward.segments(), clock()/1e6); // TRACE
     if (f.answer == Answer::certified) return true;
     if (first_try) {  // before more effort: how deep is it at least?
       const Finding seen = verify::deepest_sample(x, y, forward, backward);

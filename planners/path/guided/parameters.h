@@ -99,6 +99,8 @@ struct Parameters {
     t.rotation_nodes = rotation_nodes;
     t.own_axes = true;
     t.novelty = novelty;
+    t.first_rank = 1;  // what the contacts leave free and the axes; then screws
+    t.turning_lag = 1;
     if (proposals) t.translating.push_back(push::Stage::free);
     t.translating.push_back(push::Stage::axes);
     if (proposals) t.translating.push_back(push::Stage::leaning);

@@ -47,7 +47,9 @@ PathResult without_end(const PathQuery& query, const Tactics& tactics, Search::L
     if (goes_on(first)) first = translation.run(limits);
     if (!goes_on(first) && first.outcome != Outcome::exhausted) return rotation ? merged(second, first) : first;
     if (!rotation) rotation.emplace(query, MotionSpace::rigid, tactics, context);
-    if (goes_on(second)) second = rotation->run(limits);
+    Search::Limits turning = limits;
+    turning.rank -= std::min(turning.rank, tactics.turning_lag);
+    if (goes_on(second)) second = rotation->run(turning);
     if (!goes_on(second) && second.outcome != Outcome::exhausted) break;
   }
   return merged(first, second);

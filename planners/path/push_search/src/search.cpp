@@ -1,5 +1,3 @@
-#include <ctime> // TRACE
-#include <cstdio> // TRACE
 #include "dismantle/push/search.h"
 
 #include <algorithm>
@@ -142,9 +140,7 @@ Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& 
   const Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
-  const double tj_ = std::clock()/1e6; // TRACE
   const Verdict verdict = query_.judge(path);
-  if (getenv("TRACE")) fprintf(stderr, "%.2f judge %d %.2f s poses %zu %s\n", std::clock()/1e6, verdict.accepted, std::clock()/1e6-tj_, path.size(), verdict.reason.c_str()); // TRACE
   if (verdict.accepted) {
     note_contacts(start);
     result.outcome = Outcome::solved;
@@ -208,7 +204,6 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
       passed_.push_back({from, depth, state, way});
     }
   }
-  if (getenv("TRACE")) fprintf(stderr, "%.2f %s run from %d depth %u stage %d dir %.2f %.2f %.2f tq %.2f %.2f %.2f -> %.4f %.4f %.4f q %.4f %.4f %.4f %.4f steps %lu nodes %zu\n", std::clock()/1e6, turning()?"R":"T", from, depth, (int)stage, action.wrenches[0].force.x(), action.wrenches[0].force.y(), action.wrenches[0].force.z(), action.wrenches[0].torque.x(), action.wrenches[0].torque.y(), action.wrenches[0].torque.z(), state.bodies[0].pose.t.x(), state.bodies[0].pose.t.y(), state.bodies[0].pose.t.z(), state.bodies[0].pose.q.w(), state.bodies[0].pose.q.x(), state.bodies[0].pose.q.y(), state.bodies[0].pose.q.z(), steps_, nodes_.size()); // TRACE
   note_contacts(state);
   if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
     // Nothing gained since the last recorded state: that one is the end of the run.

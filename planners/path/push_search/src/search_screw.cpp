@@ -1,5 +1,3 @@
-#include <ctime> // TRACE
-#include <cstdio> // TRACE
 // Runs along screw motions: gliding where nothing is in the way, simulating where something is.
 #include <algorithm>
 #include <cmath>
@@ -14,7 +12,9 @@ namespace {
 /// Way between two looks at penetration while gliding: as it begins, the longest that it grows to while nothing is in
 /// the way, and the shortest tried before giving up (assembly units). What is thinner than a step may be jumped; the
 /// judge sees it, and from then on steps do not grow.
-constexpr double kGlideStep = 0.1, kMostGlideStep = 0.8, kLeastGlideStep = 0.0125;
+constexpr double kGlideStep = 0.1, kMostGlideStep = 2.4, kLeastGlideStep = 0.0125;
+/// Steps grow to this share of the way that was clear.
+constexpr double kGlideShare = 0.125;
 /// Penetration that counts as none, and the room that a part is given before it glides on.
 constexpr double kGlideDepth = 1e-3, kGlideClearance = 0.02;
 /// A glide that covers less is not worth another one.
@@ -25,6 +25,8 @@ constexpr double kKept = 0.75;
 constexpr double kGlideLook = 0.3;
 /// Ways along a screw at which we look whether the hulls are apart grow by this factor, up to the most.
 constexpr double kWayOutFactor = 1.25, kMostWayOut = 2000;
+/// A push that feels lasts this share of the planning step.
+constexpr double kFeelShare = 0.4;
 /// Share of turning from which on a screw is one, and the axial share of a push that leans.
 constexpr double kTurns = 0.3, kLean = 0.5;
 /// Half turns with a smaller sine do not tell their axis.
@@ -82,13 +84,42 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   return std::numeric_limits<double>::infinity();
 }
 
+/// What the bodies touch when they are pushed a little, every way in turn, as if they did where they are: a part that
+/// stands free in its play touches nothing, though surfaces close by guide it.
+void Search::feel(const State& state, std::vector<Contact>& contacts) {
+  std::vector<Contact> there;
+  for (const Action& action : unit_actions(*world_, tactics_.force, false, axes_)) {
+    State moved_on = state;
+    const StepReport report = world_->advance(moved_on, action, kFeelShare * tactics_.time_step);
+    steps_ += report.steps;
+    if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
+    if (!report.finite || !report.stalled) continue;
+    world_->contacts(moved_on, there);
+    for (Contact& c : there) {
+      for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+        if (query_.cast.moving[i].part != c.moving) continue;
+        const Pose back = state.bodies[i].pose * moved_on.bodies[i].pose.inverse();
+        c.point = back * c.point;
+        c.normal = back.q * c.normal;
+      }
+      contacts.push_back(c);
+    }
+  }
+}
+
 /// Along what the contacts let slip, both ways, the shorter way out first.
 std::vector<Twist> Search::twists_at(const Node& node) {
+  const Eigen::Vector3d center = node.state.bodies[0].pose * bodies_[0].center;
+  const double arm = world_->torque_arm(0);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  const Eigen::Vector3d center = node.state.bodies[0].pose * bodies_[0].center;
+  std::vector<Twist> slips = slipping(contacts, query_.cast.moving, center, arm);
+  if (slips.empty()) {
+    feel(node.state, contacts);
+    slips = slipping(contacts, query_.cast.moving, center, arm);
+  }
   std::vector<std::pair<double, Twist>> by_way;
-  for (const Twist& t : slipping(contacts, query_.cast.moving, center, world_->torque_arm(0)))
+  for (const Twist& t : slips)
     for (const double sign : {1.0, -1.0}) {
       const Twist twist{sign * t.linear, sign * t.angular};
       by_way.emplace_back(way_out(node.state, twist, center), twist);
@@ -139,12 +170,14 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
       if (tactics_.intermediate > 0) enqueue(run.last);
     }
     way += step;
-    if (++in_a_row >= 2) step = std::min(most, 2 * step), in_a_row = 0;
+    if (++in_a_row >= 2 && 2 * step <= std::max(kGlideStep, kGlideShare * way))
+      step = std::min(most, 2 * step), in_a_row = 0;
     if (way < looked + kGlideLook * (1 - 1e-9)) continue;
     looked = way;
     if (world_->separated(run.state)) return GlideEnd::out;
     left_start = left_start || !seen_.similar(run.state, start);
-    if (left_start && seen_.has_similar(run.state, run.first, static_cast<std::uint32_t>(nodes_.size()))) return GlideEnd::known;
+    if (left_start && seen_.has_similar(run.state, run.first, static_cast<std::uint32_t>(nodes_.size())))
+      return GlideEnd::known;
   }
 }
 
@@ -164,7 +197,6 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   while (true) {
     const double before = run.length;
     const GlideEnd end = glide(twist, depth, run);
-    if (getenv("TRACE")) fprintf(stderr, "%.2f  from %d glide %d length %.3f -> %.4f %.4f %.4f ang %.4f %.4f %.4f lin %.4f %.4f %.4f looks %lu\n", std::clock()/1e6, from, (int)end, run.length, run.state.bodies[0].pose.t.x(), run.state.bodies[0].pose.t.y(), run.state.bodies[0].pose.t.z(), twist.angular.x(), twist.angular.y(), twist.angular.z(), twist.linear.x(), twist.linear.y(), twist.linear.z(), looks_); // TRACE
     if (end == GlideEnd::stop) return RunEnd::stop;
     if (end == GlideEnd::out) {
       const RunEnd judged = judge(add_node(run.last, depth, run.state, std::move(run.way), false), origin, result);
@@ -204,8 +236,8 @@ Action Search::along(const Twist& twist, const State& state, const Eigen::Vector
     const Pose& pose = state.bodies[i].pose;
     const double arm = world_->torque_arm(i);
     const Eigen::Vector3d v = twist.linear + twist.angular.cross(pose * bodies_[i].center - center) + lean;
-    action.wrenches.push_back({pose.q.conjugate() * (tactics_.force * v),
-                               pose.q.conjugate() * (tactics_.force * arm * arm * twist.angular)});
+    action.wrenches.push_back(
+        {pose.q.conjugate() * (tactics_.force * v), pose.q.conjugate() * (tactics_.force * arm * arm * twist.angular)});
   }
   return action;
 }

@@ -11,7 +11,7 @@ namespace dismantle::push {
 /// Columns: three orthonormal axes (right-handed, world) told by the parts alone: the normal of most of the surface of
 /// the moving parts, then the one of most surface among those square to it, of the moving parts or else of those that
 /// stand still. Round parts without a second one: towards the point furthest from the first axis. Turned input gives
-/// turned axes, up to the order of axes that have equally much surface.
+/// turned axes, up to their signs, and the order of axes that have equally much surface.
 Eigen::Matrix3d own_axes(const Assembly& assembly, const Cast& cast);
 
 /// Boxes of what moves and of what stands still, along axes of our own.

@@ -71,6 +71,7 @@ class Search {
   RunEnd expand(std::int32_t node, PathResult& result);
   std::vector<Action> actions_at(const Node& node, Stage stage);
   std::vector<Twist> twists_at(const Node& node);
+  void feel(const State& state, std::vector<Contact>& contacts);
   Action along(const Twist& twist, const State& state, const Eigen::Vector3d& lean = Eigen::Vector3d::Zero()) const;
   std::vector<Action> leaning_turns(const Node& node);
   double way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center);

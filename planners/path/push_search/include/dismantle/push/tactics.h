@@ -33,8 +33,8 @@ struct Tactics {
   std::int64_t max_refusals = 8;
   /// motion auto under a depth limit: states searched from per level of depth.
   std::int64_t translation_nodes = 24, rotation_nodes = 8;
-  /// motion auto without one: ranks to which translation is searched before anything is turned.
-  unsigned first_rank = 3;
+  /// motion auto without one: rank to which translation is searched first, and by how much less rotation is after it.
+  unsigned first_rank = 0, turning_lag = 0;
 };
 
 }  // namespace dismantle::push
