@@ -1,4 +1,4 @@
-// Whole searches by bfs on samples as users get them, with and without preparation, and the verifier alone.
+// Whole searches by guided on samples as users get them, with and without preparation, and the verifier alone.
 #include <benchmark/benchmark.h>
 
 #include "bench_models.h"
@@ -23,7 +23,7 @@ struct Task {
   std::vector<PartId> moving;
   std::unique_ptr<Verifier> verifier;
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
-  std::shared_ptr<PathPlanner> planner = registry().create<PathPlanner>("bfs");
+  std::shared_ptr<PathPlanner> planner = registry().create<PathPlanner>("guided");
   std::shared_ptr<const Prepared> prepared;
   double judging = 0;  ///< seconds
 

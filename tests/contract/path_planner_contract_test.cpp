@@ -30,8 +30,8 @@ constexpr std::uint64_t kPlenty = 30'000;
 
 TEST(PathPlanners, TheOnesOfThisProjectAreThere) {
   const auto found = ids(PluginKind::path_planner);
-  EXPECT_EQ(std::count(found.begin(), found.end(), "bfs"), 1)
-      << registry().why_missing(PluginKind::path_planner, "bfs");
+  for (const char* id : {"bfs", "guided"})
+    EXPECT_EQ(std::count(found.begin(), found.end(), id), 1) << registry().why_missing(PluginKind::path_planner, id);
 }
 
 class PathPlannerContract : public testing::TestWithParam<std::string> {
@@ -179,7 +179,7 @@ TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
   for (std::size_t which = 0; which < small_assemblies().size(); ++which) {
     Run run;
     plan(run, which);
-    if (GetParam() == "bfs") {
+    if (GetParam() == "bfs" || GetParam() == "guided") {
       EXPECT_EQ(run.result.outcome, Outcome::solved) << small_assemblies()[which].name;
     }
   }
@@ -287,7 +287,7 @@ TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {
   cast.moving[0].pose.t = Vector3d(0.01, -0.005, 0.4);
   Run run;
   plan(run, 0, {.max_steps = kPlenty}, {}, {}, &cast);
-  if (GetParam() == "bfs") {
+  if (GetParam() == "bfs" || GetParam() == "guided") {
     EXPECT_EQ(run.result.outcome, Outcome::solved);
   }
 }

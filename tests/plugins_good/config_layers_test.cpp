@@ -61,10 +61,10 @@ TEST_F(Layers, ChangedTypeDropsTheParametersOfTheOther) {
   EXPECT_EQ(std::get<double>(config.path_planner.params.at("range")), 0.3);
   write("same.yaml", "schema: 1\nextends: base.yaml\npath_planner: {type: bfs}\n");
   EXPECT_EQ(std::get<double>(load("same.yaml").path_planner.params.at("similarity_translation")), 0.1);
-  write("implied.yaml", "schema: 1\npath_planner: {similarity_translation: 0.1}\n");  // bfs by default
+  write("implied.yaml", "schema: 1\npath_planner: {similarity_translation: 0.1}\n");  // guided by default
   EXPECT_EQ(load("implied.yaml", {}, {{"--path-planner", "path_planner.type", "t_rrt"}}).path_planner.type, "t_rrt");
   EXPECT_EQ(std::get<double>(
-                load("implied.yaml", {"path_planner.type=bfs"}).path_planner.params.at("similarity_translation")),
+                load("implied.yaml", {"path_planner.type=guided"}).path_planner.params.at("similarity_translation")),
             0.1);
 }
 

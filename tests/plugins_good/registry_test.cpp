@@ -38,7 +38,7 @@ TEST(Registry, FindsWhatWasRegistered) {
   registry.scan();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
   EXPECT_EQ(ids(registry, PluginKind::path_planner),
-            (std::vector<std::string>{"acme.straight", "bfs", "pairs", "t_rrt"}));
+            (std::vector<std::string>{"acme.straight", "bfs", "guided", "pairs", "t_rrt"}));
   EXPECT_EQ(ids(registry, PluginKind::simulator),
             (std::vector<std::string>{"acme.stepper", "geometry_only", "sdf_penalty"}));
   const RegisteredType& bfs = registry.find(PluginKind::path_planner, "bfs");

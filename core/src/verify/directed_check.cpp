@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace dismantle::verify {
@@ -13,6 +14,10 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kShare = 1 - 1e-9;
 /// Below this share of the penetration allowed a patch in a time interval is not divided further.
 constexpr double kResolution = 1.0 / 8;
+/// Patches are asked for in all intervals that are shorter than this part of a segment.
+constexpr double kShortest = 1.0 / 64;
+/// What was learnt of a triangle's bends is forgotten at this rate, test by test.
+constexpr double kForget = 1.1;
 
 Aabb box_under(const Placement& m, const Aabb& box) {
   const Vec3 c = m * box.center(), h = m.r.cwiseAbs() * (0.5 * box.size());
@@ -23,7 +28,13 @@ Aabb box_under(const Placement& m, const Aabb& box) {
 
 DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits,
                              Budget& budget)
-    : a_(a), b_(b), motion_(motion), limits_(limits), budget_(budget), patch_of_(a.mesh.triangles.size(), kNone) {}
+    : a_(a),
+      b_(b),
+      motion_(motion),
+      limits_(limits),
+      budget_(budget),
+      patch_of_(a.mesh.triangles.size(), kNone),
+      unclear_(a.mesh.triangles.size(), std::numeric_limits<double>::infinity()) {}
 
 Finding DirectedCheck::run() {
   if (descend(0, static_cast<double>(motion_.segments()))) sides();
@@ -31,7 +42,8 @@ Finding DirectedCheck::run() {
 }
 
 DirectedCheck::Interval DirectedCheck::interval(double s0, double s1) const {
-  return {s0, s1, motion_.deviation(s0, s1), Placement(motion_.at(s0)), Placement(motion_.at(s1))};
+  return {
+      s0, s1, motion_.deviation(s0, s1), Placement(motion_.at(s0)), Placement(motion_.at(s1)), motion_.bend(s0, s1)};
 }
 
 double DirectedCheck::middle(const Interval& i) const {
@@ -101,10 +113,15 @@ bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {
   return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
 }
 
-bool DirectedCheck::clear(const Interval& i, const Corners& moved, bool& far) {
-  const Sighting seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), i.margin).look(b_.bvh);
+bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved, bool& far) {
+  const Sighting seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), margin).look(b_.bvh);
   far = seen == Sighting::far;
   return seen != Sighting::unclear;
+}
+
+/// Along a close fit a triangle fails at the same bend again and again: do not ask where it did shortly before.
+bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
+  return i.s1 - i.s0 <= kShortest || margin < unclear_[triangle];
 }
 
 bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
@@ -115,13 +132,19 @@ bool DirectedCheck::outside(const Placement& place, const Corners& moved) const 
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   const Patch patch = patches_[id];
   const double most = allowed(patch), e = most * kShare, leeway = most - limits_.overlap;
-  if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
+  const double margin = i.bend.at(patch.center(), patch.radius() + most);
+  const bool bent = margin > 0.5 * leeway;
   bool far = false;
-  if (vertex_rule && clear(i, moved_by_vertices(patch, e), far)) {
-    if (!far) pieces_.push_back({id, i.s0, i.s1});
-    return true;
+  if (!bent || (vertex_rule && worth_a_test(i, margin, patch.triangle))) {
+    if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
+    if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
+      if (!far) pieces_.push_back({id, i.s0, i.s1});
+      unclear_[patch.triangle] *= kForget;
+      return true;
+    }
+    if (bent) unclear_[patch.triangle] = margin;  // and no other rule holds there
   }
-  if (i.margin > 0.5 * leeway) {  // too bent to be judged as straight
+  if (bent) {  // too bent to be judged as straight
     later.push_back(id);
     return true;
   }
@@ -133,13 +156,13 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   const Escape center = escape_at(mid * patch.center(), b_);
   const double depth = center.depth;
   if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
-  const double reach = patch.radius() + 0.5 * travel + 2 * i.margin;
+  const double reach = patch.radius() + 0.5 * travel + 2 * margin;
   if (depth + reach <= most) {  // depth changes no faster than the point moves
     by_shrunken_copy_ = false;
     return true;
   }
   const Corners by_normal = moved_along(patch, -a_.normals[patch.triangle], e);
-  if (clear(i, by_normal, far) && (far || outside(i.at0, by_normal))) {
+  if (clear(i, margin, by_normal, far) && (far || outside(i.at0, by_normal))) {
     by_shrunken_copy_ = false;
     return true;
   }
@@ -150,7 +173,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     if (seen.depth[deepest] > most)
       return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
     const Corners by_probe = moved_by_probe(patch, seen, e);
-    if (clear(i, by_probe, far) && (far || outside(i.at0, by_probe))) {
+    if (clear(i, margin, by_probe, far) && (far || outside(i.at0, by_probe))) {
       by_shrunken_copy_ = false;
       return true;
     }
@@ -164,12 +187,12 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     }
   }
   const Corners by_center = moved_along(patch, mid.r.transpose() * center.out, e);
-  if (depth > 0 && clear(i, by_center, far) && (far || outside(i.at0, by_center))) {
+  if (depth > 0 && clear(i, margin, by_center, far) && (far || outside(i.at0, by_center))) {
     by_shrunken_copy_ = false;
     return true;
   }
   if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  if (i.s1 - i.s0 > 1 || travel + 2 * i.margin > 0.3 * patch.longest_edge()) {
+  if (i.s1 - i.s0 > 1 || travel + 2 * margin > 0.3 * patch.longest_edge()) {
     later.push_back(id);
     return true;
   }

@@ -61,8 +61,9 @@ class DirectedCheck {
 
  private:
   struct Interval {
-    double s0, s1, margin;
+    double s0, s1, margin;  // margin: of the whole box
     Placement at0, at1;
+    RelativeMotion::Bend bend;
   };
   struct Piece {  // certified by the vertex rule except for which side it is on
     std::uint32_t patch;
@@ -77,7 +78,8 @@ class DirectedCheck {
   bool descend(double s0, double s1);
   bool process(const Interval& i, List list, bool vertex_rule);
   bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
-  bool clear(const Interval& i, const Corners& moved, bool& far);
+  bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
+  bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
   bool outside(const Placement& place, const Corners& moved) const;
   bool sides();
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
@@ -90,6 +92,7 @@ class DirectedCheck {
   Budget& budget_;
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
+  std::vector<double> unclear_;          // by triangle of A: margins from there on were in vain lately
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;
   Finding finding_;

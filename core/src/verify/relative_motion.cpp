@@ -10,6 +10,9 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
+/// Chords over more segments than this are judged by the box alone: too long to help anyway.
+constexpr std::size_t kMostOffsets = 24;
+
 /// Velocity field of a screw motion, constant in time and in world axes: v(x) = v + w x (x - origin).
 struct Field {
   Vec3 w = Vec3::Zero(), v = Vec3::Zero(), origin = Vec3::Zero();
@@ -44,10 +47,15 @@ RelativeMotion::RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const A
   at_instant_.reserve(instants);
   for (std::size_t k = 0; k < instants; ++k) at_instant_.emplace_back(pose_at(b_, k).inverse() * pose_at(a_, k));
   bend_.assign(instants - 1, 0);
+  screws_.resize(instants - 1);
   for (std::size_t k = 0; k + 1 < instants; ++k) {
     const Pose& start = pose_at(a_, k);
     const Field fa = field_of(start, pose_at(a_, k + 1)), fb = field_of(pose_at(b_, k), pose_at(b_, k + 1));
     const bool a_still = fa.w.isZero(0) && fa.v.isZero(0), b_still = fb.w.isZero(0) && fb.v.isZero(0);
+    if (a_still || b_still) {
+      const Field& f = b_still ? fa : fb;
+      screws_[k] = {true, f.w, f.v, f.origin, Placement(start)};
+    }
     const double turn = (fa.w - fb.w).norm();
     for (const auto& c : corners_) {
       // In B's frame y'' = (wa - wb) x va - wb x (va - vb), all in world axes, taken at where the point is.
@@ -109,6 +117,50 @@ double RelativeMotion::deviation(double s0, double s1) const {
   if (s1 - s0 > 1 || (s1 - s0 == 1 && s0 == std::floor(s0))) return chord_deviation(i, static_cast<std::size_t>(s1));
   const std::size_t k = std::min(i, bend_.empty() ? 0 : bend_.size() - 1);
   return bend_.empty() ? 0 : bend_[k] * (s1 - s0) * (s1 - s0) / 8;
+}
+
+RelativeMotion::Bend RelativeMotion::bend(double s0, double s1) const {
+  Bend bend;
+  bend.whole_ = deviation(s0, s1);
+  const auto i = static_cast<std::size_t>(std::floor(s0));
+  if (s1 <= static_cast<double>(i + 1)) {
+    if (i >= screws_.size() || !screws_[i].known) return bend;
+    bend.screw_ = &screws_[i];
+    bend.share2_ = (s1 - s0) * (s1 - s0);
+    return bend;
+  }
+  const auto j = static_cast<std::size_t>(s1);
+  if (j - i > kMostOffsets) return bend;
+  const Placement &from = at_instant_[i], &to = at_instant_[j];
+  Vec3 middle = Vec3::Zero();
+  for (const auto& c : corners_) middle += c / 8;
+  const Vec3 start = from * middle, way = to * middle - start;
+  const double way2 = way.squaredNorm();
+  for (std::size_t k = i; k < j; ++k) bend.along_ = std::max(bend.along_, bend_[k] / 8);
+  for (std::size_t k = i + 1; k < j; ++k) {
+    const double w = way2 > 1e-20 ? std::clamp((at_instant_[k] * middle - start).dot(way) / way2, 0.0, 1.0)
+                                  : static_cast<double>(k - i) / static_cast<double>(j - i);
+    Bend::Offset o;
+    o.m = at_instant_[k].r - (1 - w) * from.r - w * to.r;
+    o.t = at_instant_[k].t - (1 - w) * from.t - w * to.t;
+    o.stretch = o.m.norm();
+    bend.offsets_.push_back(o);
+  }
+  return bend;
+}
+
+double RelativeMotion::Bend::at(const Vec3& center, double radius) const {
+  if (screw_ != nullptr) {
+    // Along a screw motion the second derivative of a point's way has the same size all the time.
+    const Screw& f = *screw_;
+    const Vec3 x = f.start * center;
+    const double bound = f.w.cross(f.v + f.w.cross(x - f.origin)).norm() + f.w.squaredNorm() * radius;
+    return std::min(whole_, bound * (1 + 1e-9) * share2_ / 8);
+  }
+  if (offsets_.empty()) return whole_;
+  double off = 0;
+  for (const Offset& o : offsets_) off = std::max(off, (o.m * center + o.t).norm() + o.stretch * radius);
+  return std::min(whole_, along_ + off * (1 + 1e-9));
 }
 
 Aabb RelativeMotion::swept_box() const {

@@ -35,6 +35,34 @@ class RelativeMotion {
   /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are
   /// (1 - w) x(s0) + w x(s1) for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
   double deviation(double s0, double s1) const;
+  /// A segment on which one of the parts stands still: velocity v + w x (x - origin) of the other where the points of
+  /// A are at its beginning (world).
+  struct Screw {
+    bool known = false;
+    Eigen::Vector3d w, v, origin;
+    Placement start;
+  };
+  /// The same for a few points: a turn bends the ways of what is near its axis far less than those of the corners of
+  /// the box. Made once for an interval as above, asked for many places.
+  class Bend {
+   public:
+    /// Bound for the points within `radius` of `center`, all of them in the box.
+    double at(const Eigen::Vector3d& center, double radius) const;
+
+   private:
+    friend class RelativeMotion;
+    struct Offset {  // of an instant from the chord: an affine map of the points
+      Eigen::Matrix3d m;
+      Eigen::Vector3d t;
+      double stretch;  // norm of m
+    };
+    std::vector<Offset> offsets_;
+    double along_ = 0;              // between instants, at most
+    double whole_ = 0;              // deviation() of the box
+    const Screw* screw_ = nullptr;  // of the one segment, if it has one
+    double share2_ = 0;             // of that segment, squared
+  };
+  Bend bend(double s0, double s1) const;
   /// Box in the frame of B that holds the box of A at all times.
   Aabb swept_box() const;
 
@@ -43,7 +71,8 @@ class RelativeMotion {
   std::vector<Pose> a_, b_;
   std::array<Eigen::Vector3d, 8> corners_;
   std::vector<Placement> at_instant_;
-  std::vector<double> bend_;  // by segment: bound of the second derivative of a point's way in the frame of B
+  std::vector<Screw> screws_;  // by segment
+  std::vector<double> bend_;   // by segment: bound of the second derivative of a point's way in the frame of B
 };
 
 }  // namespace dismantle::verify

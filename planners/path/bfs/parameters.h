@@ -2,22 +2,18 @@
 #pragma once
 
 #include "dismantle/parameters.h"
+#include "dismantle/push/tactics.h"
 
 namespace dismantle::bfs {
 
-enum class Motion { translation, rotation, automatic };
-
 struct Parameters {
-  Motion motion = Motion::automatic;
+  push::Motion motion = push::Motion::automatic;
   // Table 6.
   double time_step = 0.1;
   double force = 100;
   double similarity_translation = 0.05;
   double similarity_rotation = 0.5;
   // Where we go beyond Algorithm 1; see README.md.
-  bool proposals = true;
-  bool novelty = true;
-  bool twists = true;
   bool diagonals = true;
   std::int64_t intermediate = 256;
   double thinning = 1e-4;
@@ -26,11 +22,11 @@ struct Parameters {
   std::int64_t rotation_nodes = 8;
 
   static void describe(Schema<Parameters>& s) {
-    s.add_choice<Motion>("motion", &Parameters::motion,
-                         {{"translation", Motion::translation, "6 actions, orientation locked"},
-                          {"rotation", Motion::rotation, "12 actions in SE(3)"},
-                          {"auto", Motion::automatic, "translation first; rotation once that is exhausted"}},
-                         "State space of the search (section 4.2).");
+    s.add_choice<push::Motion>("motion", &Parameters::motion,
+                               {{"translation", push::Motion::translation, "forces only, orientation locked"},
+                                {"rotation", push::Motion::rotation, "forces and torques in SE(3)"},
+                                {"auto", push::Motion::automatic, "by translation and by rotation, in turns"}},
+                               "State space of the search (section 4.2).");
     s.add("time_step", &Parameters::time_step,
           {.unit = "s",
            .min = 1e-3,
@@ -50,20 +46,9 @@ struct Parameters {
            .min_open = true,
            .doc = "... if turned by less than this, too (table 6)."});
     s.add(
-        "proposals", &Parameters::proposals,
-        {.doc =
-             "Translating, push first along directions that the contacts leave free, then along those while leaning on "
-             "a wall, then along the axes."});
-    s.add(
-        "novelty", &Parameters::novelty,
-        {.doc =
-             "Search first from states in places that were not searched from before; off: first come, first served."});
-    s.add(
         "diagonals", &Parameters::diagonals,
         {.doc =
              "When the unit actions are exhausted, also push along the 20 diagonals; turning, turn and pull at once."});
-    s.add("twists", &Parameters::twists,
-          {.doc = "Turning, first along the screw motions that the surfaces in contact leave free."});
     s.add("intermediate", &Parameters::intermediate,
           {.unit = "1",
            .min = 0,
@@ -86,6 +71,27 @@ struct Parameters {
           {.unit = "1",
            .min = 1,
            .doc = "Under `motion: auto` and a depth limit: states searched with rotation per level of depth."});
+  }
+
+  push::Tactics tactics() const {
+    push::Tactics t;
+    t.motion = motion;
+    t.time_step = time_step;
+    t.force = force;
+    t.similarity_translation = similarity_translation;
+    t.similarity_rotation = similarity_rotation;
+    t.intermediate = intermediate;
+    t.thinning = thinning;
+    t.max_refusals = max_refusals;
+    t.translation_nodes = translation_nodes;
+    t.rotation_nodes = rotation_nodes;
+    t.translating = {push::Stage::axes};
+    t.turning = {push::Stage::axes};
+    if (diagonals) {
+      t.translating.push_back(push::Stage::diagonals);
+      t.turning.push_back(push::Stage::screws);
+    }
+    return t;
   }
 };
 

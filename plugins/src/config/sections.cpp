@@ -44,7 +44,7 @@ const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_section
 const std::vector<PluginSection>& plugin_sections() {
   static const std::vector<PluginSection> sections = {
       {"simulator", PluginKind::simulator, "sdf_penalty"},
-      {"path_planner", PluginKind::path_planner, "bfs"},
+      {"path_planner", PluginKind::path_planner, "guided"},
       {"sequence_planner", PluginKind::sequence_planner, "progressive"},
       {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
   return sections;

@@ -4,11 +4,11 @@
 namespace dismantle::bfs {
 namespace {
 
-using namespace test;
+using namespace push::test;
 
 const ParamSet kTranslation{{"motion", std::string("translation")}};
 /// One action along one axis at a time, as in section 4.2.
-const ParamSet kAxesOnly{{"motion", std::string("translation")}, {"proposals", false}, {"diagonals", false}};
+const ParamSet kAxesOnly{{"motion", std::string("translation")}, {"diagonals", false}};
 
 Maze straight() { return {.free = {tunnel(Vector3d::Zero(), Vector3d(7, 0, 0))}}; }
 

@@ -5,7 +5,7 @@
 namespace dismantle::bfs {
 namespace {
 
-using namespace test;
+using namespace push::test;
 
 Mesh boxes(const std::vector<Aabb>& list) {
   Mesh mesh;
@@ -100,7 +100,7 @@ TEST(BfsPhysics, SolvesAnLSlotInTwoMoves) {
 
 TEST(BfsPhysics, DepthOneIsNotEnoughForAnLSlot) {
   Bench bench(l_slot());
-  const ParamSet axes{{"proposals", false}, {"diagonals", false}};
+  const ParamSet axes{{"diagonals", false}};
   EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 1}).outcome, Outcome::depth_limit);
   EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 2}).outcome, Outcome::solved);
 }

@@ -1,5 +1,5 @@
 /// Laws of slippage: surfaces of known freedom give their motions, wherever they lie.
-#include "../twists.h"
+#include "dismantle/push/twists.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "dismantle/run_context.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 using Eigen::Vector3d;
@@ -99,6 +99,71 @@ TEST(Slipping, ARoundShaftTurnsAndSlidesSeparately) {
   }
 }
 
+/// Part of a torus about z: only the turn about z slips.
+Sampled on_torus(Rng& rng, double big) {
+  const double a = rng.uniform(-1.2, 1.2), b = rng.uniform(0, 2 * std::numbers::pi);
+  const Vector3d out(std::cos(a), std::sin(a), 0);
+  const Vector3d normal = std::cos(b) * out + std::sin(b) * Vector3d::UnitZ();
+  return {big * out + 0.4 * normal, normal};
+}
+
+TEST(Slipping, ASleeveOnACurvedTubeTurnsAboutTheMiddleOfTheCurve) {
+  Rng rng(6);
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose = random_pose(rng);
+    const double big = rng.uniform(2, 6);
+    const Vector3d center = pose * Vector3d(big, 0, 0);
+    const auto twists =
+        slipping(contacts_of(rng, pose, [&](Rng& r) { return on_torus(r, big); }), {{0, Pose{}}}, center, 0.7 * big);
+    ASSERT_EQ(twists.size(), 1u);
+    const Vector3d axis = twists[0].angular.normalized();
+    EXPECT_NEAR(std::abs(axis.dot(pose.q * Vector3d::UnitZ())), 1.0, 1e-6);
+    const Vector3d on_axis = center + axis.cross(twists[0].linear) / twists[0].angular.norm();
+    const Vector3d off = on_axis - pose.t;
+    EXPECT_LT((off - axis * axis.dot(off)).norm(), 1e-4);
+    EXPECT_NEAR(axis.dot(twists[0].linear), 0, 1e-6) << "no pitch";
+  }
+}
+
+/// Sides of a square prism along z.
+Sampled on_prism(Rng& rng) {
+  const Vector3d out = (rng.below(2) == 0 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(rng.below(2)));
+  const Vector3d beside = Vector3d::UnitZ().cross(out);
+  return {out + rng.uniform(-1, 1) * beside + Vector3d(0, 0, rng.uniform(-2, 2)), out};
+}
+
+TEST(Slipping, APrismOnlySlides) {
+  Rng rng(7);
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose = random_pose(rng);
+    const auto twists = slipping(contacts_of(rng, pose, on_prism), {{0, Pose{}}}, pose * Vector3d(0.1, 0, 0.2), 1.4);
+    ASSERT_EQ(twists.size(), 1u);
+    EXPECT_NEAR(std::abs(twists[0].linear.dot(pose.q * Vector3d::UnitZ())), 1.0, 1e-6);
+    EXPECT_NEAR(twists[0].angular.norm(), 0, 1e-6);
+  }
+}
+
+TEST(Slipping, ANutThatSitsOnAPlateStillTellsItsLead) {
+  Rng rng(8);
+  for (int i = 0; i < 40; ++i) {
+    const Pose pose = random_pose(rng);
+    const double lead = (i % 2 == 0 ? 1 : -1) * rng.uniform(0.15, 0.6);
+    const auto contacts = contacts_of(rng, pose, [&](Rng& r) {
+      if (r.below(2) == 0) return on_thread(r, lead);
+      const double a = r.uniform(0, 2 * std::numbers::pi), d = r.uniform(1, 1.8);
+      return Sampled{Vector3d(d * std::cos(a), d * std::sin(a), -1.5), Vector3d::UnitZ()};
+    });
+    bool found = false;
+    for (const Twist& t : slipping(contacts, {{0, Pose{}}}, pose * Vector3d::Zero(), 1.5)) {
+      if (t.angular.norm() < 0.1) continue;
+      const Vector3d axis = t.angular.normalized();
+      const double told = 2 * std::numbers::pi * axis.dot(t.linear) / t.angular.norm();
+      found |= std::abs(std::abs(axis.dot(pose.q * Vector3d::UnitZ())) - 1) < 1e-6 && std::abs(told - lead) < 1e-3;
+    }
+    EXPECT_TRUE(found) << "lead " << lead;
+  }
+}
+
 TEST(Slipping, NothingIsSaidOfFewContactsOrOfOtherMovingParts) {
   Rng rng(4);
   auto contacts = contacts_of(rng, Pose{}, on_cylinder);
@@ -130,4 +195,4 @@ TEST(Moved, IsTheFlowOfTheTwist) {
 }
 
 }  // namespace
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -6,7 +6,7 @@
 
 #include "dismantle/simulator.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 
 /// An instantaneous rigid motion, world axes: velocity of `center` and angular velocity about it.
 struct Twist {
@@ -23,9 +23,11 @@ Pose moved(const Pose& pose, const Twist& twist, const Eigen::Vector3d& center, 
 /// segmentation using local slippage analysis, 2004). A thread has one, its screw; a round shaft two, a turn and a
 /// slide. In a space of several, pure translations are separated from turns, and of all turns about an axis the one
 /// with the least translation is given. `radius` (> 0) makes a turn as large as a translation: |linear| + radius
-/// |angular| = 1 in all results. Depends on nothing but the contacts: turned input gives turned twists. Few contacts:
+/// |angular| = 1 in all results. Where a flat face blocks the way along the
+/// axis of a turn, what would slip without it is given, too: a nut on a plate unscrews away from it. Depends on nothing
+/// but the contacts: turned input gives turned twists. Few contacts:
 /// empty.
 std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
                             const Eigen::Vector3d& center, double radius);
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -1,12 +1,11 @@
-#include "actions.h"
+#include "dismantle/push/actions.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -28,16 +27,6 @@ bool moves(const std::vector<PlacedPart>& moving, PartId part) {
   return std::any_of(moving.begin(), moving.end(), [part](const PlacedPart& m) { return m.part == part; });
 }
 
-/// How far `moving` has to go along d until the boxes are apart.
-double way_out(const Vec3& d, const Aabb& moving, const Aabb& still) {
-  double way = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 3; ++k) {
-    if (d[k] > 1e-9) way = std::min(way, (still.hi[k] - moving.lo[k]) / d[k]);
-    if (d[k] < -1e-9) way = std::min(way, (still.lo[k] - moving.hi[k]) / d[k]);
-  }
-  return way;
-}
-
 /// `torque` for a body of unit torque arm.
 Action turn(const World& world, const Vec3& torque, const Vec3& force) {
   Action a;
@@ -55,37 +44,38 @@ Action push(const World& world, double force, const Vec3& direction) {
   return a;
 }
 
-std::vector<Action> unit_actions(const World& world, double force, bool turns) {
+std::vector<Action> unit_actions(const World& world, double force, bool turns, const Eigen::Matrix3d& axes) {
   std::vector<Action> actions;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) actions.push_back(push(world, force, sign * Vec3::Unit(axis)));
+    for (const double sign : {1.0, -1.0}) actions.push_back(push(world, force, sign * axes.col(axis)));
   if (!turns) return actions;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0}) actions.push_back(turn(world, sign * force * Vec3::Unit(axis), Vec3::Zero()));
+    for (const double sign : {1.0, -1.0}) actions.push_back(turn(world, sign * force * axes.col(axis), Vec3::Zero()));
   return actions;
 }
 
-std::vector<Action> screw_actions(const World& world, double force) {
+std::vector<Action> screw_actions(const World& world, double force, const Eigen::Matrix3d& axes) {
   std::vector<Action> actions;
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0})
       for (const double pull : {1.0, -1.0})
-        actions.push_back(turn(world, sign * force * Vec3::Unit(axis), pull * force * Vec3::Unit(axis)));
+        actions.push_back(turn(world, sign * force * axes.col(axis), pull * force * axes.col(axis)));
   return actions;
 }
 
-std::vector<Action> diagonal_actions(const World& world, double force) {
+std::vector<Action> diagonal_actions(const World& world, double force, const Eigen::Matrix3d& axes) {
   std::vector<Action> actions;
   for (int weight = 3; weight >= 2; --weight)  // space diagonals first: they reach all three axes
     for (int x = 1; x >= -1; --x)
       for (int y = 1; y >= -1; --y)
         for (int z = 1; z >= -1; --z)
-          if (std::abs(x) + std::abs(y) + std::abs(z) == weight) actions.push_back(push(world, force, Vec3(x, y, z)));
+          if (std::abs(x) + std::abs(y) + std::abs(z) == weight)
+            actions.push_back(push(world, force, axes * Vec3(x, y, z)));
   return actions;
 }
 
-Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Aabb& moving_box,
-                   const Aabb& still_box) {
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
+                   const Extents& extents) {
   struct Cluster {
     Vec3 normal;
     std::size_t count;
@@ -124,9 +114,8 @@ Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<Place
       propose(-along);
     }
   for (const Vec3& normal : n) propose(normal);
-  std::stable_sort(freedom.directions.begin(), freedom.directions.end(), [&](const Vec3& a, const Vec3& b) {
-    return way_out(a, moving_box, still_box) < way_out(b, moving_box, still_box) - 1e-9;
-  });
+  std::stable_sort(freedom.directions.begin(), freedom.directions.end(),
+                   [&](const Vec3& a, const Vec3& b) { return extents.way_out(a) < extents.way_out(b) - 1e-9; });
   if (freedom.directions.size() > kMostDirections) freedom.directions.resize(kMostDirections);
   return freedom;
 }
@@ -140,4 +129,4 @@ std::vector<Vec3> leaning(const Freedom& freedom) {
   return directions;
 }
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

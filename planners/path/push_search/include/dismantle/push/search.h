@@ -1,4 +1,4 @@
-/// Breadth-first search over a simulator (Algorithm 1).
+/// Search over pushes in a simulator: Algorithm 1, and what else the tactics allow.
 #pragma once
 
 #include <compare>
@@ -6,13 +6,14 @@
 #include <set>
 #include <vector>
 
-#include "actions.h"
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
-#include "parameters.h"
-#include "twists.h"
+#include "dismantle/push/actions.h"
+#include "dismantle/push/frame.h"
+#include "dismantle/push/tactics.h"
+#include "dismantle/push/twists.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 
 /// One search in one motion space. States form a tree; each knows the instants that lead to it.
 ///
@@ -24,7 +25,7 @@ namespace dismantle::bfs {
 /// searched from near it already, and the further-fetched the actions are that it is to be given next.
 class Search {
  public:
-  Search(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context);
+  Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context);
 
   /// What one call of run() may use.
   struct Limits {
@@ -36,8 +37,6 @@ class Search {
   /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
   /// no.
   PathResult run(const Limits& limits);
-  /// Rank up to which a state is worth a look in the first round: the start with all its actions, and what is new.
-  static constexpr unsigned kFirstRank = 3;
 
  private:
   struct Node {
@@ -48,8 +47,6 @@ class Search {
     std::size_t stage = 0;  ///< the next to come
     bool middle = false;    ///< of a run
   };
-  /// What to push with, from stage to stage.
-  enum class Stage { twists, free, axes, leaning, diagonals, screws };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
   /// One action applied from a node, so far.
   struct Run {
@@ -74,6 +71,10 @@ class Search {
   RunEnd expand(std::int32_t node, PathResult& result);
   std::vector<Action> actions_at(const Node& node, Stage stage);
   std::vector<Twist> twists_at(const Node& node);
+  void feel(const State& state, std::vector<Contact>& contacts);
+  Action along(const Twist& twist, const State& state, const Eigen::Vector3d& lean = Eigen::Vector3d::Zero()) const;
+  std::vector<Action> leaning_turns(const Node& node);
+  double way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center);
   RunEnd follow(std::int32_t from, const Action& action, Stage stage, unsigned depth, PathResult& result);
   RunEnd follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result);
   enum class GlideEnd { blocked, out, known, stop };
@@ -88,12 +89,13 @@ class Search {
   bool turning() const { return world_->space() == MotionSpace::rigid; }
 
   const PathQuery& query_;
-  const Parameters& parameters_;
+  const Tactics& tactics_;
   RunContext& context_;
   std::unique_ptr<World> world_;
   std::vector<path::Ball> bodies_;
-  Aabb moving_box_, still_box_;  ///< where the query begins
-  std::vector<Stage> stages_;
+  Eigen::Matrix3d axes_;  ///< columns: what the unit actions push along
+  Extents extents_;       ///< where the query begins
+  const std::vector<Stage>& stages_;
   path::StateSet seen_, fine_;  ///< every recorded state, at the paper's and at a finer resolution
   std::vector<Node> nodes_;
   path::StateSet places_;  ///< states searched from, at a coarser resolution
@@ -109,10 +111,11 @@ class Search {
   std::vector<Path> refusals_;
   Limits limits_;
   bool may_relax_ = true;
+  bool short_glides_ = false;  ///< the judge refused one
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;
   std::uint64_t steps_ = 0, looks_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
 };
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

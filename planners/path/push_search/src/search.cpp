@@ -1,9 +1,9 @@
-#include "search.h"
+#include "dismantle/push/search.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 /// An end state that differs from a known one by less than this share of the similarity thresholds is the same.
@@ -14,6 +14,8 @@ constexpr double kPlaceShare = 5;
 constexpr unsigned kMostRank = 4;
 /// States in the middle of runs wait until the ends have been given all their actions.
 constexpr unsigned kMiddleRank = 2;
+/// Turns that lean end there, in rad.
+constexpr double kOnceRound = 6.5;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
 constexpr std::uint64_t kStrictNodes = 24;
 
@@ -22,15 +24,6 @@ std::vector<path::Ball> balls(const World& world) {
   for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
     result.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
   return result;
-}
-
-Aabb box_of(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
-  Aabb box;
-  for (const PlacedPart& p : parts) {
-    if (p.part >= assembly.parts.size()) continue;  // a world may move what has no mesh
-    for (const auto& v : assembly.parts[p.part].mesh->vertices) box.extend(p.pose * v);
-  }
-  return box;
 }
 
 bool same_path(const Path& a, const Path& b) {
@@ -44,31 +37,24 @@ bool same_path(const Path& a, const Path& b) {
 
 }  // namespace
 
-Search::Search(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context)
+Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context)
     : query_(query),
-      parameters_(parameters),
+      tactics_(tactics),
       context_(context),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, space)),
       bodies_(balls(*world_)),
-      moving_box_(box_of(query.assembly, query.cast.moving)),
-      still_box_(box_of(query.assembly, query.cast.still)),
-      seen_(bodies_, parameters.similarity_translation, parameters.similarity_rotation),
-      fine_(bodies_, kSameShare * parameters.similarity_translation, kSameShare * parameters.similarity_rotation),
-      places_(bodies_, kPlaceShare * parameters.similarity_translation, parameters.similarity_rotation) {
-  const bool translating = space == MotionSpace::translation;
-  const bool proposals = translating && parameters.proposals;
-  if (!translating && parameters.twists) stages_.push_back(Stage::twists);
-  if (proposals) stages_.push_back(Stage::free);
-  stages_.push_back(Stage::axes);
-  if (proposals) stages_.push_back(Stage::leaning);
-  if (parameters.diagonals) stages_.push_back(translating ? Stage::diagonals : Stage::screws);
-}
+      axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
+      extents_(query.assembly, query.cast, axes_),
+      stages_(space == MotionSpace::translation ? tactics.translating : tactics.turning),
+      seen_(bodies_, tactics.similarity_translation, tactics.similarity_rotation),
+      fine_(bodies_, kSameShare * tactics.similarity_translation, kSameShare * tactics.similarity_rotation),
+      places_(bodies_, kPlaceShare * tactics.similarity_translation, tactics.similarity_rotation) {}
 
 void Search::reset() {
-  seen_ = path::StateSet(bodies_, parameters_.similarity_translation, parameters_.similarity_rotation);
-  fine_ = path::StateSet(bodies_, kSameShare * parameters_.similarity_translation,
-                         kSameShare * parameters_.similarity_rotation);
-  places_ = path::StateSet(bodies_, kPlaceShare * parameters_.similarity_translation, parameters_.similarity_rotation);
+  seen_ = path::StateSet(bodies_, tactics_.similarity_translation, tactics_.similarity_rotation);
+  fine_ =
+      path::StateSet(bodies_, kSameShare * tactics_.similarity_translation, kSameShare * tactics_.similarity_rotation);
+  places_ = path::StateSet(bodies_, kPlaceShare * tactics_.similarity_translation, tactics_.similarity_rotation);
   nodes_.clear();
   waiting_.clear();
   beyond_limit_ = 0;
@@ -101,7 +87,7 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 
 unsigned Search::rank(const Node& node) const {
   const unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
-  if (!parameters_.novelty) return stage;
+  if (!tactics_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
   // A state is in its own place once it has been searched from.
   return stage + near - (node.stage > 0 && near > 0 ? 1 : 0);
@@ -151,7 +137,7 @@ bool Search::out_of_budget() const {
 
 /// The state of node `last` is out: is the way there valid?
 Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
-  const Path path = path::thin(path_to(last), bodies_, parameters_.thinning);
+  const Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
   const Verdict verdict = query_.judge(path);
@@ -174,6 +160,10 @@ Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& 
 Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsigned depth,
                               PathResult& result) {
   const auto first_of_run = static_cast<std::uint32_t>(nodes_.size());
+  // Who leans comes by places that were seen from the middle of their room: he goes on, but round only once.
+  const bool leans = turning() && stage == Stage::leaning;
+  const path::StateSet& known = leans ? fine_ : seen_;
+  double turned = 0;
   State state = nodes_[static_cast<std::size_t>(from)].state;
   const State start = state;
   std::int32_t last = from;
@@ -183,7 +173,9 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
   while (true) {
     if (out_of_budget()) return RunEnd::stop;
     const std::size_t before = way.size();
-    const StepReport report = world_->advance(state, action, parameters_.time_step, &way);
+    const Eigen::Quaterniond was = state.bodies[0].pose.q;
+    const StepReport report = world_->advance(state, action, tactics_.time_step, &way);
+    turned += angle_between(was, state.bodies[0].pose.q);
     steps_ += report.steps;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
@@ -194,16 +186,21 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
       // The start of the run is a past state too, but only once the run has left it.
       // So are its own: else a part that spins freely would do so for ever.
       const auto size = static_cast<std::uint32_t>(nodes_.size());
-      left_start = left_start || !seen_.similar(state, start);
-      while (left_behind < size && !seen_.similar(state, nodes_[left_behind].state)) ++left_behind;
-      ended = ended || (left_start && seen_.has_similar(state, left_behind, size));
+      left_start = left_start || !known.similar(state, start);
+      if (leans) {
+        ended = ended || turned > kOnceRound || (left_start && known.has_similar(state, first_of_run, size));
+      } else {
+        while (left_behind < size && !known.similar(state, nodes_[left_behind].state)) ++left_behind;
+        ended = ended || (left_start && known.has_similar(state, left_behind, size));
+      }
     }
     if (ended) break;
+    if (leans && seen_.has_similar(state)) continue;
     if (turning()) {
-      last = add_node(last, depth, state, std::move(way), parameters_.intermediate > 0);
+      last = add_node(last, depth, state, std::move(way), tactics_.intermediate > 0);
       way.clear();
-      if (parameters_.intermediate > 0) enqueue(last);
-    } else if (passed_before_ + passed_.size() < static_cast<std::size_t>(parameters_.intermediate)) {
+      if (tactics_.intermediate > 0) enqueue(last);
+    } else if (passed_before_ + passed_.size() < static_cast<std::size_t>(tactics_.intermediate)) {
       passed_.push_back({from, depth, state, way});
     }
   }
@@ -217,8 +214,8 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     enqueue(last);
     return RunEnd::blocked;
   }
-  const bool known = stage == Stage::diagonals ? seen_.has_similar(state) : fine_.has_similar(state);
-  if (!known) enqueue(add_node(last, depth, state, std::move(way), false));
+  const bool is_known = stage == Stage::diagonals ? seen_.has_similar(state) : fine_.has_similar(state);
+  if (!is_known) enqueue(add_node(last, depth, state, std::move(way), false));
   return RunEnd::blocked;
 }
 
@@ -240,21 +237,22 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
   std::vector<Action> actions;
   switch (stage) {
     case Stage::axes:
-      return unit_actions(*world_, parameters_.force, turning());
+      return unit_actions(*world_, tactics_.force, turning(), axes_);
     case Stage::diagonals:
-      return diagonal_actions(*world_, parameters_.force);
+      return diagonal_actions(*world_, tactics_.force, axes_);
     case Stage::screws:
-      return screw_actions(*world_, parameters_.force);
+      return screw_actions(*world_, tactics_.force, axes_);
     case Stage::twists:
     case Stage::free:
     case Stage::leaning:
       break;
   }
+  if (turning()) return leaning_turns(node);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  const Freedom freedom = freedom_of(contacts, query_.cast.moving, moving_box_, still_box_);
+  const Freedom freedom = freedom_of(contacts, query_.cast.moving, extents_);
   for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom))
-    actions.push_back(push(*world_, parameters_.force, d));
+    actions.push_back(push(*world_, tactics_.force, d));
   return actions;
 }
 
@@ -265,7 +263,7 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
   const auto over = [&](RunEnd end) {
     return end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned ||
-           refused_ > static_cast<std::uint64_t>(parameters_.max_refusals);
+           refused_ > static_cast<std::uint64_t>(tactics_.max_refusals);
   };
   const unsigned depth = nodes_[static_cast<std::size_t>(id)].depth + 1;
   if (stages_[stage] == Stage::twists) {
@@ -325,7 +323,7 @@ PathResult Search::run(const Limits& limits) {
   while (true) {
     const bool overlapping = may_relax_ && world_->strict();
     end = sweep(overlapping ? std::min(limits.expansions - 1, kStrictNodes - 1) + 1 : limits.expansions, result);
-    if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(parameters_.max_refusals)) {
+    if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(tactics_.max_refusals)) {
       reset();  // what was found so far may have leaked through the same place
       continue;
     }
@@ -338,7 +336,7 @@ PathResult Search::run(const Limits& limits) {
     result.message.clear();
   } else if (end == RunEnd::stop) {
     result.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
-  } else if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) {
+  } else if (refused_ > static_cast<std::uint64_t>(tactics_.max_refusals)) {
     result.outcome = Outcome::exhausted;
   } else {
     result.outcome = !waiting_.empty() || beyond_limit_ > 0 ? Outcome::depth_limit : Outcome::exhausted;
@@ -347,4 +345,4 @@ PathResult Search::run(const Limits& limits) {
   return result;
 }
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -1,11 +1,11 @@
-#include "twists.h"
+#include "dismantle/push/twists.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -18,6 +18,10 @@ constexpr std::size_t kLeastContacts = 6;
 /// Eigenvalues below this share of the largest belong to motions that slip: facets of round fits and what a clearance
 /// lets stand askew make them differ from zero.
 constexpr double kSlips = 0.02;
+/// Normals nearer than this (cosine) are of one flat face; it is square to an axis nearer than that.
+constexpr double kFlat = 0.99999, kEndFace = 0.98;
+/// Share of turning from which on a twist has an axis; twists that differ by less are one.
+constexpr double kMostlyTurns = 0.5, kAlike = 5e-3;
 /// Singular values below this: no turn in it.
 constexpr double kNoTurn = 0.1;
 
@@ -27,6 +31,13 @@ Twist normalized(const Vec6& t, double radius) {
   twist.linear /= size;
   twist.angular /= size;
   return twist;
+}
+
+bool alike(const Twist& a, const Twist& b, double radius) {
+  const auto apart = [&](double sign) {
+    return (a.linear - sign * b.linear).norm() + radius * (a.angular - sign * b.angular).norm();
+  };
+  return std::min(apart(1), apart(-1)) < kAlike;
 }
 
 /// The first coordinate that is clearly not zero is positive: eigenvectors come with either sign.
@@ -48,22 +59,15 @@ Pose moved(const Pose& pose, const Twist& twist, const Eigen::Vector3d& center, 
   return {t, (turn * pose.q).normalized()};
 }
 
-std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
-                            const Eigen::Vector3d& center, double radius) {
-  Mat6 mean = Mat6::Zero();
-  std::size_t count = 0;
-  for (const Contact& c : contacts) {
-    if (c.depth < -kTouching || c.on_edge) continue;
-    if (std::any_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == c.other; })) continue;
-    Vec6 j;
-    j.head<3>() = c.normal;
-    j.tail<3>() = (c.point - center).cross(c.normal) / radius;
-    mean += j * j.transpose();
-    ++count;
-  }
+namespace {
+
+/// Slippage of the rows that are kept.
+std::vector<Twist> slippage(const std::vector<Vec6>& rows, double radius) {
   std::vector<Twist> twists;
-  if (count < kLeastContacts) return twists;
-  mean /= static_cast<double>(count);
+  if (rows.size() < kLeastContacts) return twists;
+  Mat6 mean = Mat6::Zero();
+  for (const Vec6& j : rows) mean += j * j.transpose();
+  mean /= static_cast<double>(rows.size());
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(mean);
   int slips = 0;
   while (slips < 6 && eigen.eigenvalues()[slips] < kSlips * eigen.eigenvalues()[5]) ++slips;
@@ -93,4 +97,43 @@ std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vec
   return twists;
 }
 
-}  // namespace dismantle::bfs
+/// The rows but those of a flat face square to the axis: it blocks one way along it, and a screw may lead the other.
+std::vector<Vec6> without_end_face(const std::vector<Vec6>& rows, const Eigen::Vector3d& axis) {
+  std::vector<Vec6> others;
+  for (const Vec6& j : rows) {
+    const auto flat_with = [&](const Vec6& k) { return std::abs(k.head<3>().dot(j.head<3>())) > kFlat; };
+    const bool faces_along = std::abs(j.head<3>().dot(axis)) > kEndFace;
+    if (!faces_along || static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), flat_with)) < kLeastContacts)
+      others.push_back(j);
+  }
+  return others;
+}
+
+}  // namespace
+
+std::vector<Twist> slipping(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
+                            const Eigen::Vector3d& center, double radius) {
+  std::vector<Vec6> rows;
+  for (const Contact& c : contacts) {
+    if (c.depth < -kTouching || c.on_edge) continue;
+    if (std::any_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == c.other; })) continue;
+    Vec6 j;
+    j.head<3>() = c.normal;
+    j.tail<3>() = (c.point - center).cross(c.normal) / radius;
+    rows.push_back(j);
+  }
+  std::vector<Twist> twists = slippage(rows, radius);
+  const std::size_t of_all = twists.size();
+  for (std::size_t i = 0; i < of_all; ++i) {
+    if (twists[i].angular.norm() * radius < kMostlyTurns) continue;
+    const std::vector<Vec6> others = without_end_face(rows, twists[i].angular.normalized());
+    if (others.size() == rows.size()) continue;
+    for (const Twist& t : slippage(others, radius)) {
+      const bool known = std::any_of(twists.begin(), twists.end(), [&](const Twist& k) { return alike(k, t, radius); });
+      if (!known) twists.push_back(t);
+    }
+  }
+  return twists;
+}
+
+}  // namespace dismantle::push

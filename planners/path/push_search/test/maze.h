@@ -12,7 +12,7 @@
 #include "dismantle/path_planner.h"
 #include "dismantle/registry.h"
 
-namespace dismantle::bfs::test {
+namespace dismantle::push::test {
 
 using Eigen::Vector3d;
 
@@ -170,7 +170,7 @@ inline Verdict accept(const Path&) {
 /// `moving` points start at the origin; part 9 stands still.
 inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Effort& effort = {},
                    const Judge& judge = accept, RunContext context = {}, std::size_t moving = 1,
-                   Capabilities has = {true, true, true, 4}) {
+                   Capabilities has = {true, true, true, 4}, const char* planner = "bfs") {
   MazeSimulator simulator(maze, run.notes);
   simulator.has = has;
   const Assembly assembly;
@@ -182,7 +182,7 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
                           run.judged.push_back(path);
                           return judge(path);
                         }};
-  run.result = registry().create<PathPlanner>("bfs", given)->plan(query, context);
+  run.result = registry().create<PathPlanner>(planner, given)->plan(query, context);
 }
 
-}  // namespace dismantle::bfs::test
+}  // namespace dismantle::push::test

@@ -4,16 +4,21 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dismantle/push/frame.h"
 #include "dismantle/simulator.h"
 
-namespace dismantle::bfs {
+namespace dismantle::push {
 
-/// Section 4.2: a force along each axis, both ways; with `turns` also a torque about each. The same for all bodies.
-std::vector<Action> unit_actions(const World& world, double force, bool turns);
-/// Forces along the 8 space and 12 plane diagonals.
-std::vector<Action> diagonal_actions(const World& world, double force);
+/// Section 4.2: a force along each of the axes (columns, orthonormal), both ways; with `turns` also a torque about
+/// each. The same for all bodies.
+std::vector<Action> unit_actions(const World& world, double force, bool turns,
+                                 const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+/// Forces along the 8 space and 12 plane diagonals of the axes.
+std::vector<Action> diagonal_actions(const World& world, double force,
+                                     const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 /// A torque about each axis, both ways, together with a force along the same axis, both ways: turn and pull.
-std::vector<Action> screw_actions(const World& world, double force);
+std::vector<Action> screw_actions(const World& world, double force,
+                                  const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
 /// A force along `direction` (need not be unit) on every moving part.
 Action push(const World& world, double force, const Eigen::Vector3d& direction);
 
@@ -24,11 +29,9 @@ struct Freedom {
 };
 
 /// Directions are the normals themselves and the lines along which two contacts slide, as far as all other contacts
-/// let them: extreme rays of the cone of feasible translations. Few, and they turn with the assembly. `moving` and
-/// `still`: bounding boxes in world axes, for the order.
-Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Aabb& moving_box,
-                   const Aabb& still_box);
+/// let them: extreme rays of the cone of feasible translations. Few, and they turn with the assembly.
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Extents& extents);
 /// Slide along a free direction and lean on a wall: the way to find an opening in it.
 std::vector<Eigen::Vector3d> leaning(const Freedom& freedom);
 
-}  // namespace dismantle::bfs
+}  // namespace dismantle::push

@@ -1,0 +1,40 @@
+/// How a push search goes about it: what the planners that share it differ in.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace dismantle::push {
+
+enum class Motion { translation, rotation, automatic };
+
+/// What to push with, from stage to stage; a state is given one stage at a time.
+enum class Stage {
+  twists,     ///< screw motions that the surfaces in contact leave free; in SE(3) only
+  free,       ///< directions that the contacts leave free
+  axes,       ///< forces along three axes, both ways; in SE(3) torques about them, too
+  leaning,    ///< free directions while leaning on a wall beside
+  diagonals,  ///< forces along the 20 diagonals
+  screws,     ///< a torque and a force along its axis at once; in SE(3) only
+};
+
+struct Tactics {
+  Motion motion = Motion::automatic;
+  double time_step = 0.1;                ///< s, between two looks
+  double force = 100;                    ///< N
+  double similarity_translation = 0.05;  ///< assembly units
+  double similarity_rotation = 0.5;      ///< rad
+  std::vector<Stage> translating, turning;
+  /// Axes of the parts themselves (frame.h), so that nothing depends on how the assembly lies; else the world's.
+  bool own_axes = false;
+  bool novelty = false;
+  std::int64_t intermediate = 0;  ///< states in the middle of runs that may be searched from, see README.md
+  double thinning = 1e-4;         ///< assembly units
+  std::int64_t max_refusals = 8;
+  /// motion auto under a depth limit: states searched from per level of depth.
+  std::int64_t translation_nodes = 24, rotation_nodes = 8;
+  /// motion auto without one: rank to which translation is searched first, and by how much less rotation is after it.
+  unsigned first_rank = 0, turning_lag = 0;
+};
+
+}  // namespace dismantle::push
