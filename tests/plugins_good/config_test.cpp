@@ -138,7 +138,7 @@ TEST_F(Config, Choices) {
   EXPECT_EQ(errors_of("schema: 1\npath_planner: {motion: rotaton}\n"),
             "run.yaml:2:24: error: path_planner.motion must be one of translation, rotation, auto; got 'rotaton'; did "
             "you mean "
-            "'rotation'? [bfs 0.1.0, libfixture.so]\n");
+            "'rotation'? [guided 0.1.0, libfixture.so]\n");
 }
 
 TEST_F(Config, SearchPathsAreRelativeToTheFile) {

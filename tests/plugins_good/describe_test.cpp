@@ -58,13 +58,15 @@ TEST_F(Describe, JsonSchema) {
   EXPECT_EQ(schema["additionalProperties"], false);
   EXPECT_EQ(schema["properties"]["run"]["properties"]["seed"]["minimum"], 0.0);
   const Json& planners = schema["properties"]["path_planner"]["oneOf"];
-  ASSERT_EQ(planners.size(), 3u);
+  ASSERT_EQ(planners.size(), 4u);
   EXPECT_EQ(planners[0]["properties"]["type"]["const"], "bfs");
-  EXPECT_FALSE(planners[0].contains("required"));  // the default
-  EXPECT_EQ(planners[0]["properties"]["motion"]["enum"], Json::array({"translation", "rotation", "auto"}));
-  EXPECT_EQ(planners[2]["properties"]["type"]["const"], "t_rrt");
-  EXPECT_EQ(planners[2]["required"], Json::array({"type"}));
-  EXPECT_EQ(planners[2]["properties"]["range"]["exclusiveMinimum"], 0.0);
+  EXPECT_EQ(planners[0]["required"], Json::array({"type"}));
+  EXPECT_EQ(planners[1]["properties"]["type"]["const"], "guided");
+  EXPECT_FALSE(planners[1].contains("required"));  // the default
+  EXPECT_EQ(planners[1]["properties"]["motion"]["enum"], Json::array({"translation", "rotation", "auto"}));
+  EXPECT_EQ(planners[3]["properties"]["type"]["const"], "t_rrt");
+  EXPECT_EQ(planners[3]["required"], Json::array({"type"}));
+  EXPECT_EQ(planners[3]["properties"]["range"]["exclusiveMinimum"], 0.0);
 }
 
 }  // namespace
