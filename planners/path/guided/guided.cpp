@@ -1,18 +1,28 @@
+#include <algorithm>
+
 #include "dismantle/plugin.h"
 #include "dismantle/push/plan.h"
 #include "parameters.h"
+#include "with_forest.h"
 
 namespace dismantle::guided {
 namespace {
 
 class Guided final : public PathPlanner {
  public:
-  explicit Guided(const Parameters& parameters) : tactics_(parameters.tactics()) {}
+  explicit Guided(const Parameters& parameters) : parameters_(parameters), tactics_(parameters.tactics()) {}
 
   Capabilities needs() const noexcept override { return push::required(); }
-  PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
+
+  PathResult plan(const PathQuery& query, RunContext& context) override {
+    // Who limits depth asks about many parts, most of them blocked: a forest would take too long to say so.
+    const bool forest = parameters_.forest_steps > 0 && query.effort.max_depth == 0 &&
+                        parameters_.motion == push::Motion::automatic && query.simulator.capabilities().distance;
+    return forest ? plan_with_forest(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
+  }
 
  private:
+  Parameters parameters_;
   push::Tactics tactics_;
 };
 
@@ -21,7 +31,8 @@ class Guided final : public PathPlanner {
 
 DISMANTLE_PLUGIN("dismantle.guided", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::guided::Guided, dismantle::guided::Parameters>(
-      "guided", "Search over pushes, turns and screws that the contacts propose, in a physics simulator.",
+      "guided",
+      "Search over pushes, turns and screws that the contacts propose, in a physics simulator; then a forest.",
       {.source = "Tian et al. 2022, Algorithm 1, with actions proposed by geometry",
        .needs = dismantle::push::required()});
 }

@@ -22,6 +22,8 @@ struct Parameters {
   std::int64_t max_refusals = 8;
   std::int64_t translation_nodes = 24;
   std::int64_t rotation_nodes = 8;
+  std::int64_t forest_after = 30'000;
+  std::int64_t forest_steps = 1'500'000;
 
   static void describe(Schema<Parameters>& s) {
     s.add_choice<push::Motion>("motion", &Parameters::motion,
@@ -83,6 +85,17 @@ struct Parameters {
           {.unit = "1",
            .min = 1,
            .doc = "Under `motion: auto` and a depth limit: states searched with rotation per level of depth."});
+    s.add("forest_after", &Parameters::forest_after,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e12,
+           .doc = "Under `motion: auto` and no depth limit: simulated steps after which a forest as in `tunnel_forest` "
+                  "begins to take turns with the search over pushes; each turn is twice as long as the last."});
+    s.add("forest_steps", &Parameters::forest_steps,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .doc = "Simulated steps after which the forest is given up; 0: no forest at all."});
   }
 
   push::Tactics tactics() const {

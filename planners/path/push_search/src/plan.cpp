@@ -1,9 +1,6 @@
 #include "dismantle/push/plan.h"
 
 #include <algorithm>
-#include <optional>
-
-#include "dismantle/push/search.h"
 
 namespace dismantle::push {
 namespace {
@@ -36,28 +33,38 @@ PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned 
   return merged(first, rotation.run(limits));
 }
 
-/// By turns, until both are exhausted: what is new to each kind of motion comes before the rest of the other.
-PathResult without_end(const PathQuery& query, const Tactics& tactics, Search::Limits limits, RunContext& context) {
-  Search translation(query, MotionSpace::translation, tactics, context);
-  std::optional<Search> rotation;
-  PathResult first, second;
-  first.outcome = second.outcome = Outcome::depth_limit;
-  const auto goes_on = [](const PathResult& r) { return r.outcome == Outcome::depth_limit; };
-  for (limits.rank = tactics.first_rank; goes_on(first) || goes_on(second); ++limits.rank) {
-    if (goes_on(first)) first = translation.run(limits);
-    if (!goes_on(first) && first.outcome != Outcome::exhausted) return rotation ? merged(second, first) : first;
-    if (!rotation) rotation.emplace(query, MotionSpace::rigid, tactics, context);
-    Search::Limits turning = limits;
-    turning.rank -= std::min(turning.rank, tactics.turning_lag);
-    if (goes_on(second)) second = rotation->run(turning);
-    if (!goes_on(second) && second.outcome != Outcome::exhausted) break;
-  }
-  return merged(first, second);
-}
-
 }  // namespace
 
 Capabilities required() { return {.dynamics = true, .contacts = true, .distance = false, .max_moving = 1}; }
+
+ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& context)
+    : query_(query),
+      tactics_(tactics),
+      context_(context),
+      translation_(query, MotionSpace::translation, tactics, context),
+      rank_(tactics.first_rank) {
+  first_.outcome = second_.outcome = Outcome::depth_limit;
+}
+
+PathResult ByTurns::run(const Search::Limits& limits) {
+  const auto goes_on = [](const PathResult& r) { return r.outcome == Outcome::depth_limit; };
+  paused_ = false;
+  Search::Limits turn = limits;
+  while (goes_on(first_) || goes_on(second_)) {
+    turn.rank = turning_ ? rank_ - std::min(rank_, tactics_.turning_lag) : rank_;
+    if (turning_ && !rotation_) rotation_.emplace(query_, MotionSpace::rigid, tactics_, context_);
+    Search& search = turning_ ? *rotation_ : translation_;
+    PathResult& result = turning_ ? second_ : first_;
+    if (goes_on(result)) result = search.run(turn);
+    if (!goes_on(result) && result.outcome != Outcome::exhausted) break;
+    paused_ = goes_on(result) && search.paused();
+    if (paused_) break;
+    if (turning_) ++rank_;
+    turning_ = !turning_;
+  }
+  if (turning_) return merged(first_, second_);
+  return rotation_ ? merged(second_, first_) : first_;
+}
 
 PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context) {
   const Capabilities has = query.simulator.capabilities();
@@ -76,7 +83,7 @@ PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& cont
     const auto space = tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid;
     return Search(query, space, tactics, context).run(limits);
   }
-  return depth > 0 ? up_to_depth(query, tactics, depth, limits, context) : without_end(query, tactics, limits, context);
+  return depth > 0 ? up_to_depth(query, tactics, depth, limits, context) : ByTurns(query, tactics, context).run(limits);
 }
 
 }  // namespace dismantle::push

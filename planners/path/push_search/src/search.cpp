@@ -283,6 +283,8 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
   const std::uint64_t end_at = expanded_ + expansions;
   while (!waiting_.empty() || take_up_middles()) {
     if (expansions > 0 && expanded_ >= end_at) return RunEnd::blocked;
+    paused_ = limits_.pause_after > 0 && steps_ + looks_ >= pause_at_;
+    if (paused_) return RunEnd::blocked;
     const Waiting next = *waiting_.begin();
     if (next.rank > limits_.rank) return RunEnd::blocked;
     waiting_.erase(waiting_.begin());
@@ -308,6 +310,8 @@ bool Search::take_up_middles() {
 
 PathResult Search::run(const Limits& limits) {
   limits_ = limits;
+  pause_at_ = steps_ + looks_ + limits.pause_after;
+  paused_ = false;
   PathResult result;
   if (nodes_.empty()) {
     reset();
@@ -327,7 +331,7 @@ PathResult Search::run(const Limits& limits) {
       reset();  // what was found so far may have leaked through the same place
       continue;
     }
-    if (end != RunEnd::blocked || !overlapping) break;
+    if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->relax();
     may_relax_ = false;
     reset();  // once more, with all the overlap that the judge allows

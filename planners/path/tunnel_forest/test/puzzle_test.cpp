@@ -3,61 +3,13 @@
 
 #include <algorithm>
 
-#include "dismantle/registry.h"
-#include "dismantle/verify/verifier.h"
 #include "narrow_places.h"
-#include "solids.h"
+#include "table.h"
 
 namespace dismantle::tunnel_forest {
 namespace {
 
 using namespace test;
-
-const Registry& registry() {
-  static const std::unique_ptr<Registry> all = [] {
-    auto r = std::make_unique<Registry>();
-    r->scan();
-    return r;
-  }();
-  return *all;
-}
-
-struct Table {
-  Assembly assembly;
-  std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
-  std::shared_ptr<const Prepared> prepared;
-  Verifier verifier;
-  std::size_t judged = 0;
-
-  explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
-    RunContext context;
-    prepared = simulator->prepare(assembly, context);
-  }
-
-  /// Part 0 leaves.
-  PathResult plan(const ParamSet& given, std::uint64_t seed, std::uint64_t max_steps, unsigned max_depth = 0) {
-    Cast cast;
-    for (const auto& part : assembly.parts) (part.id == 0 ? cast.moving : cast.still).push_back({part.id, Pose{}});
-    RunContext context;
-    context.rng = Rng(seed);
-    const PathQuery query{
-        assembly, *simulator, *prepared, cast, {.max_depth = max_depth, .max_steps = max_steps}, [&](const Path& path) {
-          ++judged;
-          const MotionCheck check = verifier.check_motion({0}, cast.still, path);
-          Verdict v;
-          v.accepted = check.valid && verifier.apart({{0, path.back()[0]}}, cast.still);
-          if (check.violation) {
-            v.has_witness = true;
-            v.part = check.violation->part;
-            v.other = check.violation->other;
-            v.point = check.violation->point;
-            v.instant = check.violation->segment;
-          }
-          return v;
-        }};
-    return registry().create<PathPlanner>("tunnel_forest", given)->plan(query, context);
-  }
-};
 
 Pose random_pose(Rng& rng) { return {Vector3d(rng.normal(), rng.normal(), rng.normal()), random_turn(rng)}; }
 
@@ -79,7 +31,7 @@ TEST(TunnelForest, FindsItsWayThroughCorridorsHoweverTheyLie) {
   Rng rng(11);
   for (std::uint64_t k = 1; k <= 4; ++k) {
     Table table(assembly_of(corridors(), k == 1 ? Pose{} : random_pose(rng)));
-    const PathResult r = table.plan({{"motion", std::string("translation")}}, k, 100'000);
+    const PathResult r = table.plan("tunnel_forest", {{"motion", std::string("translation")}}, k, 100'000);
     EXPECT_EQ(r.outcome, Outcome::solved) << k;
     EXPECT_GE(r.depth, 4u);
     EXPECT_EQ(r.counts.at("tunnels"), 0) << "there are none in R3";
@@ -91,7 +43,7 @@ TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
   Rng rng(12);
   for (std::uint64_t k = 1; k <= 3; ++k) {
     Table table(assembly_of({linked_ring(), open_ring(0.6)}, k == 1 ? Pose{} : random_pose(rng)));
-    const PathResult r = table.plan({{"motion", std::string("rotation")}}, k, 300'000);
+    const PathResult r = table.plan("tunnel_forest", {{"motion", std::string("rotation")}}, k, 300'000);
     EXPECT_EQ(r.outcome, Outcome::solved) << k;
     EXPECT_GT(r.counts.at("tunnels"), 0);
   }
@@ -100,7 +52,7 @@ TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
 /// A gap that is too narrow for the bar, and nothing else to go through.
 TEST(TunnelForest, ARingThatCannotLeaveDoesNot) {
   Table table(assembly_of({linked_ring(), open_ring(0.4)}));
-  const PathResult r = table.plan({}, 1, 40'000);
+  const PathResult r = table.plan("tunnel_forest", {}, 1, 40'000);
   EXPECT_EQ(r.outcome, Outcome::timeout);
   EXPECT_TRUE(r.path.empty());
   ASSERT_EQ(r.blocked_by.size(), 1u);
@@ -111,7 +63,7 @@ TEST(TunnelForest, ARingThatCannotLeaveDoesNot) {
 TEST(TunnelForest, DepthIsABudgetThatDoubles) {
   Table table(assembly_of({linked_ring(), open_ring(0.4)}));
   for (unsigned depth = 1; depth <= 3; ++depth) {
-    const PathResult r = table.plan({{"level_steps", std::int64_t{1000}}}, 1, 0, depth);
+    const PathResult r = table.plan("tunnel_forest", {{"level_steps", std::int64_t{1000}}}, 1, 0, depth);
     EXPECT_EQ(r.outcome, Outcome::depth_limit);
     const double limit = 1000 * std::ldexp(1.0, static_cast<int>(depth) - 1);
     EXPECT_GE(r.counts.at("steps"), limit);
@@ -121,7 +73,8 @@ TEST(TunnelForest, DepthIsABudgetThatDoubles) {
 
 TEST(TunnelForest, WithoutTunnelsOnlyTheTreeAtTheStartGrows) {
   Table table(assembly_of({linked_ring(), open_ring(0.6)}));
-  const PathResult r = table.plan({{"motion", std::string("rotation")}, {"tunnels", std::int64_t{0}}}, 1, 5'000);
+  const PathResult r =
+      table.plan("tunnel_forest", {{"motion", std::string("rotation")}, {"tunnels", std::int64_t{0}}}, 1, 5'000);
   EXPECT_EQ(r.counts.at("tunnels"), 0);
 }
 

@@ -33,10 +33,13 @@ class Search {
     std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down; nullptr = no limit
     std::uint64_t expansions = 0;         ///< states given actions; 0 = no limit
     unsigned rank = ~0U;                  ///< states that wait longer than this are left waiting
+    std::uint64_t pause_after = 0;        ///< steps and looks of this call, rounded up to whole states; 0 = no pause
   };
   /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
   /// no.
   PathResult run(const Limits& limits);
+  /// The last call ended because of `pause_after`.
+  bool paused() const { return paused_; }
 
  private:
   struct Node {
@@ -110,6 +113,8 @@ class Search {
   std::size_t passed_before_ = 0;  ///< ... and how many became nodes or were dropped
   std::vector<Path> refusals_;
   Limits limits_;
+  std::uint64_t pause_at_ = 0;  ///< work in all at which this call pauses
+  bool paused_ = false;
   bool may_relax_ = true;
   bool short_glides_ = false;  ///< the judge refused one
   std::map<PartId, std::uint64_t> touched_;

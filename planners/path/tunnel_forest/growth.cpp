@@ -1,0 +1,122 @@
+#include "growth.h"
+
+#include <algorithm>
+
+namespace dismantle::tunnel_forest {
+namespace {
+
+/// Simulated steps of the first turn of a forest where two grow in turn.
+constexpr std::uint64_t kFirstTurn = 10'000;
+/// A forest that has seen more of its space by this share in a turn gets twice as long a next one.
+constexpr double kFruitful = 1.2;
+/// After so many turns in a row without anything new a forest has seen all that it will.
+constexpr unsigned kBarren = 3;
+
+}  // namespace
+
+Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext& context)
+    : parameters_(parameters),
+      query_(query),
+      context_(context),
+      deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+                                         : context.deadline) {
+  if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
+  if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
+}
+
+void Growth::add(MotionSpace motion, std::uint64_t stream) {
+  forests_.push_back(
+      {std::make_unique<Forest>(query_, motion, parameters_, context_.rng.fork(stream), [this] { return halted(); }),
+       kFirstTurn});
+}
+
+PathResult Growth::run(std::uint64_t until) {
+  until_ = until;
+  PathResult result;
+  if (forests_.front().forest->starts_out()) {
+    result.outcome = Outcome::start_is_goal;
+    result.path = {forests_.front().forest->farthest(), forests_.front().forest->farthest()};
+    return result;
+  }
+  bool solved = false;
+  while (!solved && !over() && used() < until_) {
+    Grown& grown = forests_[next_];
+    next_ = (next_ + 1) % forests_.size();
+    if (grown.barren < kBarren) solved = take_turn(grown, result);
+  }
+  if (!solved) say_why(result);
+  finish(result);
+  return result;
+}
+
+bool Growth::take_turn(Grown& grown, PathResult& result) {
+  const std::uint64_t begin = used(), end = std::min(until_, begin + grown.turn);
+  const auto stop = [&] { return used() >= end || stopped(); };
+  bool solved = false;
+  // Extensions that are stopped at once, as where nothing can move, need a count of their own.
+  std::uint64_t extensions = 0;
+  for (; !solved && !stop() && !given_up() && extensions < grown.turn; ++extensions)
+    solved = grown.forest->iterate(result, stop);
+  const std::size_t cells = grown.forest->cells();
+  const bool whole = used() - begin >= grown.turn || extensions == grown.turn;
+  if (cells != grown.cells)
+    grown.barren = 0;
+  else if (whole)
+    ++grown.barren;
+  if (static_cast<double>(cells) > kFruitful * static_cast<double>(grown.cells)) grown.turn *= 2;
+  grown.cells = cells;
+  if (!grown.relaxed) grown.forest->relax();
+  grown.relaxed = true;
+  return solved;
+}
+
+std::uint64_t Growth::used() const {
+  std::uint64_t steps = 0;
+  for (const auto& g : forests_) steps += g.forest->steps();
+  return steps;
+}
+
+bool Growth::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
+
+bool Growth::stopped() const { return halted() || (query_.effort.max_steps > 0 && used() >= query_.effort.max_steps); }
+
+bool Growth::given_up() const {
+  return std::any_of(forests_.begin(), forests_.end(),
+                     [&](const Grown& g) {
+                       return g.forest->refused() >= static_cast<std::uint64_t>(parameters_.max_refusals);
+                     }) ||
+         std::all_of(forests_.begin(), forests_.end(), [](const Grown& g) { return g.barren >= kBarren; });
+}
+
+void Growth::say_why(PathResult& result) const {
+  result.outcome = context_.cancel.cancelled() ? Outcome::cancelled
+                   : stopped()                 ? Outcome::timeout
+                   : given_up()                ? Outcome::exhausted
+                                               : Outcome::depth_limit;
+  const auto& best = *std::max_element(forests_.begin(), forests_.end(), [](const Grown& a, const Grown& b) {
+    return a.forest->farthest_way() < b.forest->farthest_way();
+  });
+  result.best_pose = best.forest->farthest();
+}
+
+void Growth::finish(PathResult& result) const {
+  std::map<PartId, std::uint64_t> touched;
+  for (const auto& g : forests_) {
+    result.counts["nodes"] += static_cast<double>(g.forest->size());
+    result.counts["steps"] += static_cast<double>(g.forest->steps());
+    result.counts["looks"] += static_cast<double>(g.forest->looks());
+    result.counts["tunnels"] += static_cast<double>(g.forest->tunnels());
+    result.counts["refused"] += static_cast<double>(g.forest->refused());
+    for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
+  }
+  std::vector<std::pair<std::uint64_t, PartId>> order;
+  for (const auto& [part, times] : touched) order.emplace_back(times, part);
+  std::sort(order.begin(), order.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  for (const auto& o : order)
+    if (std::none_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+                     [&](const PlacedPart& m) { return m.part == o.second; }))
+      result.blocked_by.push_back(o.second);
+}
+
+}  // namespace dismantle::tunnel_forest
