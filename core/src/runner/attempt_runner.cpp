@@ -43,6 +43,10 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
   if (!finite || result.best_pose.size() != attempt.moving.size()) result.best_pose.clear();
 }
 
+/// Searches so deep take longer than a proof that there is nothing to be found.
+constexpr unsigned kDeep = 3;
+bool worth_a_proof(const Attempt& attempt) { return attempt.max_depth == 0 || attempt.max_depth >= kDeep; }
+
 PathResult failure(Outcome outcome, std::string message) {
   PathResult result;
   result.outcome = outcome;
@@ -102,6 +106,16 @@ std::string AttemptRunner::describe(const Lock& lock) const {
       "units; see verify.max_penetration)",
       assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(), lock.depth,
       lock.allowed);
+}
+
+std::string AttemptRunner::describe(const Enclosure& enclosure) const {
+  const Eigen::Vector3d at = assembly_.normalization.to_input(enclosure.point);
+  std::vector<std::string> around;
+  for (const PartId id : enclosure.around) around.push_back(fmt::format("'{}'", assembly_.parts[id].name));
+  return fmt::format(
+      "'{}' is shut in by {}: a ball of radius {:.4g} (assembly units) about ({:.6g}, {:.6g}, {:.6g}), which it "
+      "holds, is too large for every way out, less the penetration that is allowed",
+      assembly_.parts[enclosure.inside].name, fmt::join(around, ", "), enclosure.radius, at.x(), at.y(), at.z());
 }
 
 AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
@@ -209,6 +223,11 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
     } else if (const Lock* lock = locked(attempt)) {
       result = failure(Outcome::exhausted, describe(*lock));
       result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
+    } else if (const auto enclosure =
+                   worth_a_proof(attempt) ? verifier_.shut_in(attempt.moving, attempt.still) : std::nullopt) {
+      result = failure(Outcome::exhausted, describe(*enclosure));
+      result.blocked_by =
+          holds(attempt.moving, enclosure->inside) ? enclosure->around : std::vector<PartId>{enclosure->inside};
     } else {
       result = plan(planner, attempt, own, last);
     }

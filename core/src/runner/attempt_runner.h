@@ -37,6 +37,7 @@ class AttemptRunner {
   PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, Judgement& last) const;
   const Lock* locked(const Attempt& attempt) const;
   std::string describe(const Lock& lock) const;
+  std::string describe(const Enclosure& enclosure) const;
   Judgement judge(const Attempt& attempt, const Path& path) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 

@@ -12,6 +12,7 @@
 #include "verify/lock.h"
 #include "verify/pair_check.h"
 #include "verify/sampling.h"
+#include "verify/shut_in.h"
 
 namespace dismantle {
 namespace {
@@ -97,6 +98,8 @@ struct Verifier::Impl {
     return 0;
   }
 
+  std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
+
   bool check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
              std::size_t& rung, MotionCheck& result) const;
@@ -108,6 +111,38 @@ struct Verifier::Impl {
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
 };
+
+/// The largest ball of the inner parts against the surfaces of the outer ones. A surface point of those that is inside
+/// the ball is so deep in the inner part as it is below the ball's surface, at least.
+std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& inner,
+                                                 const std::vector<PlacedPart>& outer) const {
+  verify::Ball ball;
+  Pose at;
+  PartId part = 0;
+  for (const auto& p : inner)
+    for (const auto& solid : bodies.at(p.part).solids)
+      if (const verify::Ball b = verify::large_ball(solid); b.radius > ball.radius) {
+        ball = b;
+        at = p.pose * solid.frame;
+        part = p.part;
+      }
+  std::vector<verify::Wall> walls;
+  std::vector<PartId> of;
+  for (const auto& p : outer) {
+    const double distance = ball.radius - overlap(part, p.part) - options.max_penetration;
+    if (!(distance > 0)) continue;
+    for (const auto& solid : bodies.at(p.part).solids) {
+      walls.push_back({&solid, p.pose * solid.frame, distance});
+      of.push_back(p.part);
+    }
+  }
+  const verify::Room room = verify::room_of(at * ball.center, walls);
+  if (!room.closed) return std::nullopt;
+  Enclosure found{part, at * ball.center, ball.radius, {}};
+  for (const std::size_t w : room.bounds)
+    if (std::find(found.around.begin(), found.around.end(), of[w]) == found.around.end()) found.around.push_back(of[w]);
+  return found;
+}
 
 /// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
 bool Verifier::Impl::check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const {
@@ -240,6 +275,14 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
       if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
   return true;
+}
+
+std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving,
+                                           const std::vector<PlacedPart>& still) const {
+  if (moving.empty() || still.empty()) return std::nullopt;
+  if (auto found = impl_->shut_in(moving, still)) return found;
+  // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
+  return moving.size() == 1 ? impl_->shut_in(still, moving) : std::nullopt;
 }
 
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {

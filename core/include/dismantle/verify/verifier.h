@@ -45,6 +45,15 @@ struct Lock {
   double allowed = 0;                               ///< the pair's when assembled and max_penetration
 };
 
+/// A part that cannot leave, however it moves: a ball within `inside`, less what may be penetrated, is too large for
+/// every way out between the parts around it.
+struct Enclosure {
+  PartId inside = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the ball's centre, assembled
+  double radius = 0;                                ///< assembly units
+  std::vector<PartId> around;                       ///< those that bound its room, most of it first
+};
+
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
 ///
 /// The law. Depth of a surface point of one part in another: its distance to the other's surface if it lies inside.
@@ -83,6 +92,9 @@ class DISMANTLE_API Verifier {
   const VerifyOptions& options() const;
   /// All pairs that are locked by their overlap, sorted by (a, b) as Assembly::overlaps. Found when built.
   const std::vector<Lock>& locks() const;
+  /// Are the moving parts shut in by the still ones, or (a single moving part) one of those by it? Found only when it
+  /// can be proved within a fixed effort; a fraction of a second up to a few.
+  std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& moving, const std::vector<PlacedPart>& still) const;
 
  private:
   struct Impl;
