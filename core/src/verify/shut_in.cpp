@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <functional>
 #include <limits>
-#include <map>
 #include <queue>
-#include <unordered_set>
 #include <utility>
 
 #include "dismantle/geometry/aabb.h"
@@ -33,15 +33,35 @@ struct Cube {
 
 struct Cell {
   std::int32_t x = 0, y = 0, z = 0;
-  bool operator==(const Cell&) const = default;
+  auto operator<=>(const Cell&) const = default;
   Vec3 center(const Vec3& origin, double edge) const { return origin + edge * Vec3(x, y, z); }
 };
-struct CellHash {
-  std::size_t operator()(const Cell& c) const {
-    std::uint64_t h = 0;
-    for (const std::int32_t v : {c.x, c.y, c.z}) h = (h ^ static_cast<std::uint32_t>(v)) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(h ^ (h >> 29));
+/// The cells over the box of the walls that were seen, and a margin that is outside.
+class Seen {
+ public:
+  Seen(const Aabb& box, const Vec3& origin, double edge) {
+    for (int k = 0; k < 3; ++k) {
+      first_[k] = static_cast<std::int64_t>(std::floor((box.lo[k] - origin[k]) / edge)) - kMargin;
+      size_[k] = static_cast<std::int64_t>(std::ceil((box.hi[k] - origin[k]) / edge)) + kMargin + 1 - first_[k];
+      if (size_[k] > kMost) return;
+    }
+    if (size_[0] * size_[1] * size_[2] <= kMost) bits_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
   }
+  bool usable() const { return !bits_.empty(); }
+  /// False when it was seen before or is far outside.
+  bool insert(const Cell& c) {
+    const std::int64_t x = c.x - first_[0], y = c.y - first_[1], z = c.z - first_[2];
+    if (x < 0 || y < 0 || z < 0 || x >= size_[0] || y >= size_[1] || z >= size_[2]) return false;
+    auto bit = bits_[static_cast<std::size_t>((x * size_[1] + y) * size_[2] + z)];
+    const bool fresh = !bit;
+    bit = true;
+    return fresh;
+  }
+
+ private:
+  static constexpr std::int64_t kMargin = 2, kMost = 100'000'000;
+  std::array<std::int64_t, 3> first_{}, size_{};
+  std::vector<bool> bits_;
 };
 
 /// Walls made ready for being asked often.
@@ -80,14 +100,28 @@ struct Bounds {
   double inside(const Vec3& p) const { return std::min((p - all.lo).minCoeff(), (all.hi - p).minCoeff()); }
 };
 
+/// Can the centre leave straight on, in one of 26 directions? Most parts that are not shut in can: that saves the
+/// floods.
+bool leaves_straight(const Vec3& start, const Bounds& bounds, double step) {
+  for (int k = 0; k < 27; ++k) {
+    const Vec3 direction(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+    if (direction.isZero()) continue;
+    Vec3 p = start;
+    while (bounds.inside(p) >= 0 && bounds.too_near(p, 0) == bounds.placed.size()) p += step * direction.normalized();
+    if (bounds.inside(p) < 0) return true;
+  }
+  return false;
+}
+
 enum class Flood { closed, open, too_many };
 
 Flood flood(const Vec3& start, const Bounds& bounds, double edge, std::size_t most_cells, Room& room) {
   const double reach = kHalfDiagonal * edge;
   using Waiting = std::pair<double, Cell>;
-  const auto later = [](const Waiting& a, const Waiting& b) { return a.first > b.first; };
-  std::priority_queue<Waiting, std::vector<Waiting>, decltype(later)> open(later);
-  std::unordered_set<Cell, CellHash> seen{Cell{}};
+  std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> open;  // what is nearest to the outside first
+  Seen seen(bounds.all, start, edge);
+  if (!seen.usable()) return Flood::too_many;
+  seen.insert(Cell{});
   std::vector<std::size_t> stopped(bounds.placed.size(), 0);
   std::size_t reached = 0;
   open.push({bounds.inside(start), Cell{}});
@@ -99,7 +133,7 @@ Flood flood(const Vec3& start, const Bounds& bounds, double edge, std::size_t mo
     for (int k = 0; k < 6; ++k) {
       Cell next = cell;
       (k < 2 ? next.x : k < 4 ? next.y : next.z) += k % 2 == 0 ? 1 : -1;
-      if (!seen.insert(next).second) continue;
+      if (!seen.insert(next)) continue;
       const Vec3 center = next.center(start, edge);
       const std::size_t wall = bounds.too_near(center, reach);
       if (wall < stopped.size())
@@ -150,6 +184,7 @@ Room room_of(const Vec3& start, const std::vector<Wall>& walls, std::size_t most
   for (const Wall& w : walls) least = std::min(least, w.distance);
   if (walls.empty() || !(least > 0)) return room;
   const Bounds bounds(walls);
+  if (leaves_straight(start, bounds, kCells.back() * least)) return room;
   for (const double share : kCells)
     if (flood(start, bounds, share * least, most_cells, room) != Flood::open) break;
   return room;
