@@ -55,7 +55,7 @@ TEST(ShutIn, BehindAWindowThatIsTooSmallHoweverItLies) {
 TEST(ShutIn, NeverBehindAWindowThatItFitsThrough) {
   Rng rng(2);
   for (int i = 0; i < 6; ++i) {
-    const double edge = rng.uniform(0.2, 0.9), window = edge * rng.uniform(1.0, 1.3);
+    const double edge = rng.uniform(0.5, 0.9), window = edge * rng.uniform(1.0, 1.3);
     const Pose turned = random_pose(rng, 2);
     const Verifier verifier(
         assembly_of({shapes::moved(cube(edge, Vec3::Zero()), turned), shapes::moved(room(window), turned)}), {0.01});
