@@ -1,9 +1,10 @@
 // The planner on boxes whose truth is plain, with a path planner that never finds anything.
+#include "blocking/blocking.h"
+
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "blocking/blocking.h"
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
 #include "one_by_one/fake_oracle.h"
@@ -72,8 +73,7 @@ TEST(Blocking, OneProposalPerPartWhereAllLeaveStraight) {
     EXPECT_EQ(r.counts.attempts, 0u);
     EXPECT_EQ(r.counts.proposed, n);
     EXPECT_EQ(r.counts.refused, 0u);
-    for (unsigned k = 0; k < n; ++k)
-      EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - k));
+    for (unsigned k = 0; k < n; ++k) EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - k));
   }
 }
 
@@ -108,8 +108,8 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
   BlockingParams no_slides;
   no_slides.slide_states = 0;
   RunContext context;
-  const RunResult without = run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)),
-                                RunOptions{}, context);
+  const RunResult without =
+      run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)), RunOptions{}, context);
   EXPECT_TRUE(without.plan.disassembly.empty());
 }
 
@@ -134,6 +134,42 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
       plans.insert(to_json(r.plan));
     }
     EXPECT_EQ(plans.size(), 1u);
+  }
+}
+
+TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
+  Rng rng(3);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+    std::set<std::string> locked;
+    for (unsigned k = 0; k < 5; ++k) {
+      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
+      const std::string name = "block" + std::to_string(k);
+      parts.push_back({name, {box}});
+      if (rng.uniform() < 0.5) continue;
+      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
+      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
+      locked.insert(name);
+      locked.insert(name + "_twin");
+    }
+    Assembly assembly = fake::assembly_of(parts);
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = a + 1; b < assembly.parts.size(); ++b)
+        if (const double depth =
+                penetration_depth(*assembly.parts[a].mesh, Pose{}, *assembly.parts[b].mesh, Pose{}, 1e-4);
+            depth > 0)
+          assembly.overlaps.push_back({a, b, depth});
+    const RunResult r = take_apart(assembly);
+    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::exhausted);
+    std::set<std::string> told;
+    for (const auto& u : r.plan.unsolved) {
+      told.insert(u.part);
+      ASSERT_EQ(u.blocked_by.size(), 1u);
+      EXPECT_TRUE(u.message.find("locked") != std::string::npos) << u.message;
+      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
+    }
+    EXPECT_EQ(told, locked);
+    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
   }
 }
 

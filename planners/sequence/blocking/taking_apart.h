@@ -16,8 +16,8 @@
 
 namespace dismantle::blocking {
 
-/// Parts are handled in units: one part, or those that a constraint keeps together. A group is what still hangs
-/// together; it begins with all units, and each removal splits one group in two.
+/// Parts are handled in units: one part, or those that a constraint keeps together, or that nothing can part. A group
+/// is what still hangs together; it begins with all units, and each removal splits one group in two.
 class TakingApart {
  public:
   TakingApart(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -31,10 +31,13 @@ class TakingApart {
     bool first = false;         ///< what is left of the whole
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
-    unsigned depth = 1;         ///< of searches by simulation
+    unsigned depth = 1;         ///< of searches by simulation; the effort of the search for slides grows with it
+    bool slides_cut = false;    ///< it ended for want of effort
+    bool no_slides = false;     ///< it saw all places, and nobody leaves
     bool searched_out = false;  ///< more depth does not help, or is not allowed
-    bool searched_without_end = false;  ///< pairs only
-    std::string slides_said;            ///< why the search for slides found nothing
+    unsigned pair_depth = 1;    ///< pairs only: doubled with every round
+    bool pair_done = false;
+    std::string slides_said;  ///< why the search for slides found nothing
   };
   /// The last search for the way of a part.
   struct Tried {
@@ -54,6 +57,8 @@ class TakingApart {
   Attempt question(const Group& group, const std::vector<UnitId>& units) const;
   void book(Group& group, const std::vector<UnitId>& units, const Attempt& attempt, const AttemptResult& answer);
   void give_up(const Group& group);
+  bool unit_locked(UnitId unit) const;
+  void tell_locked(UnitId unit);
   SequenceResult finish() const;
 
   // straight.cpp: by the blocking relations
@@ -72,7 +77,7 @@ class TakingApart {
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
   bool search(Group& group);
-  bool search_without_end(Group& group);
+  bool search_pair(Group& group, bool without_end);
   bool make_up_for(Group& group);
   std::vector<UnitId> searchable(const Group& group);
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
@@ -86,6 +91,7 @@ class TakingApart {
   RunContext& context_;
   std::vector<std::vector<PartId>> units_;
   std::vector<UnitId> unit_of_;  // by part
+  std::vector<bool> locked_;     // by part: into another of its unit
   std::vector<Pose> poses_;      // by part
   std::deque<Group> groups_;     // waiting
   std::vector<Removal> removals_;
