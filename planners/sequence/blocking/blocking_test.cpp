@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
 #include "dismantle/plan/check_plan.h"
@@ -134,6 +135,63 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
       plans.insert(to_json(r.plan));
     }
     EXPECT_EQ(plans.size(), 1u);
+  }
+}
+
+/// A key with a bar across its round shaft, under a lid with a slot that is `slot` rad from the bar. The slot is wide
+/// enough for whoever comes within a few degrees of it.
+Assembly key_under_lid(double slot) {
+  const auto turned = [](Mesh mesh, double angle) {
+    const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    for (auto& v : mesh.vertices) v = q * v;
+    return mesh;
+  };
+  Assembly assembly = fake::assembly_of({{"lid",
+                                          {{{-3, -3, -1}, {3, 3, -0.05}},
+                                           {{-3, -3, 0}, {-2.5, 3, 1}},
+                                           {{2.5, -3, 0}, {3, 3, 1}},
+                                           {{-2.45, -3, 0}, {2.45, -2.5, 1}},
+                                           {{-2.45, 2.5, 0}, {2.45, 3, 1}},
+                                           {{-3, -3, 1.05}, {3, -0.5, 2}},
+                                           {{-3, 0.5, 1.05}, {3, 3, 2}}}},
+                                         {"key", {{{-1.8, -0.2, 0.3}, {1.8, 0.2, 0.9}}}}});
+  assembly.parts[0].mesh = assembly.parts[0].surface =
+      std::make_shared<const Mesh>(turned(*assembly.parts[0].mesh, slot));
+  Mesh key = *assembly.parts[1].mesh;
+  const auto base = static_cast<std::uint32_t>(key.vertices.size());
+  constexpr std::uint32_t kCorners = 24;
+  for (const double z : {0.8, 4.0})
+    for (std::uint32_t k = 0; k < kCorners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kCorners;
+      key.vertices.emplace_back(0.35 * std::cos(angle), 0.35 * std::sin(angle), z);
+    }
+  for (std::uint32_t k = 0; k < kCorners; ++k) {
+    const std::uint32_t a = base + k, b = base + (k + 1) % kCorners;
+    key.triangles.push_back({a, b, a + kCorners});
+    key.triangles.push_back({b, b + kCorners, a + kCorners});
+    if (a == base || b == base) continue;
+    key.triangles.push_back({base, b, a});
+    key.triangles.push_back({base + kCorners, a + kCorners, b + kCorners});
+  }
+  assembly.parts[1].mesh = assembly.parts[1].surface = std::make_shared<const Mesh>(key);
+  return assembly;
+}
+
+TEST(Blocking, TurnsWhatComesOutThatWay) {
+  Rng rng(5);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Assembly assembly = key_under_lid(rng.uniform(0.6, std::numbers::pi - 0.6));
+    const RunResult r = take_apart(assembly);
+    EXPECT_EQ(r.outcome, Outcome::solved);
+    ASSERT_EQ(r.plan.disassembly.size(), 2u);
+    EXPECT_TRUE(r.plan.disassembly[0].separates.empty()) << "turned, and still there";
+    BlockingParams without;
+    without.turns = false;
+    without.slide_states = 0;
+    RunContext context;
+    const RunResult stuck =
+        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), RunOptions{}, context);
+    EXPECT_TRUE(stuck.plan.disassembly.empty());
   }
 }
 

@@ -21,7 +21,7 @@ std::vector<Pair> TakingApart::pairs_of(UnitId moving, UnitId still, std::size_t
   std::vector<Pair> pairs;
   for (const PartId a : units_[moving])
     for (const PartId b : units_[still]) {
-      const Pair pair{a, b, direction, poses_[a].t - poses_[b].t};
+      const Pair pair{a, b, direction, poses_[a].t - poses_[b].t, turn_[a], turn_[b]};
       if (!relations_->far(pair)) pairs.push_back(pair);
     }
   return pairs;
@@ -33,7 +33,7 @@ double TakingApart::way_out(const Group& group, const std::vector<UnitId>& units
   for (const UnitId u : group.units) {
     const bool leaves = std::find(units.begin(), units.end(), u) != units.end();
     for (const PartId id : units_[u]) {
-      const auto [lo, hi] = relations_->extent(id, direction);
+      const auto [lo, hi] = relations_->extent(id, direction, turn_[id]);
       const double shift = poses_[id].t.dot(d);
       if (leaves)
         ours = std::min(ours, lo + shift);
@@ -80,8 +80,8 @@ std::optional<Pair> TakingApart::open_question(const Group& group, UnitId unit, 
         return std::nullopt;
       }
       // The nearest is the likeliest to be in the way.
-      const double gap = relations_->extent(pair.still, direction).first -
-                         relations_->extent(pair.moving, direction).second -
+      const double gap = relations_->extent(pair.still, direction, pair.turn_still).first -
+                         relations_->extent(pair.moving, direction, pair.turn_moving).second -
                          pair.offset.dot(directions_.all[direction]);
       if (gap < least) {
         least = gap;

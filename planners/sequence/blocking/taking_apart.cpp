@@ -14,6 +14,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
       context_(context),
       unit_of_(assembly.parts.size(), kUnknown),
       poses_(assembly.parts.size()),
+      turn_(assembly.parts.size(), 0),
       slides_(assembly) {
   const Constraints& wishes = oracle.constraints();
   // Lists that share a part are one unit.
@@ -88,6 +89,10 @@ void TakingApart::dismantle(Group group) {
       if (split(group)) continue;
       group.groups_done = true;
     }
+    if (relations_ && params_.turns && !group.turns_done) {
+      if (turn(group)) continue;
+      group.turns_done = true;
+    }
     if (params_.slide_states > 0 && oracle_.judge() != nullptr && !group.slides_done) {
       if (slide(group)) continue;
       group.slides_done = true;
@@ -156,13 +161,14 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
     const PartId id = attempt.moving[i].part;
     removal.parts.push_back(id);
     poses_[id] = answer.result.path.back()[i];
+    if (relations_) turn_[id] = relations_->turn(poses_[id].q);
   }
   removal.attempt = &answer;
   removal.part_way = attempt.part_way;
   removals_.push_back(removal);
   for (const UnitId u : units) watched_[u].clear();
   refused_.clear();
-  group.slides_done = group.groups_done = group.searched_out = false;
+  group.slides_done = group.groups_done = group.turns_done = group.searched_out = false;
   if (attempt.part_way) {
     for (auto& known : watched_) known.clear();  // what was in the way may not be any more
     for (const UnitId u : group.units)

@@ -13,6 +13,7 @@
 #include "blocking/blocking.h"
 #include "blocking/relations.h"
 #include "blocking/slides.h"
+#include "blocking/turns.h"
 
 namespace dismantle::blocking {
 
@@ -31,6 +32,7 @@ class TakingApart {
     bool first = false;         ///< what is left of the whole
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
+    bool turns_done = false;    ///< likewise turns
     unsigned depth = 1;         ///< of searches by simulation; the effort of the search for slides grows with it
     bool slides_cut = false;    ///< it ended for want of effort
     bool no_slides = false;     ///< it saw all places, and nobody leaves
@@ -73,6 +75,13 @@ class TakingApart {
   std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
 
+  // turning.cpp: parts that are turned where they are
+  bool turn(Group& group);
+  bool turn(Group& group, UnitId unit, const TurningAxis& axis);
+  bool turns_to(Group& group, UnitId unit, const Path& way);
+  std::optional<std::pair<UnitId, std::size_t>> freed_by(const Group& group, UnitId unit);
+  bool turns_clear(const Group& group, UnitId unit, const Pose& from, const Pose& to);
+
   // searching.cpp: where no straight motion exists
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
@@ -90,10 +99,11 @@ class TakingApart {
   SequenceObserver& observer_;
   RunContext& context_;
   std::vector<std::vector<PartId>> units_;
-  std::vector<UnitId> unit_of_;  // by part
-  std::vector<bool> locked_;     // by part: into another of its unit
-  std::vector<Pose> poses_;      // by part
-  std::deque<Group> groups_;     // waiting
+  std::vector<UnitId> unit_of_;    // by part
+  std::vector<bool> locked_;       // by part: into another of its unit
+  std::vector<Pose> poses_;        // by part
+  std::vector<std::size_t> turn_;  // by part: the rotation in poses_, as relations_ names it
+  std::deque<Group> groups_;       // waiting
   std::vector<Removal> removals_;
   std::size_t out_ = 0;  // units that are alone
   std::vector<Unsolved> unsolved_;
@@ -108,6 +118,9 @@ class TakingApart {
   std::set<std::pair<std::vector<PartId>, std::size_t>>
       refused_;  // ways that the judge refused, for the group as it is
   SlideSearch slides_;
+  std::map<PartId, std::vector<TurningAxis>> axes_;             // where first asked for
+  std::set<std::pair<std::vector<UnitId>, std::size_t>> vain_;  // turns that freed nobody after all: group, where to
+  std::size_t turn_questions_ = 0;                              // to the judge, for the group as it is
   std::map<PartId, Tried> tried_;
   std::map<PartId, Unsolved> said_;  // by part: the last that was said
 };
