@@ -23,8 +23,8 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
               .doc = "When neither parts nor groups are free: largest number of states in the search for slides that "
                      "leave parts part-way (puzzles). 0 = no such search."});
   schema.add("turns", &BlockingParams::turns,
-             {.doc = "Then turn parts about the axes of their round surfaces, and leave them turned where that frees a "
-                     "part (latches, bayonets)."});
+             {.doc = "Then turn parts about the axes of their round surfaces, and leave them turned where that frees "
+                     "another part (latches)."});
   schema.add("max_depth", &BlockingParams::max_depth,
              {.unit = "1",
               .min = 1,

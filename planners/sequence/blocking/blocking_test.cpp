@@ -138,60 +138,63 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
   }
 }
 
-/// A key with a bar across its round shaft, under a lid with a slot that is `slot` rad from the bar. The slot is wide
-/// enough for whoever comes within a few degrees of it.
-Assembly key_under_lid(double slot) {
-  const auto turned = [](Mesh mesh, double angle) {
-    const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
-    for (auto& v : mesh.vertices) v = q * v;
-    return mesh;
-  };
-  Assembly assembly = fake::assembly_of({{"lid",
-                                          {{{-3, -3, -1}, {3, 3, -0.05}},
-                                           {{-3, -3, 0}, {-2.5, 3, 1}},
-                                           {{2.5, -3, 0}, {3, 3, 1}},
-                                           {{-2.45, -3, 0}, {2.45, -2.5, 1}},
-                                           {{-2.45, 2.5, 0}, {2.45, 3, 1}},
-                                           {{-3, -3, 1.05}, {3, -0.5, 2}},
-                                           {{-3, 0.5, 1.05}, {3, 3, 2}}}},
-                                         {"key", {{{-1.8, -0.2, 0.3}, {1.8, 0.2, 0.9}}}}});
-  assembly.parts[0].mesh = assembly.parts[0].surface =
-      std::make_shared<const Mesh>(turned(*assembly.parts[0].mesh, slot));
-  Mesh key = *assembly.parts[1].mesh;
-  const auto base = static_cast<std::uint32_t>(key.vertices.size());
+/// Two rails side by side in a channel that is open at one end. Before it stands a latch, whose round shaft turns in a
+/// hole of the roof and whose bar, `angle` rad from lying across, is in the way of both.
+Assembly latched_rails(double angle, double length) {
+  Assembly assembly = fake::assembly_of({{"channel",
+                                          {{{-4, -2, -1}, {4, 2, 0}},
+                                           {{-4, -2, 0.01}, {-3, 2, 1}},
+                                           {{-2.99, -2, 0.01}, {4, -1, 1}},
+                                           {{-2.99, 1, 0.01}, {4, 2, 1}},
+                                           {{-4, -2, 1.05}, {0.8, 2, 2}},
+                                           {{1.6, -2, 1.05}, {4, 2, 2}},
+                                           {{0.81, -2, 1.05}, {1.59, -0.4, 2}},
+                                           {{0.81, 0.4, 1.05}, {1.59, 2, 2}},
+                                           {{-4, -2, 2.01}, {4, 2, 3}}}},
+                                         {"left", {{{-2.9, -0.9, 0.1}, {0, -0.3, 0.9}}}},
+                                         {"right", {{{-2.9, 0.3, 0.1}, {0, 0.9, 0.9}}}},
+                                         {"latch", {{{-length, -0.1, 0.1}, {length, 0.1, 0.9}}}}});
+  Mesh latch = *assembly.parts[3].mesh;
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(angle + 0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  for (auto& v : latch.vertices) v = q * v;
+  const auto base = static_cast<std::uint32_t>(latch.vertices.size());
   constexpr std::uint32_t kCorners = 24;
-  for (const double z : {0.8, 4.0})
+  for (const double z : {0.8, 1.9})
     for (std::uint32_t k = 0; k < kCorners; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kCorners;
-      key.vertices.emplace_back(0.35 * std::cos(angle), 0.35 * std::sin(angle), z);
+      const double a = 2 * std::numbers::pi * k / kCorners;
+      latch.vertices.emplace_back(0.25 * std::cos(a), 0.25 * std::sin(a), z);
     }
   for (std::uint32_t k = 0; k < kCorners; ++k) {
     const std::uint32_t a = base + k, b = base + (k + 1) % kCorners;
-    key.triangles.push_back({a, b, a + kCorners});
-    key.triangles.push_back({b, b + kCorners, a + kCorners});
+    latch.triangles.push_back({a, b, a + kCorners});
+    latch.triangles.push_back({b, b + kCorners, a + kCorners});
     if (a == base || b == base) continue;
-    key.triangles.push_back({base, b, a});
-    key.triangles.push_back({base + kCorners, a + kCorners, b + kCorners});
+    latch.triangles.push_back({base, b, a});
+    latch.triangles.push_back({base + kCorners, a + kCorners, b + kCorners});
   }
-  assembly.parts[1].mesh = assembly.parts[1].surface = std::make_shared<const Mesh>(key);
+  for (auto& v : latch.vertices) v.x() += 1.2;
+  assembly.parts[3].mesh = assembly.parts[3].surface = std::make_shared<const Mesh>(latch);
   return assembly;
 }
 
-TEST(Blocking, TurnsWhatComesOutThatWay) {
+TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
   Rng rng(5);
-  for (int trial = 0; trial < 6; ++trial) {
-    const Assembly assembly = key_under_lid(rng.uniform(0.6, std::numbers::pi - 0.6));
-    const RunResult r = take_apart(assembly);
-    EXPECT_EQ(r.outcome, Outcome::solved);
-    ASSERT_EQ(r.plan.disassembly.size(), 2u);
-    EXPECT_TRUE(r.plan.disassembly[0].separates.empty()) << "turned, and still there";
-    BlockingParams without;
-    without.turns = false;
-    without.slide_states = 0;
-    RunContext context;
-    const RunResult stuck =
-        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), RunOptions{}, context);
-    EXPECT_TRUE(stuck.plan.disassembly.empty());
+  for (int trial = 0; trial < 8; ++trial) {
+    const Assembly assembly = latched_rails(rng.uniform(-0.4, 0.4), rng.uniform(0.6, 0.9));
+    for (const bool turns : {true, false}) {
+      BlockingParams params;
+      params.turns = turns;
+      params.slide_states = 0;
+      RunContext context;
+      const RunResult r =
+          run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(params)), RunOptions{}, context);
+      ASSERT_EQ(r.plan.disassembly.size(), turns ? 3u : 0u);
+      if (!turns) continue;
+      EXPECT_TRUE(r.plan.disassembly[0].separates.empty()) << "turned, and still there";
+      EXPECT_EQ(r.plan.disassembly[0].moves[0].part, "latch");
+      EXPECT_EQ(r.plan.unsolved.size(), 2u) << "the latch never leaves the channel";
+      EXPECT_TRUE(check_plan(r.plan, assembly, RunOptions{}.verify, context).valid);
+    }
   }
 }
 

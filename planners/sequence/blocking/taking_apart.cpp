@@ -46,6 +46,9 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
     units_[unit].push_back(*id);
   }
   std::reverse(units_.begin(), units_.end());
+  std::stable_partition(units_.begin(), units_.end(), [&](const auto& parts) {  // others leave those that are locked
+    return std::none_of(parts.begin(), parts.end(), [&](PartId id) { return locked_[id]; });
+  });
   for (UnitId u = 0; u < units_.size(); ++u) {
     all.units.push_back(u);
     for (const PartId id : units_[u]) unit_of_[id] = u;
@@ -89,14 +92,19 @@ void TakingApart::dismantle(Group group) {
       if (split(group)) continue;
       group.groups_done = true;
     }
-    if (relations_ && params_.turns && !group.turns_done) {
-      if (turn(group)) continue;
-      group.turns_done = true;
-    }
     if (params_.slide_states > 0 && oracle_.judge() != nullptr && !group.slides_done) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
+    if (relations_ && params_.turns && group.units.size() > 2 && !group.turns_done &&
+        (group.depth > 1 || group.searched_out)) {
+      if (turn(group)) continue;
+      group.turns_done = true;
+    }
+    // Two that are left, with nobody to be fair to, are searched without limit at once.
+    if (group.units.size() == 2 &&
+        std::none_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() > 1; }))
+      group.searched_out = true;
     if (!group.searched_out) {
       if (search(group)) continue;
       if (group.searched_out || groups_.empty() || stop()) continue;

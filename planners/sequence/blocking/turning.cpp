@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kAxes = 2;                        // of one part
 constexpr int kStops = 24;                              // in a full turn
 constexpr int kHalvings = 4;                            // of the last arc, to find where it meets something
-constexpr std::size_t kMostQuestions = 3000;            // to the judge, for one group as it stands
+constexpr std::size_t kMostQuestions = 300;             // to the judge, for one group as it stands
 constexpr double kArc = 2 * std::numbers::pi / kStops;  // rad
 
 Pose turned(const Pose& pose, const TurningAxis& axis, double angle) {
@@ -36,32 +36,22 @@ bool TakingApart::turns_clear(const Group& group, UnitId unit, const Pose& from,
   return true;
 }
 
-/// Who could leave, and along which direction, now that `unit` stands as poses_ says? Only those are asked whom it was
-/// in the way of, and itself.
+/// Who else could leave, and along which direction, now that `unit` stands as poses_ says? Only those are asked whom it
+/// was in the way of. Whether turning frees the part itself is a question for the path planner.
 std::optional<std::pair<TakingApart::UnitId, std::size_t>> TakingApart::freed_by(const Group& group, UnitId unit) {
-  const auto is_free = [&](UnitId u, std::size_t d) {
-    while (const auto question = open_question(group, u, d)) {
-      ++turn_questions_;
-      relations_->blocks(*question);
-    }
-    return !watched_[u].contains(d);
-  };
   for (const UnitId u : group.units) {
-    if (!may_leave(group, {u})) continue;
+    if (u == unit || !may_leave(group, {u})) continue;
     for (const std::size_t d : directions_of(group, u)) {
-      if (stop()) return std::nullopt;
+      if (stop() || turn_questions_ > kMostQuestions) return std::nullopt;
       const auto watched = watched_[u].find(d);
-      if (u != unit) {
-        if (watched == watched_[u].end() || watched->second != unit) continue;
-        watched_[u].erase(watched);
-        const bool is = is_free(u, d);
-        if (is) return std::pair(u, d);
-        continue;  // another that is in the way holds whatever this one does; if it is this one, it was before
+      if (watched == watched_[u].end() || watched->second != unit) continue;
+      // Another that is in the way holds whatever this one does; if it is this one again, it was before.
+      watched_[u].erase(watched);
+      while (const auto question = open_question(group, u, d)) {
+        ++turn_questions_;
+        relations_->blocks(*question);
       }
-      watched_[u].erase(d);
-      const bool is = is_free(u, d);
-      watched_[u].erase(d);  // of this pose, not of the one that it is in
-      if (is) return std::pair(u, d);
+      if (!watched_[u].contains(d)) return std::pair(u, d);
     }
   }
   return std::nullopt;
