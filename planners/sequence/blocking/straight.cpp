@@ -12,6 +12,7 @@ constexpr std::size_t kWave = 4;       // directions of one part that are looked
 constexpr std::size_t kLookAhead = 4;  // parts per thread that are looked at together
 constexpr double kBeyond = 1e-3;       // assembly units: how far past the last part a way leads at most
 constexpr int kHalvings = 12;          // of the way, to find where the hulls come apart
+constexpr double kClear = 0.01;        // assembly units: further than that, so that rounding when written does no harm
 constexpr std::size_t kProposals = 8;  // groups that are put to the judge before something else is tried
 
 }  // namespace
@@ -154,6 +155,7 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
     const double middle = 0.5 * (within + out);
     (oracle_.judge()->apart(moved(middle), attempt.still) ? out : within) = middle;
   }
+  out += kClear;
   Path way(2);
   for (const auto& p : attempt.moving) way[0].push_back(p.pose);
   for (const auto& p : moved(out)) way[1].push_back(p.pose);
