@@ -97,6 +97,7 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<PathPlanner, NoPath, BfsParams>("guided", "Breadth first, with proposals.", {.needs = {.dynamics = true}});
   r.add<PathPlanner, NoPath, TRrtParams>("t_rrt", "Targetless RRT.", {.needs = {.distance = true}});
   r.add<PathPlanner, NoPath>("pairs", "Moves two parts.", {.needs = {.distance = true, .max_moving = 2}});
+  r.add<SequencePlanner, NoSequence>("blocking", "By who is in whose way.");
   r.add<SequencePlanner, NoSequence>("progressive", "Deepens by and by.", {.source = "Algorithm 2"});
   r.add<SequencePlanner, NoSequence, RandomParams>("random", "Any order.");
   r.add<TransferPlanner, NoTransfer>("rrt_connect", "Two trees.");

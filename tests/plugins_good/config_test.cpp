@@ -15,7 +15,7 @@ TEST_F(Config, DefaultsWithoutAnyFile) {
   const RunConfig config = load_config({}, registry_);
   EXPECT_EQ(config.simulator.type, "sdf_penalty");
   EXPECT_EQ(config.path_planner.type, "guided");
-  EXPECT_EQ(config.sequence_planner.type, "progressive");
+  EXPECT_EQ(config.sequence_planner.type, "blocking");
   EXPECT_EQ(config.run.seed, 1);
   EXPECT_EQ(config.run.threads, 0u);
   EXPECT_EQ(config.run.path_timeout, 120);

@@ -69,7 +69,7 @@ TEST(Registry, ExplainsWhatIsMissing) {
   EXPECT_EQ(why(registry, PluginKind::path_planner, "progressive"),
             "'progressive' is a sequence_planner, not a path_planner");
   EXPECT_EQ(why(registry, PluginKind::sequence_planner, "zzz"),
-            "unknown sequence_planner 'zzz'; there are: progressive, random");
+            "unknown sequence_planner 'zzz'; there are: blocking, progressive, random");
   EXPECT_EQ(why(registry, PluginKind::importer, "obj"), "unknown importer 'obj'; no importer was found");
 }
 

@@ -105,7 +105,7 @@ TEST_F(Resolved, SaysWhereValuesCameFrom) {
 TEST_F(Resolved, RandomValuesRoundTrip) {
   Rng rng(23);
   const char* const planners[] = {"bfs", "t_rrt"};
-  const char* const sequences[] = {"progressive", "random"};
+  const char* const sequences[] = {"blocking", "random"};
   registry_.scan();
   for (int round = 0; round < 300; ++round) {
     RunConfig config = load_config({std::nullopt,

@@ -1,9 +1,11 @@
 // The planner on boxes whose truth is plain, with a path planner that never finds anything.
+#include "blocking/blocking.h"
+
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
-#include "blocking/blocking.h"
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
 #include "one_by_one/fake_oracle.h"
@@ -72,8 +74,7 @@ TEST(Blocking, OneProposalPerPartWhereAllLeaveStraight) {
     EXPECT_EQ(r.counts.attempts, 0u);
     EXPECT_EQ(r.counts.proposed, n);
     EXPECT_EQ(r.counts.refused, 0u);
-    for (unsigned k = 0; k < n; ++k)
-      EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - k));
+    for (unsigned k = 0; k < n; ++k) EXPECT_EQ(r.plan.disassembly[k].separates[0][0], "block" + std::to_string(n - k));
   }
 }
 
@@ -108,8 +109,8 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
   BlockingParams no_slides;
   no_slides.slide_states = 0;
   RunContext context;
-  const RunResult without = run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)),
-                                RunOptions{}, context);
+  const RunResult without =
+      run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)), RunOptions{}, context);
   EXPECT_TRUE(without.plan.disassembly.empty());
 }
 
@@ -134,6 +135,102 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
       plans.insert(to_json(r.plan));
     }
     EXPECT_EQ(plans.size(), 1u);
+  }
+}
+
+/// Two rails side by side in a channel that is open at one end. Before it stands a latch, whose round shaft turns in a
+/// hole of the roof and whose bar, `angle` rad from lying across, is in the way of both.
+Assembly latched_rails(double angle, double length) {
+  Assembly assembly = fake::assembly_of({{"channel",
+                                          {{{-4, -2, -1}, {4, 2, 0}},
+                                           {{-4, -2, 0.01}, {-3, 2, 1}},
+                                           {{-2.99, -2, 0.01}, {4, -1, 1}},
+                                           {{-2.99, 1, 0.01}, {4, 2, 1}},
+                                           {{-4, -2, 1.05}, {0.8, 2, 2}},
+                                           {{1.6, -2, 1.05}, {4, 2, 2}},
+                                           {{0.81, -2, 1.05}, {1.59, -0.4, 2}},
+                                           {{0.81, 0.4, 1.05}, {1.59, 2, 2}},
+                                           {{-4, -2, 2.01}, {4, 2, 3}}}},
+                                         {"left", {{{-2.9, -0.9, 0.1}, {0, -0.3, 0.9}}}},
+                                         {"right", {{{-2.9, 0.3, 0.1}, {0, 0.9, 0.9}}}},
+                                         {"latch", {{{-length, -0.1, 0.1}, {length, 0.1, 0.9}}}}});
+  Mesh latch = *assembly.parts[3].mesh;
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(angle + 0.5 * std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  for (auto& v : latch.vertices) v = q * v;
+  const auto base = static_cast<std::uint32_t>(latch.vertices.size());
+  constexpr std::uint32_t kCorners = 24;
+  for (const double z : {0.8, 1.9})
+    for (std::uint32_t k = 0; k < kCorners; ++k) {
+      const double a = 2 * std::numbers::pi * k / kCorners;
+      latch.vertices.emplace_back(0.25 * std::cos(a), 0.25 * std::sin(a), z);
+    }
+  for (std::uint32_t k = 0; k < kCorners; ++k) {
+    const std::uint32_t a = base + k, b = base + (k + 1) % kCorners;
+    latch.triangles.push_back({a, b, a + kCorners});
+    latch.triangles.push_back({b, b + kCorners, a + kCorners});
+    if (a == base || b == base) continue;
+    latch.triangles.push_back({base, b, a});
+    latch.triangles.push_back({base + kCorners, a + kCorners, b + kCorners});
+  }
+  for (auto& v : latch.vertices) v.x() += 1.2;
+  assembly.parts[3].mesh = assembly.parts[3].surface = std::make_shared<const Mesh>(latch);
+  return assembly;
+}
+
+TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
+  Rng rng(5);
+  for (int trial = 0; trial < 8; ++trial) {
+    const Assembly assembly = latched_rails(rng.uniform(-0.4, 0.4), rng.uniform(0.6, 0.9));
+    for (const bool turns : {true, false}) {
+      BlockingParams params;
+      params.turns = turns;
+      params.slide_states = 0;
+      RunContext context;
+      const RunResult r =
+          run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(params)), RunOptions{}, context);
+      ASSERT_EQ(r.plan.disassembly.size(), turns ? 3u : 0u);
+      if (!turns) continue;
+      EXPECT_TRUE(r.plan.disassembly[0].separates.empty()) << "turned, and still there";
+      EXPECT_EQ(r.plan.disassembly[0].moves[0].part, "latch");
+      EXPECT_EQ(r.plan.unsolved.size(), 2u) << "the latch never leaves the channel";
+      EXPECT_TRUE(check_plan(r.plan, assembly, RunOptions{}.verify, context).valid);
+    }
+  }
+}
+
+TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
+  Rng rng(3);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+    std::set<std::string> locked;
+    for (unsigned k = 0; k < 5; ++k) {
+      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
+      const std::string name = "block" + std::to_string(k);
+      parts.push_back({name, {box}});
+      if (rng.uniform() < 0.5) continue;
+      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
+      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
+      locked.insert(name);
+      locked.insert(name + "_twin");
+    }
+    Assembly assembly = fake::assembly_of(parts);
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = a + 1; b < assembly.parts.size(); ++b)
+        if (const double depth =
+                penetration_depth(*assembly.parts[a].mesh, Pose{}, *assembly.parts[b].mesh, Pose{}, 1e-4);
+            depth > 0)
+          assembly.overlaps.push_back({a, b, depth});
+    const RunResult r = take_apart(assembly);
+    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::exhausted);
+    std::set<std::string> told;
+    for (const auto& u : r.plan.unsolved) {
+      told.insert(u.part);
+      ASSERT_EQ(u.blocked_by.size(), 1u);
+      EXPECT_TRUE(u.message.find("locked") != std::string::npos) << u.message;
+      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
+    }
+    EXPECT_EQ(told, locked);
+    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
   }
 }
 

@@ -1,6 +1,8 @@
 // Laws of the parts that the planner is made of: graphs, ways until contact, directions.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,7 @@
 #include "blocking/directions.h"
 #include "blocking/graph.h"
 #include "blocking/polyhedron.h"
+#include "blocking/turns.h"
 #include "fake_planning.h"
 
 namespace dismantle::blocking {
@@ -132,6 +135,47 @@ TEST(Directions, ComeInOppositePairsAndHoldTheNormalsOfFlatFaces) {
         EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](std::size_t d) {
           return directions.all[d].dot(sign * Vec3::Unit(k)) > 1 - 1e-9;
         }));
+}
+
+/// A prism over a regular polygon, without the part of it beyond x = `flat` (the radius is 1).
+Mesh rod(int corners, double flat, double height) {
+  Mesh mesh;
+  for (const double z : {0.0, height})
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      mesh.vertices.emplace_back(std::min(flat, std::cos(angle)), std::sin(angle), z);
+    }
+  const auto n = static_cast<std::uint32_t>(corners);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::uint32_t next = (k + 1) % n;
+    mesh.triangles.push_back({k, next, n + k});
+    mesh.triangles.push_back({next, n + next, n + k});
+    if (k > 0 && next > 0) {
+      mesh.triangles.push_back({0, next, k});
+      mesh.triangles.push_back({n, n + k, n + next});
+    }
+  }
+  return mesh;
+}
+
+TEST(TurningAxes, AreThoseOfRoundSurfacesWhereverTheyAre) {
+  Rng rng(8);
+  for (int trial = 0; trial < 40; ++trial) {
+    Mesh mesh = rod(16 + static_cast<int>(rng.below(60)), rng.uniform(0.3, 0.7), rng.uniform(0.5, 5));
+    const Pose at{Vec3(rng.normal(), rng.normal(), rng.normal()),
+                  Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized()};
+    for (auto& v : mesh.vertices) v = at * v;
+    const auto axes = turning_axes(mesh, 3);
+    ASSERT_FALSE(axes.empty());
+    const Vec3 true_axis = at.q * Vec3::UnitZ();
+    EXPECT_GT(std::abs(axes[0].direction.dot(true_axis)), 1 - 1e-6);
+    EXPECT_LT((axes[0].point - at.t).cross(true_axis).norm(), 1e-3);
+  }
+}
+
+TEST(TurningAxes, NoneWhereTurningChangesNothingOrNothingIsRound) {
+  for (const int corners : {24, 48, 97}) EXPECT_TRUE(turning_axes(rod(corners, 2, 3), 3).empty());
+  EXPECT_TRUE(turning_axes(fake::boxes({{{0, 0, 0}, {1, 2, 3}}, {{4, 0, 0}, {5, 1, 1}}}), 3).empty());
 }
 
 }  // namespace

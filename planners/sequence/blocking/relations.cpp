@@ -31,44 +31,63 @@ Relations::Relations(const Assembly& assembly, const Verifier& judge, const Dire
   }
 }
 
-const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction) const {
-  auto& list = shadows_[direction];
-  if (list.empty()) {
-    for (const auto& hull : hulls_) {
-      Shadow s;
-      for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
-      for (const Vec3& v : hull) {
-        const Vec3 p = frames_[direction] * v;
-        for (int k = 0; k < 3; ++k) s.lo[k] = std::min(s.lo[k], p[k]), s.hi[k] = std::max(s.hi[k], p[k]);
-      }
-      list.push_back(s);
-    }
+Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const {
+  Shadow s;
+  for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
+  const Eigen::Matrix3d frame = frames_[direction] * turn;
+  for (const Vec3& v : hulls_[part]) {
+    const Vec3 p = frame * v;
+    for (int k = 0; k < 3; ++k) s.lo[k] = std::min(s.lo[k], p[k]), s.hi[k] = std::max(s.hi[k], p[k]);
   }
+  return s;
+}
+
+const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, std::size_t turn) const {
+  if (turn != 0) {
+    const auto [entry, is_new] = turned_shadows_.try_emplace({turn, direction, part});
+    if (is_new) entry->second = cast(part, direction, turns_[turn].toRotationMatrix());
+    return entry->second;
+  }
+  auto& list = shadows_[direction];
+  if (list.empty())
+    for (PartId id = 0; id < hulls_.size(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
   return list[part];
 }
 
-std::pair<double, double> Relations::extent(PartId part, std::size_t direction) const {
-  const Shadow& s = shadow(part, direction);
+std::pair<double, double> Relations::extent(PartId part, std::size_t direction, std::size_t turn) const {
+  const Shadow& s = shadow(part, direction, turn);
   return {s.lo[0], s.hi[0]};
+}
+
+std::size_t Relations::turn(const Eigen::Quaterniond& q) {
+  const auto known =
+      std::find_if(turns_.begin(), turns_.end(), [&](const auto& t) { return std::abs(t.dot(q)) > 1 - 1e-14; });
+  if (known == turns_.end()) {
+    turns_.push_back(q);
+    return turns_.size() - 1;
+  }
+  return static_cast<std::size_t>(known - turns_.begin());
 }
 
 /// One key for both ways of looking at a pair: i along d past j is j along -d past i.
 Relations::Key Relations::key_of(const Pair& p) {
   const auto grid = [](double x) { return std::lround(x / kGrid); };
   const Vec3 o = p.moving < p.still ? p.offset : Vec3(-p.offset);
-  if (p.moving < p.still) return {p.moving, p.still, p.direction, grid(o.x()), grid(o.y()), grid(o.z())};
-  return {p.still, p.moving, Directions::opposite(p.direction), grid(o.x()), grid(o.y()), grid(o.z())};
+  if (p.moving < p.still)
+    return {p.moving, p.still, p.direction, grid(o.x()), grid(o.y()), grid(o.z()), p.turn_moving, p.turn_still};
+  return {p.still,      p.moving,     Directions::opposite(p.direction), grid(o.x()), grid(o.y()), grid(o.z()),
+          p.turn_still, p.turn_moving};
 }
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
 
 double Relations::way_past(const Pair& p) const {
-  return shadow(p.still, p.direction).hi[0] - shadow(p.moving, p.direction).lo[0] -
+  return shadow(p.still, p.direction, p.turn_still).hi[0] - shadow(p.moving, p.direction, p.turn_moving).lo[0] -
          p.offset.dot(directions_.all[p.direction]);
 }
 
 bool Relations::far(const Pair& p) const {
-  const Shadow &a = shadow(p.moving, p.direction), &b = shadow(p.still, p.direction);
+  const Shadow &a = shadow(p.moving, p.direction, p.turn_moving), &b = shadow(p.still, p.direction, p.turn_still);
   const Vec3 o = frames_[p.direction] * p.offset;
   if (b.hi[0] - a.lo[0] - o[0] <= 0) return true;  // past it already
   for (int k = 1; k < 3; ++k)
@@ -77,10 +96,10 @@ bool Relations::far(const Pair& p) const {
 }
 
 bool Relations::ask(const Pair& p) const {
-  const Pose begin{p.offset, Eigen::Quaterniond::Identity()};
+  const Pose begin{p.offset, turns_[p.turn_moving]};
   Pose end = begin;
   end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
-  return !judge_.passes(p.moving, p.still, Pose{}, {begin, end});
+  return !judge_.passes(p.moving, p.still, Pose{Vec3::Zero(), turns_[p.turn_still]}, {begin, end});
 }
 
 bool Relations::blocks(const Pair& pair) {

@@ -16,11 +16,12 @@
 
 namespace dismantle::blocking {
 
-/// A pair of parts that stand, relative to each other, as when assembled or translated from there.
+/// Two parts as they stand, and where one of them is to go.
 struct Pair {
   PartId moving = 0, still = 0;
   std::size_t direction = 0;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
+  std::size_t turn_moving = 0, turn_still = 0;       ///< as Relations::turn names them
 };
 
 /// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
@@ -38,17 +39,20 @@ class Relations {
   bool far(const Pair& pair) const;
   /// Way along d after which `moving` is past `still`.
   double way_past(const Pair& pair) const;
-  /// Extent of a part along a direction, assembled.
-  std::pair<double, double> extent(PartId part, std::size_t direction) const;
+  /// Extent of a part along a direction, turned but not translated.
+  std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
+  /// A number for a rotation from the assembled orientation; 0 is none. Equal rotations have equal numbers.
+  std::size_t turn(const Eigen::Quaterniond& q);
   std::uint64_t computed() const { return computed_; }
 
  private:
   struct Shadow {
     double lo[3], hi[3];  // along the direction and two across it
   };
-  using Key = std::tuple<PartId, PartId, std::size_t, long, long, long>;
+  using Key = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
   static Key key_of(const Pair& pair);
-  const Shadow& shadow(PartId part, std::size_t direction) const;
+  Shadow cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
+  const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
   bool ask(const Pair& pair) const;
 
   const Assembly& assembly_;
@@ -57,6 +61,8 @@ class Relations {
   std::vector<std::vector<Eigen::Vector3d>> hulls_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
+  std::vector<Eigen::Quaterniond> turns_{Eigen::Quaterniond::Identity()};
+  mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
   std::uint64_t computed_ = 0;
 };

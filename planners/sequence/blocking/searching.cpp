@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t kRefusals = 12;       // of the judge, before the slides are given up
 constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
+// Pairs of edges that the first search for slides may look at (seconds), and how many times more each later one.
+constexpr double kFirstWork = 5e8, kMoreWork = 4;
+constexpr unsigned kDepthWithoutSlides = 4;
+constexpr unsigned kDeepest = 64;  // of the searches for pairs while other pairs wait
 
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -43,14 +47,18 @@ bool TakingApart::slide(Group& group) {
   for (std::size_t refusals = 0; refusals < kRefusals && !stop(); ++refusals) {
     Places places;
     for (const PartId id : parts) places[id] = poses_[id].t;
-    const SlideSearch::Answer found = slides_.search(places, static_cast<std::size_t>(params_.slide_states), context_);
+    const double work = kFirstWork * std::pow(kMoreWork, group.depth - 1);
+    const SlideSearch::Answer found =
+        slides_.search(places, static_cast<std::size_t>(params_.slide_states), work, context_);
+    group.slides_cut = found.end == SlideSearch::End::too_long;
+    group.no_slides = found.end == SlideSearch::End::exhausted;
     counts_["slide_states"] += static_cast<double>(found.states);
     if (found.end == SlideSearch::End::exhausted)
       group.slides_said =
           std::to_string(found.states) +
           " arrangements can be reached by straight slides between places where faces are flush, and in none "
           "of them a part or group is free";
-    if (found.end == SlideSearch::End::limit)
+    if (found.end == SlideSearch::End::limit || found.end == SlideSearch::End::too_long)
       group.slides_said =
           "slides that leave parts part-way were given up after " + std::to_string(found.states) + " arrangements";
     if (found.end != SlideSearch::End::found) return false;
@@ -200,21 +208,33 @@ bool TakingApart::search(Group& group) {
     const auto known = tried_.find(units_[u].front());
     return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
   });
-  if (!deeper || group.depth >= params_.max_depth || group.units.size() == 2)
+  // Where all arrangements were seen it takes more than slides, if it can be done at all: deep searches, which are for
+  // ways of many slides, have nothing to find.
+  const unsigned most = group.no_slides ? std::min(kDepthWithoutSlides, params_.max_depth) : params_.max_depth;
+  const bool more_slides = group.slides_cut && group.depth < (group.units.size() == 2 ? 2 : params_.max_depth);
+  if (!more_slides && (!deeper || group.depth >= most || group.units.size() == 2)) {
     group.searched_out = true;
-  else
+  } else {
     ++group.depth;
+    group.slides_done = group.slides_done && !group.slides_cut;
+  }
   return false;
 }
 
-/// The ways of two parts that are left, without limit of depth.
-bool TakingApart::search_without_end(Group& group) {
+/// The ways of two parts that are left: twice as deep as the last time, or without limit of depth.
+bool TakingApart::search_pair(Group& group, bool without_end) {
+  if (group.pair_depth >= kDeepest) without_end = true;
+  group.pair_depth *= 2;
   for (const UnitId u : searchable(group)) {
     const auto known = tried_.find(units_[u].front());
     if (known != tried_.end() && known->second.outcome != Outcome::depth_limit) continue;
     if (stop()) return false;
-    if (attempt(group, u, 0, {})) return true;
+    if (attempt(group, u, without_end ? 0 : group.pair_depth, {})) return true;
   }
+  group.pair_done = without_end || std::none_of(group.units.begin(), group.units.end(), [&](UnitId u) {
+                      const auto known = tried_.find(units_[u].front());
+                      return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
+                    });
   return false;
 }
 

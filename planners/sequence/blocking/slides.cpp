@@ -127,6 +127,8 @@ double SlideSearch::way_free(PartId moving, PartId still, const Vec3& offset, st
   const Key key = key_of(moving, still, offset, direction, sign);
   const auto known = free_.find(key);
   if (known != free_.end()) return known->second;
+  work_ +=
+      static_cast<double>(shape(moving).body.edges().size()) * static_cast<double>(shape(still).body.edges().size());
   const double way =
       way_until_contact(shape(moving).body, shape(still).body, offset, directions_[direction], kTolerance);
   return free_.emplace(key, way).first->second;
@@ -140,8 +142,11 @@ void SlideSearch::forbid(PartId moving, PartId still, const Vec3& offset, const 
   }
 }
 
-SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, const RunContext& context) {
+SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, double most_work,
+                                        const RunContext& context) {
   if (!prepare(places)) return {};
+  work_ = 0;
+  most_work_ = most_work;
   // Places on contact multiply the states, and most puzzles do without.
   const Answer flush = search(places, most_states, false, context);
   if (flush.end != End::exhausted) return flush;
@@ -200,6 +205,10 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
     answer.states = current + 1;
     if (current >= most_states) {
       answer.end = End::limit;
+      return answer;
+    }
+    if (work_ > most_work_) {
+      answer.end = End::too_long;
       return answer;
     }
     const std::vector<Vec3> at = nodes[current].at;

@@ -36,14 +36,16 @@ class SlideSearch {
  public:
   explicit SlideSearch(const Assembly& assembly);
 
-  enum class End { found, exhausted, limit, stopped, unsuited };
+  enum class End { found, exhausted, limit, too_long, stopped, unsuited };
   struct Answer {
     End end = End::unsuited;
     std::vector<Slide> slides;  ///< the last has infinite way
     std::size_t states = 0;
   };
-  /// Up to `most_states`. Unsuited: some shapes are not made of flat faces, or overlap.
-  Answer search(const Places& places, std::size_t most_states, const RunContext& context);
+  /// Up to `most_states`, and (too_long) as long as the ways that had to be measured for it took no more than
+  /// `most_work` pairs of edges. What was measured stays known, so asking again with more work resumes. Unsuited: some
+  /// shapes are not made of flat faces, or overlap.
+  Answer search(const Places& places, std::size_t most_states, double most_work, const RunContext& context);
   /// From now on `moving` at these places cannot go along that direction past `still`: the judge said so.
   void forbid(PartId moving, PartId still, const Eigen::Vector3d& offset, const Eigen::Vector3d& direction);
 
@@ -71,6 +73,7 @@ class SlideSearch {
   std::map<PartId, Shape> shapes_;
   std::vector<Eigen::Vector3d> directions_;  ///< in opposite pairs
   std::unordered_map<Key, double, Hash> free_;
+  double work_ = 0, most_work_ = 0;  ///< of the search in hand
 };
 
 }  // namespace dismantle::blocking

@@ -12,6 +12,7 @@ constexpr std::size_t kWave = 4;       // directions of one part that are looked
 constexpr std::size_t kLookAhead = 4;  // parts per thread that are looked at together
 constexpr double kBeyond = 1e-3;       // assembly units: how far past the last part a way leads at most
 constexpr int kHalvings = 12;          // of the way, to find where the hulls come apart
+constexpr double kClear = 0.01;        // assembly units: further than that, so that rounding when written does no harm
 constexpr std::size_t kProposals = 8;  // groups that are put to the judge before something else is tried
 
 }  // namespace
@@ -21,7 +22,7 @@ std::vector<Pair> TakingApart::pairs_of(UnitId moving, UnitId still, std::size_t
   std::vector<Pair> pairs;
   for (const PartId a : units_[moving])
     for (const PartId b : units_[still]) {
-      const Pair pair{a, b, direction, poses_[a].t - poses_[b].t};
+      const Pair pair{a, b, direction, poses_[a].t - poses_[b].t, turn_[a], turn_[b]};
       if (!relations_->far(pair)) pairs.push_back(pair);
     }
   return pairs;
@@ -33,7 +34,7 @@ double TakingApart::way_out(const Group& group, const std::vector<UnitId>& units
   for (const UnitId u : group.units) {
     const bool leaves = std::find(units.begin(), units.end(), u) != units.end();
     for (const PartId id : units_[u]) {
-      const auto [lo, hi] = relations_->extent(id, direction);
+      const auto [lo, hi] = relations_->extent(id, direction, turn_[id]);
       const double shift = poses_[id].t.dot(d);
       if (leaves)
         ours = std::min(ours, lo + shift);
@@ -80,8 +81,8 @@ std::optional<Pair> TakingApart::open_question(const Group& group, UnitId unit, 
         return std::nullopt;
       }
       // The nearest is the likeliest to be in the way.
-      const double gap = relations_->extent(pair.still, direction).first -
-                         relations_->extent(pair.moving, direction).second -
+      const double gap = relations_->extent(pair.still, direction, pair.turn_still).first -
+                         relations_->extent(pair.moving, direction, pair.turn_moving).second -
                          pair.offset.dot(directions_.all[direction]);
       if (gap < least) {
         least = gap;
@@ -154,6 +155,7 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
     const double middle = 0.5 * (within + out);
     (oracle_.judge()->apart(moved(middle), attempt.still) ? out : within) = middle;
   }
+  out += kClear;
   Path way(2);
   for (const auto& p : attempt.moving) way[0].push_back(p.pose);
   for (const auto& p : moved(out)) way[1].push_back(p.pose);

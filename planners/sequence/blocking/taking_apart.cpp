@@ -14,6 +14,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
       context_(context),
       unit_of_(assembly.parts.size(), kUnknown),
       poses_(assembly.parts.size()),
+      turn_(assembly.parts.size(), 0),
       slides_(assembly) {
   const Constraints& wishes = oracle.constraints();
   // Lists that share a part are one unit.
@@ -25,16 +26,32 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   };
   for (const auto& list : wishes.together)
     for (const PartId id : list) root[find(id)] = find(list.front());
+  // What nothing can part is moved as one, and others may leave it; that it is not parted is said at the end.
+  locked_.resize(assembly.parts.size());
+  if (oracle.judge() != nullptr)
+    for (const Lock& lock : oracle.judge()->locks()) {
+      if (find(lock.inside) != find(lock.other)) locked_[lock.inside] = locked_[lock.other] = true;
+      root[find(lock.inside)] = find(lock.other);
+    }
   Group all;
-  for (const PartId id : ordered_parts(assembly, params.order)) {
-    UnitId& unit = unit_of_[find(id)];
+  // The last of its parts in the order says when a unit's turn is.
+  const std::vector<PartId> order = ordered_parts(assembly, params.order);
+  std::vector<UnitId> unit_of_root(assembly.parts.size(), kUnknown);
+  for (auto id = order.rbegin(); id != order.rend(); ++id) {
+    UnitId& unit = unit_of_root[find(*id)];
     if (unit == kUnknown) {
       unit = units_.size();
       units_.emplace_back();
-      all.units.push_back(unit);
     }
-    units_[unit].push_back(id);
-    unit_of_[id] = unit;
+    units_[unit].push_back(*id);
+  }
+  std::reverse(units_.begin(), units_.end());
+  std::stable_partition(units_.begin(), units_.end(), [&](const auto& parts) {  // others leave those that are locked
+    return std::none_of(parts.begin(), parts.end(), [&](PartId id) { return locked_[id]; });
+  });
+  for (UnitId u = 0; u < units_.size(); ++u) {
+    all.units.push_back(u);
+    for (const PartId id : units_[u]) unit_of_[id] = u;
   }
   for (auto& unit : units_) std::sort(unit.begin(), unit.end());
   all.first = true;
@@ -57,6 +74,9 @@ SequenceResult TakingApart::run() {
     groups_.pop_front();
     dismantle(std::move(group));
   }
+  if (!target_out_)
+    for (UnitId u = 0; u < units_.size(); ++u)
+      if (unit_locked(u)) tell_locked(u);
   return finish();
 }
 
@@ -76,21 +96,34 @@ void TakingApart::dismantle(Group group) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
+    if (relations_ && params_.turns && group.units.size() > 2 && !group.turns_done &&
+        (group.depth > 1 || group.searched_out)) {
+      if (turn(group)) continue;
+      group.turns_done = true;
+    }
+    // Two that are left, with nobody to be fair to, are searched without limit at once.
+    if (group.units.size() == 2 &&
+        std::none_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() > 1; }))
+      group.searched_out = true;
     if (!group.searched_out) {
       if (search(group)) continue;
       if (group.searched_out || groups_.empty() || stop()) continue;
       groups_.push_back(std::move(group));
       return;
     }
-    if (group.units.size() == 2 && !group.searched_without_end) {
-      // There is nobody else to turn to, in this group; but others may still be easier.
-      if (std::any_of(groups_.begin(), groups_.end(),
-                      [](const Group& g) { return g.units.size() > 1 && !g.searched_out; })) {
-        groups_.push_back(std::move(group));
-        return;
+    if (group.units.size() == 2 && !group.pair_done) {
+      // There is nobody else to turn to, in this group. But others may still be easier, and none may take all the time.
+      const auto others = [&](auto&& has_more) {
+        return std::any_of(groups_.begin(), groups_.end(),
+                           [&](const Group& g) { return g.units.size() > 1 && has_more(g); });
+      };
+      if (!others([](const Group& g) { return !g.searched_out; })) {
+        const bool alone = !others([](const Group& g) { return g.units.size() == 2 && !g.pair_done; });
+        if (search_pair(group, alone)) continue;
+        if (group.pair_done || stop()) continue;
       }
-      group.searched_without_end = true;
-      if (search_without_end(group)) continue;
+      groups_.push_back(std::move(group));
+      return;
     }
     if (!make_up_for(group)) break;
   }
@@ -136,13 +169,14 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
     const PartId id = attempt.moving[i].part;
     removal.parts.push_back(id);
     poses_[id] = answer.result.path.back()[i];
+    if (relations_) turn_[id] = relations_->turn(poses_[id].q);
   }
   removal.attempt = &answer;
   removal.part_way = attempt.part_way;
   removals_.push_back(removal);
   for (const UnitId u : units) watched_[u].clear();
   refused_.clear();
-  group.slides_done = group.groups_done = group.searched_out = false;
+  group.slides_done = group.groups_done = group.turns_done = group.searched_out = false;
   if (attempt.part_way) {
     for (auto& known : watched_) known.clear();  // what was in the way may not be any more
     for (const UnitId u : group.units)
@@ -167,11 +201,37 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[removal.parts.front()].name);
 }
 
+bool TakingApart::unit_locked(UnitId unit) const {
+  return std::any_of(units_[unit].begin(), units_[unit].end(), [&](PartId id) { return locked_[id]; });
+}
+
+/// Parts of a unit that nothing can part have no way, and the oracle knows why.
+void TakingApart::tell_locked(UnitId unit) {
+  const auto& parts = units_[unit];
+  for (const PartId id : parts) {
+    Attempt attempt;
+    for (const PartId other : parts) (other == id ? attempt.moving : attempt.still).push_back({other, poses_[other]});
+    Unsolved u;
+    u.part = id;
+    if (locked_[id]) {
+      const PathResult& result = oracle_.attempt(attempt, context_).result;
+      u.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
+      u.blocked_by = result.blocked_by;
+      u.message = result.message;
+    } else {
+      u.message = "kept together with one that is locked";
+    }
+    unsolved_.push_back(std::move(u));
+    if (std::find(remaining_.begin(), remaining_.end(), id) == remaining_.end()) remaining_.push_back(id);
+  }
+}
+
 void TakingApart::give_up(const Group& group) {
   const std::vector<PartId> parts = parts_of(group.units);
   if (group.first || group.units.size() > 1) remaining_.insert(remaining_.end(), parts.begin(), parts.end());
   if (group.units.size() <= 1 || target_out_) return;
   for (const PartId id : parts) {
+    if (unit_locked(unit_of_[id])) continue;  // told with the others of its kind
     const auto said = said_.find(id);
     Unsolved u;
     u.part = id;

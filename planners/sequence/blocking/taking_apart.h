@@ -13,11 +13,12 @@
 #include "blocking/blocking.h"
 #include "blocking/relations.h"
 #include "blocking/slides.h"
+#include "blocking/turns.h"
 
 namespace dismantle::blocking {
 
-/// Parts are handled in units: one part, or those that a constraint keeps together. A group is what still hangs
-/// together; it begins with all units, and each removal splits one group in two.
+/// Parts are handled in units: one part, or those that a constraint keeps together, or that nothing can part. A group
+/// is what still hangs together; it begins with all units, and each removal splits one group in two.
 class TakingApart {
  public:
   TakingApart(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -31,10 +32,14 @@ class TakingApart {
     bool first = false;         ///< what is left of the whole
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
-    unsigned depth = 1;         ///< of searches by simulation
+    bool turns_done = false;    ///< likewise turns
+    unsigned depth = 1;         ///< of searches by simulation; the effort of the search for slides grows with it
+    bool slides_cut = false;    ///< it ended for want of effort
+    bool no_slides = false;     ///< it saw all places, and nobody leaves
     bool searched_out = false;  ///< more depth does not help, or is not allowed
-    bool searched_without_end = false;  ///< pairs only
-    std::string slides_said;            ///< why the search for slides found nothing
+    unsigned pair_depth = 1;    ///< pairs only: doubled with every round
+    bool pair_done = false;
+    std::string slides_said;  ///< why the search for slides found nothing
   };
   /// The last search for the way of a part.
   struct Tried {
@@ -54,6 +59,8 @@ class TakingApart {
   Attempt question(const Group& group, const std::vector<UnitId>& units) const;
   void book(Group& group, const std::vector<UnitId>& units, const Attempt& attempt, const AttemptResult& answer);
   void give_up(const Group& group);
+  bool unit_locked(UnitId unit) const;
+  void tell_locked(UnitId unit);
   SequenceResult finish() const;
 
   // straight.cpp: by the blocking relations
@@ -68,11 +75,18 @@ class TakingApart {
   std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
 
+  // turning.cpp: parts that are turned where they are
+  bool turn(Group& group);
+  bool turn(Group& group, UnitId unit, const TurningAxis& axis);
+  bool turns_to(Group& group, UnitId unit, const Path& way);
+  std::optional<std::pair<UnitId, std::size_t>> freed_by(const Group& group, UnitId unit);
+  bool turns_clear(const Group& group, UnitId unit, const Pose& from, const Pose& to);
+
   // searching.cpp: where no straight motion exists
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
   bool search(Group& group);
-  bool search_without_end(Group& group);
+  bool search_pair(Group& group, bool without_end);
   bool make_up_for(Group& group);
   std::vector<UnitId> searchable(const Group& group);
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
@@ -85,9 +99,11 @@ class TakingApart {
   SequenceObserver& observer_;
   RunContext& context_;
   std::vector<std::vector<PartId>> units_;
-  std::vector<UnitId> unit_of_;  // by part
-  std::vector<Pose> poses_;      // by part
-  std::deque<Group> groups_;     // waiting
+  std::vector<UnitId> unit_of_;    // by part
+  std::vector<bool> locked_;       // by part: into another of its unit
+  std::vector<Pose> poses_;        // by part
+  std::vector<std::size_t> turn_;  // by part: the rotation in poses_, as relations_ names it
+  std::deque<Group> groups_;       // waiting
   std::vector<Removal> removals_;
   std::size_t out_ = 0;  // units that are alone
   std::vector<Unsolved> unsolved_;
@@ -102,6 +118,9 @@ class TakingApart {
   std::set<std::pair<std::vector<PartId>, std::size_t>>
       refused_;  // ways that the judge refused, for the group as it is
   SlideSearch slides_;
+  std::map<PartId, std::vector<TurningAxis>> axes_;             // where first asked for
+  std::set<std::pair<std::vector<UnitId>, std::size_t>> vain_;  // turns that freed nobody after all: group, where to
+  std::size_t turn_questions_ = 0;                              // to the judge, for the group as it is
   std::map<PartId, Tried> tried_;
   std::map<PartId, Unsolved> said_;  // by part: the last that was said
 };

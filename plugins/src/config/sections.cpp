@@ -45,7 +45,7 @@ const std::vector<PluginSection>& plugin_sections() {
   static const std::vector<PluginSection> sections = {
       {"simulator", PluginKind::simulator, "sdf_penalty"},
       {"path_planner", PluginKind::path_planner, "guided"},
-      {"sequence_planner", PluginKind::sequence_planner, "progressive"},
+      {"sequence_planner", PluginKind::sequence_planner, "blocking"},
       {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
   return sections;
 }

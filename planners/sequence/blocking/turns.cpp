@@ -1,0 +1,145 @@
+#include "blocking/turns.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "blocking/directions.h"
+
+namespace dismantle::blocking {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr std::size_t kDirections = 4;  // of axes that are looked for
+constexpr double kAcross = 2e-3;        // cosine: a facet along the axis
+constexpr double kFlat = 0.9999;        // cosine between neighbours: less bend (0.8 degrees) is none
+constexpr double kMostBend = 0.75;      // more (41 degrees) is an edge
+constexpr double kSamePlace = 0.01;     // assembly units: between axes
+constexpr double kLeastRound = 0.02;    // share of the surface
+constexpr double kAllRound = 0.98;      // share of the surface: a body of revolution
+constexpr double kRoundFacet = 0.08;    // sine of the angle by which a facet of such a body may look past the axis
+
+/// Share of the surface that turning about the axis moves within itself.
+double share_round(const Mesh& mesh, const Vec3& point, const Vec3& axis) {
+  double total = 0, round = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.vertex(t, 0), b = mesh.vertex(t, 1), c = mesh.vertex(t, 2);
+    const Vec3 twice = (b - a).cross(c - a);
+    const Vec3 around = axis.cross((a + b + c) / 3 - point);
+    total += twice.norm();
+    if (around.norm() < kSamePlace || std::abs(twice.dot(around)) < kRoundFacet * twice.norm() * around.norm())
+      round += twice.norm();
+  }
+  return total > 0 ? round / total : 1;
+}
+
+/// Triangles of one plane that hang together.
+struct Facet {
+  Vec3 normal = Vec3::Zero();
+  double area = 0;
+  std::vector<std::uint32_t> corners;
+};
+
+struct Facets {
+  std::vector<Facet> all;
+  std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // that bend like round surfaces do
+};
+
+Facets facets_of(const Mesh& mesh) {
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
+  std::vector<Vec3> twice(count);
+  for (std::uint32_t t = 0; t < count; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
+    twice[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+  }
+  std::vector<std::uint32_t> root(count);
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&](std::uint32_t t) {
+    while (root[t] != t) t = root[t] = root[root[t]];
+    return t;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> bent;
+  for (const auto& [ends, t] : by_edge) {
+    const auto other = by_edge.find({ends.second, ends.first});
+    if (ends.first > ends.second || other == by_edge.end()) continue;
+    const double bend = twice[t].dot(twice[other->second]) / (twice[t].norm() * twice[other->second].norm());
+    if (bend > kFlat)
+      root[find(t)] = find(other->second);
+    else if (bend > kMostBend)
+      bent.emplace_back(t, other->second);
+  }
+  Facets facets;
+  std::vector<std::size_t> facet_of(count, 0);
+  std::map<std::uint32_t, std::size_t> index;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    const auto [entry, is_new] = index.try_emplace(find(t), facets.all.size());
+    if (is_new) facets.all.emplace_back();
+    Facet& f = facets.all[facet_of[t] = entry->second];
+    f.normal += twice[t];
+    f.area += 0.5 * twice[t].norm();
+    f.corners.insert(f.corners.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  }
+  for (Facet& f : facets.all) f.normal.normalize();
+  for (const auto& [a, b] : bent) facets.neighbours.push_back(std::minmax(facet_of[a], facet_of[b]));
+  std::sort(facets.neighbours.begin(), facets.neighbours.end());
+  facets.neighbours.erase(std::unique(facets.neighbours.begin(), facets.neighbours.end()), facets.neighbours.end());
+  return facets;
+}
+
+}  // namespace
+
+std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most) {
+  const Facets facets = facets_of(mesh);
+  double total = 0;
+  for (const Facet& f : facets.all) total += f.area;
+  std::vector<TurningAxis> found;
+  for (const Vec3& d : axes_of(mesh, kDirections)) {
+    const auto middle = [&](const Facet& f) {  // of the chord as which the facet is seen along d
+      const Vec3 along = d.cross(f.normal);
+      double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+      for (const std::uint32_t v : f.corners) {
+        lo = std::min(lo, along.dot(mesh.vertices[v]));
+        hi = std::max(hi, along.dot(mesh.vertices[v]));
+      }
+      return Vec3(0.5 * (lo + hi) * along + f.normal.dot(mesh.vertices[f.corners.front()]) * f.normal);
+    };
+    std::vector<TurningAxis> here;
+    for (const auto& [i, j] : facets.neighbours) {
+      const Facet &a = facets.all[i], &b = facets.all[j];
+      if (std::abs(a.normal.dot(d)) > kAcross || std::abs(b.normal.dot(d)) > kAcross) continue;
+      const Vec3 p = middle(a), q = middle(b);
+      // p - s * a.normal is on the line that halves the other chord, too.
+      const Vec3 along = d.cross(b.normal);
+      const double rate = a.normal.dot(along);
+      if (std::abs(rate) < 1e-3) continue;
+      const Vec3 on_axis = p - (p - q).dot(along) / rate * a.normal;
+      const Vec3 point = on_axis - on_axis.dot(d) * d;
+      const double area = a.area + b.area;
+      const auto same = std::find_if(here.begin(), here.end(),
+                                     [&](const TurningAxis& k) { return (k.point - point).norm() < kSamePlace; });
+      if (same == here.end()) {
+        here.push_back({point, d, area});
+      } else {
+        same->point = (same->area * same->point + area * point) / (same->area + area);
+        same->area += area;
+      }
+    }
+    found.insert(found.end(), here.begin(), here.end());
+  }
+  std::erase_if(found, [&](const TurningAxis& a) { return a.area < kLeastRound * total; });
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
+  std::vector<TurningAxis> axes;
+  for (const TurningAxis& a : found) {
+    if (axes.size() == most) break;
+    if (share_round(mesh, a.point, a.direction) < kAllRound) axes.push_back(a);
+  }
+  return axes;
+}
+
+}  // namespace dismantle::blocking
