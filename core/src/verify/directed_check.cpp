@@ -16,6 +16,11 @@ constexpr double kShare = 1 - 1e-9;
 constexpr double kResolution = 1.0 / 8;
 /// Patches are asked for in all intervals that are shorter than this part of a segment.
 constexpr double kShortest = 1.0 / 64;
+/// So many cells of an unrolled mesh cost as much as one sweep test.
+constexpr std::uint64_t kCellsOfTest = 256;
+/// Windings are halved down to this turn (rad), as long as few triangles are left or at least half of them are done.
+constexpr double kShortWinding = 1;
+constexpr std::size_t kFew = 64;
 /// What was learnt of a triangle's bends is forgotten at this rate, test by test.
 constexpr double kForget = 1.1;
 
@@ -37,7 +42,17 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       unclear_(a.mesh.triangles.size(), std::numeric_limits<double>::infinity()) {}
 
 Finding DirectedCheck::run() {
-  if (descend(0, static_cast<double>(motion_.segments()))) sides();
+  std::size_t done = 0;
+  const auto up_to = [&](std::size_t instant) {
+    return instant == done || descend(static_cast<double>(done), static_cast<double>(instant));
+  };
+  bool holds = true;
+  for (const Winding& w : windings(motion_)) {
+    holds = up_to(w.begin) && wind(w);
+    if (!holds) return finding_;
+    done = w.end;
+  }
+  if (up_to(motion_.segments())) sides();
   return finding_;
 }
 
@@ -99,6 +114,44 @@ bool DirectedCheck::descend(double s0, double s1) {
   List list;
   if (!a_.bvh.nodes().empty()) collect(i, 0, list);
   return process(i, std::move(list), true);
+}
+
+/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion.
+bool DirectedCheck::wind(const Winding& winding) {
+  List list;
+  if (!a_.bvh.nodes().empty())
+    collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
+  const Placement start(motion_.at(static_cast<double>(winding.begin)));
+  Ring ring;
+  for (const std::uint32_t id : list)
+    ring.add(winding, placed(start, moved_by_vertices(patches_[id], allowed(patches_[id]) * kShare)));
+  const UnrolledMesh other(b_.bvh, winding, ring);
+  return wind(other, winding, winding.begin, winding.end, std::move(list));
+}
+
+bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                         List list) {
+  const double s0 = static_cast<double>(from), s1 = static_cast<double>(to);
+  const Placement start(motion_.at(static_cast<double>(winding.begin)));
+  List rest;
+  for (const std::uint32_t id : list) {
+    const Patch patch = patches_[id];
+    std::uint64_t cells = 0;
+    const bool clear =
+        other.clear_of(placed(start, moved_by_vertices(patch, allowed(patch) * kShare)), from, to, cells);
+    if (!budget_.spend_tests(1 + cells / kCellsOfTest))
+      return fail(Answer::exhausted, patch.center(), 0, patch.triangle, s0);
+    if (clear)
+      pieces_.push_back({id, s0, s1});
+    else
+      rest.push_back(id);
+  }
+  if (rest.empty()) return true;
+  const bool few = rest.size() < kFew || 2 * rest.size() < list.size();
+  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < kShortWinding)
+    return process(interval(s0, s1), std::move(rest), true);
+  const std::size_t middle = from + (to - from) / 2;
+  return wind(other, winding, from, middle, rest) && wind(other, winding, middle, to, std::move(rest));
 }
 
 bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {

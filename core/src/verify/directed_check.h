@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "verify/patch.h"
 #include "verify/relative_motion.h"
 #include "verify/solid.h"
+#include "verify/winding.h"
 
 namespace dismantle::verify {
 
@@ -48,6 +50,12 @@ struct Budget {
     ++tests_done;
     return true;
   }
+  bool spend_tests(std::uint64_t count) {
+    const std::uint64_t spent = std::min(count, tests_left);
+    tests_left -= spent;
+    tests_done += spent;
+    return spent == count;
+  }
 };
 
 /// The surface of `a` against `b`. One object per question.
@@ -76,6 +84,8 @@ class DirectedCheck {
   std::uint32_t add(const Patch& patch);
   void collect(const Interval& i, std::uint32_t node, List& list);
   bool descend(double s0, double s1);
+  bool wind(const Winding& winding);
+  bool wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List list);
   bool process(const Interval& i, List list, bool vertex_rule);
   bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);

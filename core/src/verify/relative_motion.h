@@ -30,6 +30,9 @@ class RelativeMotion {
   std::size_t segments() const { return at_instant_.size() - 1; }
   /// Takes points of A to the frame of B.
   Pose at(double s) const;
+  /// One of the parts stands still in segment k, so that the other's screw motion is the relative motion.
+  bool is_screw(std::size_t k) const { return screws_[k].known; }
+  const std::array<Eigen::Vector3d, 8>& corners() const { return corners_; }  ///< of the box
   /// No point of the box leaves where it is in the frame of B by more than `tolerance`.
   bool constant(double tolerance) const;
   /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are

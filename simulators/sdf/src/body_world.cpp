@@ -12,6 +12,8 @@ namespace dismantle::sdf {
 namespace {
 
 constexpr int kSettleRounds = 3, kRetreatRounds = 6;
+/// Of a clearance that is asked for: what is worth trying, and what is as good as all of it.
+constexpr double kLeastClearance = 0.02, kFairShare = 0.6;
 /// Way over which contacts are followed by their own linear model before distances are asked for again. The error is
 /// of second order: at a corner a thousandth away 1e-4, over anything smoother far less.
 constexpr double kFollow = 5e-4;
@@ -275,13 +277,33 @@ void BodyWorld::keep_off(State& state, double clearance) {
   }
 }
 
+double BodyWorld::room(const State& state, double most) {
+  update_contacts(state);
+  double least = most;
+  for (const auto& c : touching_) {
+    double gap = c.gap;
+    for (int k = 0; k < c.plane_count; ++k) gap = std::max(gap, c.planes[k].gap);
+    least = std::min(least, gap);
+  }
+  return least;
+}
+
+/// Squeezed from all sides, many contacts would push the body into the few on the other side: clearance is wanted of
+/// all alike only as far as all can have it. What is still deep inside something is left there.
 void BodyWorld::retreat(State& state, double clearance) {
-  if (bodies_.size() > 1)
-    keep_off<Eigen::Dynamic>(state, clearance);
-  else if (per_body_ == 3)
-    keep_off<3>(state, clearance);
-  else
-    keep_off<6>(state, clearance);
+  double most = room(state, clearance);
+  for (double wanted = clearance; most < wanted && wanted > kLeastClearance * clearance; wanted /= 2) {
+    State there = state;
+    if (bodies_.size() > 1)
+      keep_off<Eigen::Dynamic>(there, wanted);
+    else if (per_body_ == 3)
+      keep_off<3>(there, wanted);
+    else
+      keep_off<6>(there, wanted);
+    const double has = room(there, wanted);
+    if (has > most) state = there, most = has;
+    if (most > kFairShare * wanted || most < -clearance) return;
+  }
 }
 
 double BodyWorld::penetration(const State& state) {

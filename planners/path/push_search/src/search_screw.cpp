@@ -25,8 +25,10 @@ constexpr double kKept = 0.75;
 constexpr double kGlideLook = 0.3;
 /// Ways along a screw at which we look whether the hulls are apart grow by this factor, up to the most.
 constexpr double kWayOutFactor = 1.25, kMostWayOut = 2000;
-/// A push that feels lasts this share of the planning step.
-constexpr double kFeelShare = 0.4;
+/// A push that feels goes on by this share of the planning step until something is as near as that (assembly units),
+/// or so many times.
+constexpr double kFeelShare = 0.08, kFelt = 2e-3;
+constexpr int kFeelLooks = 40;
 /// Share of turning from which on a screw is one, and the axial share of a push that leans.
 constexpr double kTurns = 0.3, kLean = 0.5;
 /// Half turns with a smaller sine do not tell their axis.
@@ -84,17 +86,23 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   return std::numeric_limits<double>::infinity();
 }
 
-/// What the bodies touch when they are pushed a little, every way in turn, as if they did where they are: a part that
+/// What the bodies touch first when they are pushed, every way in turn, as if they did where they are: a part that
 /// stands free in its play touches nothing, though surfaces close by guide it.
 void Search::feel(const State& state, std::vector<Contact>& contacts) {
   std::vector<Contact> there;
   for (const Action& action : unit_actions(*world_, tactics_.force, false, axes_)) {
     State moved_on = state;
-    const StepReport report = world_->advance(moved_on, action, kFeelShare * tactics_.time_step);
-    steps_ += report.steps;
-    if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
-    if (!report.finite || !report.stalled) continue;
-    world_->contacts(moved_on, there);
+    StepReport report;
+    double nearest = -1;
+    for (int look = 0; look < kFeelLooks && nearest < -kFelt && report.finite && !report.stalled; ++look) {
+      if (out_of_budget()) return;
+      report = world_->advance(moved_on, action, kFeelShare * tactics_.time_step);
+      steps_ += report.steps;
+      if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
+      world_->contacts(moved_on, there);
+      for (const Contact& c : there) nearest = std::max(nearest, c.depth);
+    }
+    if (!report.finite) continue;
     for (Contact& c : there) {
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
         if (query_.cast.moving[i].part != c.moving) continue;

@@ -18,6 +18,9 @@ constexpr std::size_t kLeastContacts = 6;
 /// Eigenvalues below this share of the largest belong to motions that slip: facets of round fits and what a clearance
 /// lets stand askew make them differ from zero.
 constexpr double kSlips = 0.02;
+/// With much play nothing slips exactly: those below this share count, too, if they are not so many times stiffer than
+/// the last that slips, and the next one is by so much stiffer than they.
+constexpr double kNearlySlips = 0.06, kAsStiff = 20, kSlipGap = 3;
 /// Normals nearer than this (cosine) are of one flat face; it is square to an axis nearer than that.
 constexpr double kFlat = 0.99999, kEndFace = 0.98;
 /// Share of turning from which on a twist has an axis; twists that differ by less are one.
@@ -70,7 +73,12 @@ std::vector<Twist> slippage(const std::vector<Vec6>& rows, double radius) {
   mean /= static_cast<double>(rows.size());
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(mean);
   int slips = 0;
-  while (slips < 6 && eigen.eigenvalues()[slips] < kSlips * eigen.eigenvalues()[5]) ++slips;
+  const auto& stiff = eigen.eigenvalues();
+  while (slips < 6 && stiff[slips] < kSlips * stiff[5]) ++slips;
+  int nearly = slips;
+  const double like = slips > 0 ? std::min(kNearlySlips * stiff[5], kAsStiff * stiff[slips - 1]) : 0;
+  while (nearly < 6 && stiff[nearly] < like) ++nearly;
+  if (nearly < 6 && nearly > slips && stiff[nearly] > kSlipGap * stiff[nearly - 1]) slips = nearly;
   if (slips > 4) return twists;  // all but free: the contacts do not tell where to
   if (slips == 0) slips = 1;     // the least stiff one, then; the simulator will tell
   const Eigen::MatrixXd space = eigen.eigenvectors().leftCols(slips);

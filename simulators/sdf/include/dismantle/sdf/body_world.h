@@ -92,6 +92,8 @@ class BodyWorld : public World {
  private:
   template <int Dof>
   void keep_off(State& state, double clearance);
+  /// Least distance from what the bodies would touch (negative inside of it), at most `most`.
+  double room(const State& state, double most);
   void forget_contacts();
 
   Cast cast_;
