@@ -18,6 +18,8 @@ constexpr double kResolution = 1.0 / 8;
 constexpr double kShortest = 1.0 / 64;
 /// So many cells of an unrolled mesh cost as much as one sweep test.
 constexpr std::uint64_t kCellsOfTest = 256;
+/// Cells of the first look at a winding and of the second (assembly units).
+constexpr double kRoughCell = 5e-3, kFineCell = 1e-3;
 /// Windings are halved down to this turn (rad), as long as few triangles are left or at least half of them are done.
 constexpr double kShortWinding = 1;
 constexpr std::size_t kFew = 64;
@@ -116,42 +118,58 @@ bool DirectedCheck::descend(double s0, double s1) {
   return process(i, std::move(list), true);
 }
 
-/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion.
+/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion. Roughly
+/// first: most of a part is not near.
 bool DirectedCheck::wind(const Winding& winding) {
   List list;
   if (!a_.bvh.nodes().empty())
     collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
+  if (!clear_unrolled(unrolled(winding, list, kRoughCell), winding, winding.begin, winding.end, list)) return false;
+  if (list.empty()) return true;
+  const UnrolledMesh finely = unrolled(winding, list, kFineCell);  // before the list is given away
+  return wind(finely, winding, winding.begin, winding.end, std::move(list));
+}
+
+/// B, where the patches listed come near it.
+UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, double cell) const {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   Ring ring;
   for (const std::uint32_t id : list)
     ring.add(winding, placed(start, moved_by_vertices(patches_[id], allowed(patches_[id]) * kShare)));
-  const UnrolledMesh other(b_.bvh, winding, ring);
-  return wind(other, winding, winding.begin, winding.end, std::move(list));
+  return {b_.bvh, winding, ring, cell};
 }
 
-bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
-                         List list) {
-  const double s0 = static_cast<double>(from), s1 = static_cast<double>(to);
+/// Takes what is certified off the list. False: the check failed.
+bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                                   List& list) {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   List rest;
   for (const std::uint32_t id : list) {
-    const Patch patch = patches_[id];
+    const Patch& patch = patches_[id];
     std::uint64_t cells = 0;
     const bool clear =
         other.clear_of(placed(start, moved_by_vertices(patch, allowed(patch) * kShare)), from, to, cells);
     if (!budget_.spend_tests(1 + cells / kCellsOfTest))
-      return fail(Answer::exhausted, patch.center(), 0, patch.triangle, s0);
+      return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
     if (clear)
-      pieces_.push_back({id, s0, s1});
+      pieces_.push_back({id, static_cast<double>(from), static_cast<double>(to)});
     else
       rest.push_back(id);
   }
-  if (rest.empty()) return true;
-  const bool few = rest.size() < kFew || 2 * rest.size() < list.size();
+  list = std::move(rest);
+  return true;
+}
+
+bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                         List list) {
+  const std::size_t all = list.size();
+  if (!clear_unrolled(other, winding, from, to, list)) return false;
+  if (list.empty()) return true;
+  const bool few = list.size() < kFew || 2 * list.size() < all;
   if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < kShortWinding)
-    return process(interval(s0, s1), std::move(rest), true);
+    return process(interval(static_cast<double>(from), static_cast<double>(to)), std::move(list), true);
   const std::size_t middle = from + (to - from) / 2;
-  return wind(other, winding, from, middle, rest) && wind(other, winding, middle, to, std::move(rest));
+  return wind(other, winding, from, middle, list) && wind(other, winding, middle, to, std::move(list));
 }
 
 bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {

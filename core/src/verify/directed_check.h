@@ -86,6 +86,8 @@ class DirectedCheck {
   bool descend(double s0, double s1);
   bool wind(const Winding& winding);
   bool wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List list);
+  bool clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List& list);
+  UnrolledMesh unrolled(const Winding& winding, const List& list, double cell) const;
   bool process(const Interval& i, List list, bool vertex_rule);
   bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);

@@ -18,8 +18,7 @@ constexpr double kLeastTurn = 1;
 constexpr double kLeastStep = 1e-3, kMostStep = 1;
 /// The most that a winding may be off the screw (assembly units), and what covers rounding.
 constexpr double kMostOff = 1e-5, kRounding = 1e-9;
-/// Cells are so wide (assembly units), or as much wider as it takes to have no more of them than that.
-constexpr double kCell = 1e-3;
+/// Cells are as much wider as it takes to have no more of them than that.
 constexpr long kMostCells = 1'500'000;
 /// Without a lead worth that much (assembly units) turns are not told apart.
 constexpr double kLeastLead = 0.02;
@@ -182,7 +181,7 @@ void Ring::add(const Winding& winding, const Corners& t) {
   z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + kRounding);
 }
 
-UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked)
+UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell)
     : winding_(winding),
       ring_(asked),
       lead_(2 * kPi * std::abs(winding.pitch)),
@@ -202,7 +201,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   if (there.empty()) return;
   ring_.r_lo = std::max(ring_.r_lo, least);
   ring_.r_hi = std::min(ring_.r_hi, most);
-  for (cell_ = kCell;; cell_ *= 1.25) {
+  for (cell_ = cell;; cell_ *= 1.25) {
     rows_ = static_cast<long>(std::ceil((ring_.r_hi - ring_.r_lo) / cell_)) + 1;
     columns_ = static_cast<long>(std::ceil(lead_ / cell_));
     if (rows_ * columns_ <= kMostCells) break;

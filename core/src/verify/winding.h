@@ -57,8 +57,9 @@ struct Ring {
 /// Threads have equal profiles wherever one looks: thousands of triangles share a few cells.
 class UnrolledMesh {
  public:
-  /// Only what comes near `asked`, see Ring.
-  UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked);
+  /// Only what comes near `asked`, see Ring. Cells are `cell` wide (assembly units): what is nearer than two of them
+  /// looks as if it touched.
+  UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell);
 
   /// True: proved that the triangle, `moved` at the first instant of the winding (frame of B), meets no triangle of the
   /// mesh from instant `from` to instant `to`. Adds to `cells` how many were looked at.

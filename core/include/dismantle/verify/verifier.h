@@ -72,8 +72,7 @@ struct Enclosure {
 /// The proof: let the corners of a triangle be displaced by at most e. If the displaced triangle sweeps a hull that
 /// meets no triangle of the other part, and one of its points is outside it, no point of the triangle gets deeper
 /// than e. For straight motion the swept hull is exact and a whole slide is one test per triangle; turning motion is
-/// cut into intervals whose sagitta is covered by a margin. Many turns of one screw motion are straight, too, when
-/// distance from the axis, angle and height are the coordinates.
+/// cut into intervals whose sagitta is covered by a margin.
 ///
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
