@@ -77,8 +77,8 @@ struct Verifier::Impl {
       bodies.push_back(std::move(body));
       meshes.push_back(part.mesh);
     }
-    for (const auto& o : assembly_overlaps)
-      if (const auto lock = locking_point(o)) locks.push_back(*lock);
+    for (const auto& known : assembly_overlaps)
+      if (const auto lock = locking_point(known)) locks.push_back(*lock);
   }
 
   std::optional<Lock> locking_point(const InitialOverlap& o) const {
