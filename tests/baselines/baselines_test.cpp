@@ -94,12 +94,23 @@ TEST_P(EachPlanner, WorksUnderEachSequencePlanner) {
   }
 }
 
-/// What cannot leave is given up when the budget is spent, and what is in its way is named.
-TEST_P(EachPlanner, GivesUpOnAClosedBox) {
-  const RunResult r = plan("closed_box", {}, GetParam(), {"run.path_steps=300", "sequence_planner.type=queue"});
+/// A search ends when its budget is spent.
+TEST_P(EachPlanner, GivesUpWhenItsBudgetIsSpent) {
+  const RunResult r = plan("l_slot", {}, GetParam(), {"run.path_steps=20", "sequence_planner.type=queue"});
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   ASSERT_FALSE(r.plan.unsolved.empty());
   EXPECT_EQ(r.plan.unsolved[0].outcome, Outcome::timeout);
+}
+
+/// What is shut in is not searched for, whatever the planner, and the proof is told.
+TEST_P(EachPlanner, IsNotAskedAboutAClosedBox) {
+  const RunResult r = plan("closed_box", {}, GetParam(), {"run.path_steps=300", "sequence_planner.type=queue"});
+  EXPECT_EQ(r.plan.status, PlanStatus::partial);
+  ASSERT_EQ(r.plan.unsolved.size(), 2u);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_EQ(u.outcome, Outcome::exhausted);
+    EXPECT_NE(u.message.find("shut in"), std::string::npos) << u.message;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, EachPlanner, ::testing::Values("rrt", "t_rrt", "mv_t_rrt", "bk_rrt"),

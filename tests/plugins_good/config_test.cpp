@@ -134,6 +134,18 @@ TEST_F(Config, Capabilities) {
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
 }
 
+TEST_F(Config, WhoNamesAPathPlannerHasItAskedForEveryWay) {
+  const auto sequence = [&](const std::string& text) {
+    write("run.yaml", "schema: 1\n" + text);
+    return load_config({"run.yaml", {}, {}}, registry_).sequence_planner.type;
+  };
+  EXPECT_EQ(sequence(""), "blocking");
+  EXPECT_EQ(sequence("path_planner: {type: guided}\n"), "blocking");
+  EXPECT_EQ(sequence("path_planner: {type: bfs}\n"), "progressive");
+  EXPECT_EQ(sequence("path_planner: {type: bfs}\nsequence_planner: {type: blocking}\n"), "blocking");
+  EXPECT_EQ(sequence("sequence_planner: {type: random}\n"), "random");
+}
+
 TEST_F(Config, Choices) {
   EXPECT_EQ(errors_of("schema: 1\npath_planner: {motion: rotaton}\n"),
             "run.yaml:2:24: error: path_planner.motion must be one of translation, rotation, auto; got 'rotaton'; did "

@@ -17,11 +17,16 @@ class Guided final : public PathPlanner {
   PathResult plan(const PathQuery& query, RunContext& context) override {
     // Who limits depth asks about many parts, most of them blocked: a forest would take too long to say so.
     const bool forest = parameters_.forest_steps > 0 && query.effort.max_depth == 0 &&
-                        parameters_.motion == push::Motion::automatic && query.simulator.capabilities().distance;
+                        parameters_.motion == push::Motion::automatic && can_grow(query);
     return forest ? plan_with_forest(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
   }
 
  private:
+  static bool can_grow(const PathQuery& query) {
+    const Capabilities has = query.simulator.capabilities();
+    return has.dynamics && has.contacts && has.distance && has.max_moving >= query.cast.moving.size();
+  }
+
   Parameters parameters_;
   push::Tactics tactics_;
 };

@@ -95,6 +95,9 @@ struct PluginSection {
   const char* default_id;
 };
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
+/// The type that is taken where the section names none. Whoever names a path planner other than the default wants that
+/// one asked for every way: then the sequence planner is `progressive`, which finds no ways by itself.
+DISMANTLE_API std::string default_type(const PluginSection& section, const std::string& path_planner);
 
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 

@@ -109,7 +109,7 @@ class Loader {
     const ConfigNode* map = node(section.name);
     if (map != nullptr) chosen.mark = map->mark;
     const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
-    std::string id = section.default_id;
+    std::string id = default_type(section, config_.path_planner.type);
     std::string origin = "default";
     if (type != nullptr) {
       chosen.mark = type->value.mark;
