@@ -95,20 +95,47 @@ void StepLedger::book(const Removal& removal) {
 
   check_constraints(removal, rest);
 
+  const auto from = static_cast<std::size_t>(&group - groups_.data());
   PlanStep step = to_step(removal);
+  Path path = removal.attempt->result.path;
+  for (std::size_t i = 0; i < removal.parts.size(); ++i) poses_[removal.parts[i]] = path.back()[i];
+  if (goes_on(removal, from)) take_back_last(step, path);
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));
   plan_.disassembly.push_back(std::move(step));
   for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i)
     plan_.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
-  for (std::size_t i = 0; i < removal.parts.size(); ++i) {
-    const PartId id = removal.parts[i];
-    poses_[id] = removal.attempt->result.path.back()[i];
-  }
-  booked_.push_back({removal.parts, static_cast<std::size_t>(&group - groups_.data()), &removal.attempt->result.path,
-                     removal.part_way});
-  if (!removal.part_way) group = std::move(rest);
+  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), removal.part_way});
+  if (!removal.part_way) groups_[from] = std::move(rest);
   groups_.push_back(removal.part_way ? std::vector<PartId>{} : removal.parts);
   refresh_status();
+}
+
+/// Does the removal move on what the last step has left part-way?
+bool StepLedger::goes_on(const Removal& removal, std::size_t from) const {
+  return !booked_.empty() && booked_.back().part_way && booked_.back().from == from &&
+         booked_.back().parts == removal.parts;
+}
+
+/// Puts the last step before `step` and its path before `path`, as one; it is booked no more.
+void StepLedger::take_back_last(PlanStep& step, Path& path) {
+  const PlanStep& last = plan_.disassembly.back();
+  step.step = last.step;
+  for (std::size_t i = 0; i < step.moves.size(); ++i) {
+    std::vector<Pose> poses = last.moves[i].poses;
+    poses.insert(poses.end(), step.moves[i].poses.begin() + 1, step.moves[i].poses.end());
+    step.moves[i].poses = std::move(poses);
+  }
+  step.max_penetration = std::max(step.max_penetration, last.max_penetration);
+  step.seconds += last.seconds;
+  step.depth += last.depth;
+  for (const std::string& name : last.contacts)
+    if (std::find(step.contacts.begin(), step.contacts.end(), name) == step.contacts.end())
+      step.contacts.push_back(name);
+  path.insert(path.begin(), booked_.back().path->begin(), booked_.back().path->end() - 1);
+  plan_.disassembly.pop_back();
+  plan_.assembly_steps.erase(plan_.assembly_steps.begin());
+  groups_.pop_back();  // of a step that leaves parts part-way: empty
+  booked_.pop_back();
 }
 
 void StepLedger::check_constraints(const Removal& removal, const std::vector<PartId>& rest) const {

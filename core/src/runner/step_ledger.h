@@ -1,6 +1,7 @@
 /// Books the removals of a run: who stands where, in which group, and the plan that comes of it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@ namespace dismantle {
 /// A step that was booked. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
 struct BookedStep {
   std::vector<PartId> parts;
-  std::size_t from = 0;        ///< the group that they left
-  const Path* path = nullptr;  ///< of the oracle's answer
-  bool part_way = false;       ///< the parts stay in `from`; no group is made
+  std::size_t from = 0;              ///< the group that they left
+  std::shared_ptr<const Path> path;  ///< of the oracle's answer, or of several, one after the other
+  bool part_way = false;             ///< the parts stay in `from`; no group is made
 };
 
 /// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
@@ -26,8 +27,9 @@ class StepLedger {
  public:
   StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
 
-  /// Appends one step to the plan. @throws std::logic_error saying what is wrong with the removal; nothing has
-  /// changed then.
+  /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: to
+  /// whoever follows the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
+  /// has changed then.
   void book(const Removal& removal);
 
   const Plan& plan() const { return plan_; }
@@ -49,6 +51,8 @@ class StepLedger {
   bool stays_together(const std::vector<PartId>& group) const;
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
   PlanStep to_step(const Removal& removal) const;
+  bool goes_on(const Removal& removal, std::size_t from) const;
+  void take_back_last(PlanStep& step, Path& path);
   void refresh_status();
 
   const Assembly& assembly_;

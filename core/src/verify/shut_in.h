@@ -40,6 +40,6 @@ struct Room {
 /// `closed` proves that it cannot. All the centre's places then lie in a bounded piece of the space that keeps its
 /// distance to all walls. Such a piece lies in the convex hull of the walls: a point outside the hull could leave
 /// straight away from it, and would come nearer to none of them.
-Room room_of(const Eigen::Vector3d& start, const std::vector<Wall>& walls, std::size_t most_cells = 500'000);
+Room room_of(const Eigen::Vector3d& start, const std::vector<Wall>& walls, std::size_t most_cells = 1'000'000);
 
 }  // namespace dismantle::verify

@@ -1,11 +1,10 @@
 // Laws of the parts that the planner is made of: graphs, ways until contact, directions.
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "blocking/directions.h"
 #include "blocking/graph.h"
@@ -132,9 +131,8 @@ TEST(Directions, ComeInOppositePairsAndHoldTheNormalsOfFlatFaces) {
   for (const auto& list : directions.of_part)
     for (int k = 0; k < 3; ++k)
       for (const double sign : {1.0, -1.0})
-        EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](std::size_t d) {
-          return directions.all[d].dot(sign * Vec3::Unit(k)) > 1 - 1e-9;
-        }));
+        EXPECT_TRUE(std::any_of(list.begin(), list.end(),
+                                [&](std::size_t d) { return directions.all[d].dot(sign * Vec3::Unit(k)) > 1 - 1e-9; }));
 }
 
 /// A prism over a regular polygon, without the part of it beyond x = `flat` (the radius is 1).

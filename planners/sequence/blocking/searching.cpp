@@ -211,7 +211,7 @@ bool TakingApart::search(Group& group) {
   // Where all arrangements were seen it takes more than slides, if it can be done at all: deep searches, which are for
   // ways of many slides, have nothing to find.
   const unsigned most = group.no_slides ? std::min(kDepthWithoutSlides, params_.max_depth) : params_.max_depth;
-  const bool more_slides = group.slides_cut && group.depth < (group.units.size() == 2 ? 2 : params_.max_depth);
+  const bool more_slides = group.slides_cut && group.units.size() > 2 && group.depth < params_.max_depth;
   if (!more_slides && (!deeper || group.depth >= most || group.units.size() == 2)) {
     group.searched_out = true;
   } else {

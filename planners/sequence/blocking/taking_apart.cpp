@@ -92,7 +92,8 @@ void TakingApart::dismantle(Group group) {
       if (split(group)) continue;
       group.groups_done = true;
     }
-    if (params_.slide_states > 0 && oracle_.judge() != nullptr && !group.slides_done) {
+    // How two bodies part is what path planners are for, and they give one way instead of many steps.
+    if (params_.slide_states > 0 && oracle_.judge() != nullptr && group.units.size() > 2 && !group.slides_done) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
