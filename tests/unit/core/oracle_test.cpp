@@ -78,13 +78,13 @@ TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
   for (const bool asks_first : {false, true}) {
     const auto liar = [asks_first](const PathQuery& q, RunContext&) {
       PathResult r = outcome(Outcome::solved);
-      r.path = fake::straight(q.cast, {0, 0, 30});
+      r.path = fake::straight(q.cast, {30, 0, 0});
       if (asks_first) {
         EXPECT_FALSE(q.judge(r.path).accepted);
       }
       return r;
     };
-    Rig s(fake::closed_box(), fake::ingredients(liar));
+    Rig s(fake::tube_with_blocks(1), fake::ingredients(liar));
     const AttemptResult& r = s.ask(leave(s.assembly, 1));
     EXPECT_EQ(r.result.outcome, Outcome::crashed);
     EXPECT_TRUE(r.result.path.empty());
@@ -155,8 +155,28 @@ TEST(Oracle, StartIsGoalHasToBeTrue) {
   const AttemptResult& yes = apart.ask(leave(apart.assembly, 0));
   EXPECT_EQ(yes.result.outcome, Outcome::start_is_goal);
   EXPECT_EQ(yes.result.path.size(), 2u);
-  Rig inside(fake::closed_box(), fake::ingredients(lazy));
+  Rig inside(fake::tube_with_blocks(1), fake::ingredients(lazy));
   EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome, Outcome::crashed);
+}
+
+TEST(Oracle, WhatIsShutInIsNotSearchedFor) {
+  bool asked = false;
+  const auto planner = [&](const PathQuery&, RunContext&) {
+    asked = true;
+    return outcome(Outcome::depth_limit);
+  };
+  Rig s(fake::closed_box(), fake::ingredients(planner));
+  for (const PartId part : {PartId{0}, PartId{1}}) {
+    const AttemptResult& r = s.ask(leave(s.assembly, part));
+    EXPECT_EQ(r.result.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1 - part});
+    EXPECT_NE(r.result.message.find("shut in"), std::string::npos) << r.result.message;
+  }
+  EXPECT_FALSE(asked);
+  Attempt shallow = leave(s.assembly, 1);
+  shallow.max_depth = 1;
+  EXPECT_EQ(s.ask(shallow).result.outcome, Outcome::depth_limit) << "a short search is cheaper than a proof";
+  EXPECT_TRUE(asked);
 }
 
 TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
