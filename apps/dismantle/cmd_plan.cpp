@@ -39,11 +39,17 @@ class Saver {
   Saver(fs::path file, Console& console) : file_(std::move(file)), console_(console) {}
 
   void operator()(const Plan& plan) {
+    save(plan);
+    // Reported after it was saved: what the user has read is not lost.
     const PlanStep& step = plan.disassembly.back();
     std::string names;
     for (const auto& move : step.moves) names += (names.empty() ? "" : ", ") + move.part;
-    console_.line(
-        fmt::format("step {}: {} out, {} left ({:.2f} s)", step.step, names, plan.remaining.size(), step.seconds));
+    console_.line(fmt::format("step {}: {} {}, {} left ({:.2f} s)", step.step, names,
+                              step.separates.empty() ? "moved part-way" : "out", plan.remaining.size(), step.seconds));
+  }
+
+ private:
+  void save(const Plan& plan) {
     const auto now = std::chrono::steady_clock::now();
     if (saved_once_ && now - saved_ < std::chrono::seconds(1)) return;
     write_file(file_, to_json(plan));
@@ -51,7 +57,6 @@ class Saver {
     saved_ = now;
   }
 
- private:
   fs::path file_;
   Console& console_;
   bool saved_once_ = false;

@@ -95,7 +95,7 @@ class Plan(CliTest):
 class Interruption(CliTest):
     def interrupt(self, sign, at="step 1:", times=1):
         """Sends the signal when a line that starts so is reported; returns status and standard output."""
-        self.run_program("sample", "machine", "-o", "machine", "--set", "parts=40", status=0)
+        self.run_program("sample", "machine", "-o", "machine", "--set", "parts=160", status=0)  # seconds of work
         process = subprocess.Popen([PROGRAM, "plan", "machine", *QUICK, "--threads", "1", "--format", "json"], cwd=self.folder, text=True,
                                    encoding="utf-8", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(process.stderr.close)
@@ -120,7 +120,7 @@ class Interruption(CliTest):
             result = json.loads(output.splitlines()[-1])
             self.assertEqual(result["status"], "interrupted")
             self.assertGreaterEqual(result["steps"], 1)
-            self.assertLess(result["steps"], 39)
+            self.assertLess(result["steps"], 159)
             verified = self.run_program("verify", result["plan"], "--format", "json", status=1)
             self.assertEqual(self.result_of(verified)["status"], "partial")
             self.assertTrue(os.path.exists(self.path("machine.plan", "plan.glb")))

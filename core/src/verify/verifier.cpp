@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -77,6 +78,7 @@ struct Verifier::Impl {
       bodies.push_back(std::move(body));
       meshes.push_back(part.mesh);
     }
+    balls.resize(bodies.size());
     for (const auto& known : assembly_overlaps)
       if (const auto lock = locking_point(known)) locks.push_back(*lock);
   }
@@ -98,6 +100,7 @@ struct Verifier::Impl {
     return 0;
   }
 
+  verify::Ball ball_of(PartId part) const;
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
 
   bool check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const;
@@ -110,7 +113,21 @@ struct Verifier::Impl {
   std::vector<Lock> locks;
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
+  mutable std::mutex balls_guard;
+  mutable std::vector<std::optional<verify::Ball>> balls;  // by part, found when first asked for
 };
+
+/// A large ball within a part, in the part's assembled frame.
+verify::Ball Verifier::Impl::ball_of(PartId part) const {
+  const std::scoped_lock guard(balls_guard);
+  std::optional<verify::Ball>& known = balls.at(part);
+  if (known) return *known;
+  known.emplace();
+  for (const auto& solid : bodies.at(part).solids)
+    if (const verify::Ball b = verify::large_ball(solid); b.radius > known->radius)
+      known = verify::Ball{solid.frame * b.center, b.radius};
+  return *known;
+}
 
 /// The largest ball of the inner parts against the surfaces of the outer ones. A surface point of those that is inside
 /// the ball is so deep in the inner part as it is below the ball's surface, at least.
@@ -120,12 +137,11 @@ std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& 
   Pose at;
   PartId part = 0;
   for (const auto& p : inner)
-    for (const auto& solid : bodies.at(p.part).solids)
-      if (const verify::Ball b = verify::large_ball(solid); b.radius > ball.radius) {
-        ball = b;
-        at = p.pose * solid.frame;
-        part = p.part;
-      }
+    if (const verify::Ball b = ball_of(p.part); b.radius > ball.radius) {
+      ball = b;
+      at = p.pose;
+      part = p.part;
+    }
   std::vector<verify::Wall> walls;
   std::vector<PartId> of;
   for (const auto& p : outer) {

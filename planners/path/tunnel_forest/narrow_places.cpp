@@ -47,15 +47,15 @@ double way_to(const std::array<Eigen::Vector3d, 3>& c, const Eigen::Vector3d& fr
 Hit cast_ray(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double least) {
   Hit hit;
   const Eigen::Vector3d inverse = along.cwiseInverse();
-  std::vector<std::uint32_t> todo{0};
-  while (!todo.empty()) {
-    const std::uint32_t at = todo.back();
-    todo.pop_back();
+  std::vector<std::uint32_t> waiting{0};
+  while (!waiting.empty()) {
+    const std::uint32_t at = waiting.back();
+    waiting.pop_back();
     const auto& node = bvh.nodes()[at];
     if (!meets(node.box, from, inverse, hit.way)) continue;
     if (node.count == 0) {
-      todo.push_back(node.first);
-      todo.push_back(at + 1);
+      waiting.push_back(node.first);
+      waiting.push_back(at + 1);
       continue;
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {

@@ -83,18 +83,18 @@ void Roadmap::join(Index a, Index b, Path way) {
 }
 
 void Roadmap::relabel(Index from, Index tree) {
-  std::deque<Index> todo{from};
+  std::deque<Index> waiting{from};
   nodes_[from].tree = tree;
-  while (!todo.empty()) {
-    const Index n = todo.front();
-    todo.pop_front();
+  while (!waiting.empty()) {
+    const Index n = waiting.front();
+    waiting.pop_front();
     trees_[tree].nodes.push_back(n);
     if (nodes_[n].out) ++trees_[tree].out;
     for (const Index e : nodes_[n].edges) {
       const Index m = other_end(e, n);
       if (edges_[e].cut || nodes_[m].tree == tree) continue;
       nodes_[m].tree = tree;
-      todo.push_back(m);
+      waiting.push_back(m);
     }
   }
 }
@@ -116,11 +116,11 @@ void Roadmap::cut(Index edge) {
 std::vector<Roadmap::Index> Roadmap::way_out(Index from) const {
   std::vector<Index> back(nodes_.size(), kNone);  // edge that a node was reached by
   std::vector<bool> seen(nodes_.size(), false);
-  std::deque<Index> todo{from};
+  std::deque<Index> waiting{from};
   seen[from] = true;
-  while (!todo.empty()) {
-    Index n = todo.front();
-    todo.pop_front();
+  while (!waiting.empty()) {
+    Index n = waiting.front();
+    waiting.pop_front();
     if (nodes_[n].out) {
       std::vector<Index> edges;
       for (; n != from; n = other_end(back[n], n)) edges.push_back(back[n]);
@@ -132,7 +132,7 @@ std::vector<Roadmap::Index> Roadmap::way_out(Index from) const {
       if (edges_[e].cut || seen[m]) continue;
       seen[m] = true;
       back[m] = e;
-      todo.push_back(m);
+      waiting.push_back(m);
     }
   }
   return {};
