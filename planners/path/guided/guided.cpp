@@ -3,7 +3,7 @@
 #include "dismantle/plugin.h"
 #include "dismantle/push/plan.h"
 #include "parameters.h"
-#include "with_forest.h"
+#include "with_others.h"
 
 namespace dismantle::guided {
 namespace {
@@ -15,10 +15,9 @@ class Guided final : public PathPlanner {
   Capabilities needs() const noexcept override { return push::required(); }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
-    // Who limits depth asks about many parts, most of them blocked: a forest would take too long to say so.
-    const bool forest = parameters_.forest_steps > 0 && query.effort.max_depth == 0 &&
+    const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0) &&
                         parameters_.motion == push::Motion::automatic && can_grow(query);
-    return forest ? plan_with_forest(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
+    return others ? plan_with_others(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
   }
 
  private:
@@ -37,7 +36,8 @@ class Guided final : public PathPlanner {
 DISMANTLE_PLUGIN("dismantle.guided", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::guided::Guided, dismantle::guided::Parameters>(
       "guided",
-      "Search over pushes, turns and screws that the contacts propose, in a physics simulator; then a forest.",
+      "Search over pushes, turns and screws that the contacts propose, in a physics simulator; then a walk, and a "
+      "forest.",
       {.source = "Tian et al. 2022, Algorithm 1, with actions proposed by geometry",
        .needs = dismantle::push::required()});
 }

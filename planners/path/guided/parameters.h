@@ -21,6 +21,7 @@ struct Parameters {
   std::int64_t max_refusals = 8;
   std::int64_t translation_nodes = 24;
   std::int64_t rotation_nodes = 8;
+  std::int64_t squeeze_looks = 20'000;
   std::int64_t forest_after = 30'000;
   std::int64_t forest_steps = 1'500'000;
 
@@ -37,6 +38,12 @@ struct Parameters {
         {.doc =
              "Search first from states in places that were not searched from before; off: first come, first served."});
     push::describe_effort(s);
+    s.add("squeeze_looks", &Parameters::squeeze_looks,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .doc = "Under `motion: auto`: where pushes are in vain, a walk as in `squeeze` that looks at so many poses; "
+                  "under a depth limit of 3 to 7 a half of it for each level below 8. 0: none."});
     s.add("forest_after", &Parameters::forest_after,
           {.unit = "1",
            .min = 1,

@@ -1,0 +1,121 @@
+#include "with_others.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "dismantle/push/plan.h"
+#include "dismantle/squeeze/walk.h"
+#include "growth.h"
+
+namespace dismantle::guided {
+namespace {
+
+/// A walk is not worth its while in searches that are less deep.
+constexpr unsigned kLeastDepth = 3;
+
+/// Nothing was found and nobody stopped it: it may go on, or has nothing left.
+bool undecided(const PathResult& r) { return r.outcome == Outcome::depth_limit || r.outcome == Outcome::exhausted; }
+
+class Others {
+ public:
+  Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics, RunContext& context)
+      : query_(query),
+        parameters_(parameters),
+        context_(context),
+        steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited),
+        pushing_(query, tactics, context) {
+    limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
+    limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
+    limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
+  }
+
+  PathResult under_depth_limit(const push::Tactics& tactics) {
+    pushes_ = push::plan(query_, tactics, context_);
+    // Ways that the judge refused lead out, and only cut a little too deep.
+    const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
+    if (!undecided(pushes_) || (!nearly && query_.effort.max_depth < kLeastDepth)) return pushes_;
+    const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(query_.effort.max_depth, kDeepSearch);
+    const double share = std::ldexp(1.0, -static_cast<int>(halvings));
+    walk(static_cast<std::uint64_t>(share * static_cast<double>(parameters_.squeeze_looks)));
+    return together(is_success(squeezed_.outcome) ? squeezed_ : pushes_);
+  }
+
+  PathResult by_turns() {
+    const auto most = static_cast<std::uint64_t>(parameters_.forest_steps);
+    std::optional<tunnel_forest::Growth> growth;
+    bool pushing_ends = false, forest_ends = most == 0, walked = false;
+    while (!pushing_ends || !forest_ends) {
+      if (!pushing_ends) {
+        pushes_ = pushing_.run(limits_);
+        if (!undecided(pushes_)) return together(pushes_);
+        pushing_ends = !pushing_.paused();
+      }
+      if (!walked) {
+        walk(static_cast<std::uint64_t>(parameters_.squeeze_looks));
+        walked = true;
+        if (is_success(squeezed_.outcome) || squeezed_.outcome == Outcome::cancelled) return together(squeezed_);
+      }
+      if (!forest_ends) {
+        if (!growth) growth.emplace(tunnel_forest::Parameters{}, query_, context_);
+        const std::uint64_t before = growth->used();
+        forest_ = growth->run(std::min(most, before + std::min(steps_left_, limits_.pause_after)));
+        if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, growth->used() - before);
+        if (!undecided(forest_)) return together(forest_);
+        if (steps_left_ == 0) {
+          forest_.outcome = Outcome::timeout;
+          return together(forest_);
+        }
+        forest_ends = forest_.outcome == Outcome::exhausted || growth->used() >= most;
+      }
+      limits_.pause_after *= 2;
+    }
+    return together(pushes_);
+  }
+
+ private:
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max() / 4;
+  static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
+
+  /// Looks count as steps.
+  void walk(std::uint64_t looks) {
+    looks = std::min(looks, steps_left_);
+    if (looks == 0) return;
+    squeeze::Walk walk(squeeze::Parameters{}, query_, context_);
+    squeezed_ = walk.run(looks);
+    if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, walk.looks());
+  }
+
+  /// What all have counted and touched, in the one that says how it ended.
+  PathResult together(PathResult end) const {
+    std::map<std::string, double> counts = pushes_.counts;
+    for (const auto& [name, value] : squeezed_.counts) counts["squeeze_" + name] = value;
+    for (const auto& [name, value] : forest_.counts) counts["forest_" + name] = value;
+    end.counts = std::move(counts);
+    for (const auto* other : {&pushes_, &squeezed_, &forest_})
+      for (const PartId part : other->blocked_by)
+        if (std::find(end.blocked_by.begin(), end.blocked_by.end(), part) == end.blocked_by.end())
+          end.blocked_by.push_back(part);
+    if (end.message.empty() && !is_success(end.outcome)) end.message = pushes_.message;
+    return end;
+  }
+
+  const PathQuery& query_;
+  const Parameters& parameters_;
+  RunContext& context_;
+  std::uint64_t steps_left_;
+  push::Search::Limits limits_;
+  push::ByTurns pushing_;
+  PathResult pushes_, squeezed_, forest_;
+};
+
+}  // namespace
+
+PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
+                            RunContext& context) {
+  Others others(query, parameters, tactics, context);
+  return query.effort.max_depth > 0 ? others.under_depth_limit(tactics) : others.by_turns();
+}
+
+}  // namespace dismantle::guided

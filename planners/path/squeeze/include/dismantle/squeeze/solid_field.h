@@ -1,0 +1,53 @@
+/// Signed distances to one part, computed where first asked for.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "dismantle/geometry/mesh.h"
+#include "dismantle/geometry/triangle_bvh.h"
+
+namespace dismantle::squeeze {
+
+/// Two grids, one for near the surface and a coarse one that says where that is. Interpolated, so not exact: within
+/// about a third of a cell at edges. Memory follows use. Not safe to use from several threads.
+class SolidField {
+ public:
+  SolidField(std::shared_ptr<const Mesh> mesh, double cell);
+
+  /// Assembled frame of the part, assembly units; negative inside.
+  double at(const Eigen::Vector3d& p);
+  const TriangleBvh& bvh() const { return bvh_; }
+  const Mesh& mesh() const { return *mesh_; }
+  const Aabb& box() const { return box_; }  ///< of the part
+
+ private:
+  class Grid {
+   public:
+    Grid(const Aabb& box, double cell);
+    /// Without a field only what is known already; else not a number.
+    double at(const Eigen::Vector3d& p, const SolidField* field);
+
+   private:
+    static constexpr std::size_t kBlock = 9;  // places along the edge of a block, its last ones those of the next, too
+    using Block = std::array<float, kBlock * kBlock * kBlock>;
+    int sign_from_neighbours(const Block& block, std::ptrdiff_t place) const;
+
+    Aabb box_;
+    double cell_, inverse_cell_ = 0;
+    std::array<std::int64_t, 3> blocks_{};
+    std::vector<std::unique_ptr<Block>> known_;
+  };
+  double exact(const Eigen::Vector3d& p, int sign) const;  ///< sign 0: not known
+
+  std::shared_ptr<const Mesh> mesh_;
+  TriangleBvh bvh_;
+  Aabb box_, around_;
+  Grid coarse_, fine_;
+};
+
+}  // namespace dismantle::squeeze

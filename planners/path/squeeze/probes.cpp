@@ -1,0 +1,217 @@
+#include "dismantle/squeeze/probes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace dismantle::squeeze {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr std::uint32_t kLeaf = 4;                    // probes
+constexpr int kShrinkings = 30;                       // of a ball
+constexpr double kTouching = 1e-7;                    // assembly units: two surfaces that a ball touches
+constexpr double kOfThickness = 0.25;                 // what the judge lets a wall be penetrated
+constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
+constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
+constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
+constexpr double kFlat = 0.9986;                      // cosine between neighbouring faces (3 degrees): more is no edge
+constexpr double kCells = 0.7;  // of the spacing of samples: edge of the cells that hold one ball each
+
+/// Radius of the largest ball within the part that touches its surface at `p`: one that is too large is shrunk until it
+/// only touches what it met (Ma, Bae and Choi 2012).
+double ball_at(const TriangleBvh& bvh, const Vec3& p, const Vec3& inward) {
+  double radius = kThin;
+  for (int k = 0; k < kShrinkings; ++k) {
+    const ClosestPoint seen = bvh.closest(p + radius * inward, radius * (1 - 1e-9));
+    if (!(seen.distance < radius - kTouching)) break;
+    const Vec3 to = seen.point - p;
+    const double along = to.dot(inward);
+    if (!(along > 0)) return 0;
+    const double next = to.squaredNorm() / (2 * along);
+    if (!(next < radius)) break;
+    radius = next;
+  }
+  return radius;
+}
+
+/// How far it is from a point of the surface to the opposite side, by steps of what the field says is free; `most` if
+/// that is further.
+double thickness_at(SolidField& part, const Vec3& p, const Vec3& inward, double most) {
+  for (double way = kLeastStep; way < most;) {
+    const double depth = -part.at(p + way * inward);
+    if (depth < kSurface && way > 2 * kLeastStep) {
+      // The opposite side, or one beside the way?
+      const auto& c = part.bvh().corners(part.bvh().closest(p + way * inward).triangle);
+      const Vec3 out = (c[1] - c[0]).cross(c[2] - c[0]);
+      if (out.dot(inward) > 0.5 * out.norm()) return way;
+    }
+    way += std::max(depth, kLeastStep);
+  }
+  return most;
+}
+
+/// Share of a triangle's box that is in the region.
+double share_within(const std::array<Vec3, 3>& corners, const Aabb& region) {
+  Aabb box;
+  for (const auto& v : corners) box.extend(v);
+  double share = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double size = box.hi[k] - box.lo[k];
+    if (size > 1e-12)
+      share *= std::clamp((std::min(box.hi[k], region.hi[k]) - std::max(box.lo[k], region.lo[k])) / size, 0.0, 1.0);
+  }
+  return share;
+}
+
+}  // namespace
+
+Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region, std::size_t most, double least_spacing,
+               const std::function<bool(const Vec3&)>& wanted) {
+  const double allowed = allowance.overlap + allowance.beyond;
+  const TriangleBvh& bvh = part.bvh();
+  double area = 0;
+  const auto twice = [](const std::array<Vec3, 3>& c) { return Vec3((c[1] - c[0]).cross(c[2] - c[0])); };
+  bvh.overlapping(region, [&](std::uint32_t t) {
+    area += 0.5 * twice(bvh.corners(t)).norm() * share_within(bvh.corners(t), region);
+  });
+  if (!(area > 0)) return;
+  const double spacing = std::max(least_spacing, std::sqrt(area / static_cast<double>(most))), cell = kCells * spacing;
+  using Key = std::tuple<long, long, long>;
+  const auto key_of = [cell](const Vec3& p) {
+    return Key(std::lround(p.x() / cell), std::lround(p.y() / cell), std::lround(p.z() / cell));
+  };
+  std::map<Key, Probe> balls, points;
+  const auto normal_of = [&](std::uint32_t t) {
+    const Vec3 n = twice(bvh.corners(t));
+    return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
+  };
+  // What is deepest in another part lies on an edge: of this one, or of the other.
+  const auto sample_edge = [&](const Vec3& a, const Vec3& b, const Vec3& normal, const Vec3& beside) {
+    const int n = std::clamp(static_cast<int>(std::ceil((b - a).norm() / spacing)), 1, kFinest);
+    for (int i = 0; i <= n; ++i) {
+      const Vec3 p = a + static_cast<double>(i) / n * (b - a);
+      if (!region.contains(p) || !wanted(p)) continue;
+      const double thick = allowance.beyond / kOfThickness;
+      const double thin = std::min(thickness_at(part, p - kLeastStep * beside, -normal, thick),
+                                   thickness_at(part, p - kLeastStep * normal, -beside, thick));
+      const Probe probe{p, -allowance.overlap - std::min(allowance.beyond, kOfThickness * thin)};
+      const auto [entry, is_new] = points.try_emplace(key_of(p), probe);
+      if (!is_new && probe.keep > entry->second.keep) entry->second = probe;
+    }
+  };
+  const auto sample_ball = [&](const Vec3& p, const Vec3& inward) {
+    if (!region.contains(p) || !wanted(p)) return;
+    const double radius = ball_at(bvh, p, inward);
+    if (!(radius > allowed) || !(radius < kThin)) return;  // what is thicker is seen by the edges of the other
+    const Probe ball{p + radius * inward, radius - allowed};
+    Probe& best = balls[key_of(ball.center)];
+    if (ball.keep > best.keep) best = ball;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;  // edges of which one triangle was met
+  bvh.overlapping(region, [&](std::uint32_t t) {
+    const auto& c = bvh.corners(t);
+    const Vec3 normal = normal_of(t);
+    if (normal.isZero()) return;
+    const Triangle& v = part.mesh().triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto met = open.find(std::minmax(v[k], v[(k + 1) % 3]));
+      if (met == open.end()) {
+        open.emplace(std::minmax(v[k], v[(k + 1) % 3]), t);
+        continue;
+      }
+      const Vec3 beside = normal_of(met->second);
+      if (normal.dot(beside) < kFlat) sample_edge(c[k], c[(k + 1) % 3], normal, beside);
+      open.erase(met);
+    }
+    const double edge = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
+    const int n = std::clamp(static_cast<int>(std::ceil(edge / spacing)), 1, kFinest);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n - i; ++j)
+        for (int half = 0; half < (i + j < n - 1 ? 2 : 1); ++half)  // middles of the small triangles
+          sample_ball(c[0] + (i + (half + 1) / 3.0) / n * (c[1] - c[0]) + (j + (half + 1) / 3.0) / n * (c[2] - c[0]),
+                      -normal);
+  });
+  for (const auto* kind : {&balls, &points})
+    for (const auto& [key, probe] : *kind) probes_.push_back(probe);
+  if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
+}
+
+void Probes::build(std::uint32_t first, std::uint32_t count) {
+  const std::size_t id = nodes_.size();
+  nodes_.emplace_back();
+  Node node;
+  Aabb box;
+  node.keep = probes_[first].keep;
+  for (std::uint32_t k = first; k < first + count; ++k) {
+    box.extend(probes_[k].center);
+    node.keep = std::max(node.keep, probes_[k].keep);
+  }
+  node.center = box.center();
+  for (std::uint32_t k = first; k < first + count; ++k)
+    node.radius = std::max(node.radius, (probes_[k].center - node.center).norm());
+  node.first = first;
+  node.count = count;
+  if (count > kLeaf) {
+    int axis = 0;
+    box.size().maxCoeff(&axis);
+    const auto begin = probes_.begin() + first;
+    std::nth_element(begin, begin + count / 2, begin + count,
+                     [axis](const Probe& a, const Probe& b) { return a.center[axis] < b.center[axis]; });
+    node.count = 0;
+    build(first, count / 2);
+    node.first = static_cast<std::uint32_t>(nodes_.size());
+    build(first + count / 2, count - count / 2);
+  }
+  nodes_[id] = node;
+}
+
+void Probes::take(Probes other) {
+  probes_.insert(probes_.end(), other.probes_.begin(), other.probes_.end());
+  added_.insert(added_.end(), other.added_.begin(), other.added_.end());
+  nodes_.clear();
+  if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
+}
+
+bool Probes::any_violated(const Pose& place, SolidField& other) {
+  const Eigen::Matrix3d r = place.q.toRotationMatrix();
+  const auto violated = [&](const Probe& p) { return other.at(r * p.center + place.t) < p.keep; };
+  if (std::any_of(added_.begin(), added_.end(), violated)) return true;
+  if (nodes_.empty()) return false;
+  if (violated(probes_[last_])) return true;  // it often is the same
+  struct Waiting {
+    std::uint32_t node;
+    double bound;  // no probe of it is violated more
+  };
+  const auto look = [&](std::uint32_t id) {
+    const Node& node = nodes_[id];
+    return Waiting{id, node.keep + node.radius - other.at(r * node.center + place.t)};
+  };
+  std::array<Waiting, 64> open;
+  std::size_t waiting = 0;
+  open[waiting++] = look(0);
+  while (waiting > 0) {
+    const Waiting next = open[--waiting];
+    if (!(next.bound > 0)) continue;
+    const Node& node = nodes_[next.node];
+    if (node.count > 0) {
+      for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+        if (violated(probes_[k])) {
+          last_ = k;
+          return true;
+        }
+      continue;
+    }
+    const Waiting left = look(next.node + 1), right = look(node.first);
+    const bool right_first = right.bound > left.bound;  // the likelier one first
+    open[waiting++] = right_first ? left : right;
+    open[waiting++] = right_first ? right : left;
+  }
+  return false;
+}
+
+}  // namespace dismantle::squeeze

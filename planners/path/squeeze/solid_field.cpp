@@ -1,0 +1,117 @@
+#include "dismantle/squeeze/solid_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle::squeeze {
+namespace {
+
+constexpr double kAround = 0.1;  // assembly units: so far around the part distances are known; more than probes keep
+constexpr double kCoarse = 8;    // fine cells
+constexpr double kFar = 0.12;    // assembly units: further from the surface the coarse grid will do
+constexpr double kMostBlocks = 4e6;  // of which only those that are used take memory
+
+Aabb grown(Aabb box) {
+  box.inflate(kAround);
+  return box;
+}
+
+}  // namespace
+
+SolidField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
+  constexpr double kCells = kBlock - 1;
+  const double blocks = (box_.size() / (kCells * cell_)).array().ceil().prod();
+  if (blocks > kMostBlocks) cell_ *= std::cbrt(blocks / kMostBlocks);
+  inverse_cell_ = 1 / cell_;
+  std::size_t count = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    blocks_[k] = static_cast<std::int64_t>(box_.size()[static_cast<Eigen::Index>(k)] / (kCells * cell_)) + 1;
+    count *= static_cast<std::size_t>(blocks_[k]);
+  }
+  known_.resize(count);
+}
+
+/// A place that is further from the surface than its neighbour has the sign of that.
+int SolidField::Grid::sign_from_neighbours(const Block& block, std::ptrdiff_t place) const {
+  constexpr auto kEdge = static_cast<std::ptrdiff_t>(kBlock);
+  const auto reach = static_cast<float>(1.01 * cell_);
+  std::ptrdiff_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis, stride *= kEdge) {
+    const std::ptrdiff_t along = place / stride % kEdge;
+    for (const int step : {-1, 1}) {
+      if (along + step < 0 || along + step >= kEdge) continue;
+      const float value = block[static_cast<std::size_t>(place + step * stride)];
+      if (std::abs(value) > reach) return value < 0 ? -1 : 1;  // false for what is not known
+    }
+  }
+  return 0;
+}
+
+double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
+  constexpr auto kCells = static_cast<std::int32_t>(kBlock - 1);  // a power of two: this is asked very often
+  const Eigen::Vector3d u = (p - box_.lo) * inverse_cell_;
+  std::array<std::int64_t, 3> b;
+  std::array<std::size_t, 3> i;
+  std::array<float, 3> f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = u[static_cast<Eigen::Index>(k)];
+    const auto cell = std::min(static_cast<std::int32_t>(x), static_cast<std::int32_t>(blocks_[k]) * kCells - 1);
+    b[k] = cell / kCells;
+    i[k] = static_cast<std::size_t>(cell % kCells);
+    f[k] = static_cast<float>(x - static_cast<double>(cell));
+  }
+  auto& block = known_[static_cast<std::size_t>((b[2] * blocks_[1] + b[1]) * blocks_[0] + b[0])];
+  if (!block) {
+    if (field == nullptr) return std::numeric_limits<double>::quiet_NaN();
+    block = std::make_unique<Block>();
+    block->fill(std::numeric_limits<float>::quiet_NaN());
+  }
+  float* const v = block->data() + (i[2] * kBlock + i[1]) * kBlock + i[0];
+  const auto interpolated = [&] {
+    const auto along_x = [&](const float* a) { return a[0] + f[0] * (a[1] - a[0]); };
+    const auto along_y = [&](const float* a) {
+      const float lo = along_x(a), hi = along_x(a + kBlock);
+      return lo + f[1] * (hi - lo);
+    };
+    const float lo = along_y(v), hi = along_y(v + kBlock * kBlock);
+    return static_cast<double>(lo + f[2] * (hi - lo));
+  };
+  if (const double value = interpolated(); field == nullptr || !std::isnan(value)) return value;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const std::array<std::size_t, 3> d = {k & 1, k >> 1 & 1, k >> 2};
+    float& known = v[(d[2] * kBlock + d[1]) * kBlock + d[0]];
+    if (!std::isnan(known)) continue;
+    Eigen::Vector3d place;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      place[static_cast<Eigen::Index>(axis)] = static_cast<double>(b[axis] * static_cast<std::int64_t>(kBlock - 1) +
+                                                                   static_cast<std::int64_t>(i[axis] + d[axis]));
+    known =
+        static_cast<float>(field->exact(box_.lo + cell_ * place, sign_from_neighbours(*block, &known - block->data())));
+  }
+  return interpolated();
+}
+
+SolidField::SolidField(std::shared_ptr<const Mesh> mesh, double cell)
+    : mesh_(std::move(mesh)),
+      bvh_(*mesh_),
+      box_(mesh_->box()),
+      around_(grown(box_)),
+      coarse_(around_, kCoarse * cell),
+      fine_(around_, cell) {}
+
+double SolidField::exact(const Eigen::Vector3d& p, int sign) const {
+  const double d = bvh_.closest(p).distance;
+  const bool inside = sign != 0 ? sign < 0 : box_.contains(p) && bvh_.inside(p);
+  return inside ? -d : d;
+}
+
+double SolidField::at(const Eigen::Vector3d& p) {
+  const double outside = around_.squared_distance(p);
+  if (outside > 0) return kAround + std::sqrt(outside);
+  if (const double known = fine_.at(p, nullptr); !std::isnan(known)) return known;
+  const double about = coarse_.at(p, this);
+  return std::abs(about) > kFar ? about : fine_.at(p, this);
+}
+
+}  // namespace dismantle::squeeze

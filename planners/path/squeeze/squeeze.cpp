@@ -1,0 +1,41 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/plugin.h"
+#include "dismantle/squeeze/walk.h"
+
+namespace dismantle::squeeze {
+namespace {
+
+class Squeeze final : public PathPlanner {
+ public:
+  explicit Squeeze(const Parameters& parameters) : parameters_(parameters) {}
+  Capabilities needs() const noexcept override { return kNeeds; }
+
+  PathResult plan(const PathQuery& query, RunContext& context) override {
+    Walk walk(parameters_, query, context);
+    return walk.run(limit(query.effort.max_depth));
+  }
+
+ private:
+  std::uint64_t limit(unsigned depth) const {
+    const auto most = static_cast<std::uint64_t>(parameters_.looks);
+    if (depth == 0) return most;
+    const double looks =
+        std::ldexp(static_cast<double>(parameters_.level_looks), static_cast<int>(std::min(depth, 60u)) - 1);
+    return std::min(most, looks < 1e18 ? static_cast<std::uint64_t>(looks) : most);
+  }
+
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::squeeze
+
+DISMANTLE_PLUGIN("dismantle.squeeze", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::PathPlanner, dismantle::squeeze::Squeeze, dismantle::squeeze::Parameters>(
+      "squeeze", "A random tree of poses that may penetrate as deep as the judge allows: snap fits, pressed parts.",
+      {.source = "LaValle 1998 (random trees), in the space that the tolerance leaves",
+       .needs = dismantle::squeeze::kNeeds});
+}

@@ -1,0 +1,110 @@
+// The fields and samples that the walk decides by, against the original triangles.
+#include <gtest/gtest.h>
+
+#include "dismantle/squeeze/solid_field.h"
+#include "dismantle/squeeze/tolerance.h"
+#include "dismantle/verify/verifier.h"
+#include "solids.h"
+
+namespace dismantle::squeeze {
+namespace {
+
+using Eigen::Vector3d;
+using tunnel_forest::test::assembly_of;
+using tunnel_forest::test::block;
+using tunnel_forest::test::boxes;
+using tunnel_forest::test::moved;
+
+Pose random_pose(Rng& rng, double spread) {
+  const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
+  return {spread * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
+}
+
+TEST(SolidField, IsWithinACellOfTheDistance) {
+  Rng rng(3);
+  for (int k = 0; k < 10; ++k) {
+    const Vector3d half(rng.uniform(0.05, 1), rng.uniform(0.05, 1), rng.uniform(0.05, 1));
+    const auto mesh = std::make_shared<const Mesh>(
+        moved(boxes({block(-half.x(), -half.y(), -half.z(), half.x(), half.y(), half.z())}), random_pose(rng, 1)));
+    const double cell = rng.uniform(0.01, 0.03);
+    SolidField field(mesh, cell);
+    const TriangleBvh exact(*mesh);
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d p = mesh->box().center() +
+                         1.2 * half.norm() * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      const double d = exact.signed_distance(p);
+      if (std::abs(d) < 0.07) {
+        EXPECT_NEAR(field.at(p), d, cell) << k;
+      } else {  // far away it only has to be known that it is far
+        EXPECT_LE(field.at(p), d + 8 * cell);
+        EXPECT_GE(std::abs(field.at(p)), 0.07 - cell);
+        EXPECT_EQ(field.at(p) < 0, d < 0);
+      }
+    }
+  }
+}
+
+/// A plate on a block, moved down into it or turned: what is clearly within the tolerance is allowed, what is clearly
+/// beyond is not, however the two lie in space and however far they overlap when assembled.
+TEST(Tolerance, AgreesWithTheDepthOfThePair) {
+  Rng rng(5);
+  int in = 0, beyond = 0;
+  for (int k = 0; k < 6; ++k) {
+    const Pose turned = random_pose(rng, 1);
+    const double sunk = k % 3 == 0 ? rng.uniform(0.01, 0.05) : 0;
+    const Mesh plate = moved(boxes({block(-1, -0.7, -sunk, 1, 0.7, 0.4 - sunk)}), turned),
+               ground = moved(boxes({block(-1.5, -1.5, -1, 1.5, 1.5, 0)}), turned);
+    Assembly assembly = assembly_of({plate, ground});
+    const double overlap = penetration_depth(plate, Pose{}, ground, Pose{}, 1e-4);
+    if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
+    const double most = 0.01;
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most);
+    for (int i = 0; i < 60; ++i) {
+      const Eigen::Quaterniond q(Eigen::AngleAxisd(
+          rng.uniform(-0.02, 0.02), turned.q * Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized()));
+      Pose at{turned.q * Vector3d(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-0.03, 0.03)), q};
+      at.t += turned.t - q * turned.t;
+      const double depth = penetration_depth(plate, at, ground, Pose{}, 1e-4);
+      const bool allowed = tolerance.allows(at);
+      if (depth < overlap + 0.5 * most) {
+        EXPECT_TRUE(allowed) << depth << ' ' << overlap;
+        ++in;
+      }
+      if (depth > overlap + 1.5 * most) {
+        EXPECT_FALSE(allowed) << depth << ' ' << overlap;
+        EXPECT_EQ(tolerance.in_way(), PartId{1});
+        ++beyond;
+      }
+    }
+  }
+  EXPECT_GT(in, 50);
+  EXPECT_GT(beyond, 50);
+}
+
+TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
+  // A wall of 0.06 in the middle of a block of which only corners and faces are sampled: no point of either is deep.
+  Rng rng(7);
+  for (int k = 0; k < 5; ++k) {
+    const Pose turned = random_pose(rng, 1);
+    const Assembly assembly =
+        assembly_of({boxes({block(1, -1, -1, 3, 1, 1)}), boxes({block(0, -2, -2, 0.06, 2, 2)})}, turned);
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01);
+    for (double x = -0.2; x > -2.9; x -= 0.1) {
+      const bool through = x < -0.95 && x > -2.98;
+      EXPECT_EQ(tolerance.allows({turned.q * Vector3d(x, 0, 0), Eigen::Quaterniond::Identity()}), !through) << x;
+    }
+  }
+}
+
+TEST(Tolerance, LearnsAPlace) {
+  const Assembly assembly = assembly_of({boxes({block(-1, -1, 0, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
+  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01);
+  const Pose sunk{Vector3d(0, 0, -0.007), Eigen::Quaterniond::Identity()};
+  EXPECT_TRUE(tolerance.allows(sunk));
+  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0));
+  EXPECT_FALSE(tolerance.allows(sunk));
+  EXPECT_TRUE(tolerance.allows({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
+}
+
+}  // namespace
+}  // namespace dismantle::squeeze

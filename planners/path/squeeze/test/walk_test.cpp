@@ -1,0 +1,78 @@
+// A peg with a bead that is wider than its hole: it comes out exactly when the judge tolerates that much.
+#include "dismantle/squeeze/walk.h"
+
+#include <gtest/gtest.h>
+
+#include "table.h"
+
+namespace dismantle::squeeze {
+namespace {
+
+using Eigen::Vector3d;
+using tunnel_forest::test::assembly_of;
+using tunnel_forest::test::block;
+using tunnel_forest::test::boxes;
+using tunnel_forest::test::moved;
+using tunnel_forest::test::Table;
+
+/// A frame around a square hole of 1 x 1, closed below; in it a peg with a bead on two sides, under the frame's upper
+/// edge, where the hole has a groove for it.
+Assembly snapped(double bead, const Pose& turned) {
+  const double w = 1.5, g = 0.5 + bead + 0.02, lo = 0.4, hi = 0.6;
+  std::vector<Aabb> frame{block(-w, -w, -0.5, w, w, 0)};
+  const auto ring = [&](double inner, double z0, double z1) {
+    frame.push_back(block(-w, -w, z0, w, -inner, z1));
+    frame.push_back(block(-w, inner, z0, w, w, z1));
+    frame.push_back(block(-w, -inner, z0, -inner, inner, z1));
+    frame.push_back(block(inner, -inner, z0, w, inner, z1));
+  };
+  ring(0.5, 0, lo);
+  ring(g, lo, hi);
+  ring(0.5, hi, 0.75);
+  const double p = 0.48, b = 0.5 + bead;
+  return assembly_of(
+      {boxes({block(-p, -p, 0.01, p, p, 0.9), block(-b, -0.3, lo + 0.02, b, 0.3, hi - 0.02)}), boxes(frame)}, turned);
+}
+
+TEST(Squeeze, TakesOutWhatSnapsWithinTheTolerance) {
+  Table table(snapped(0.004, Pose{}));
+  const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{100'000}}}, 1, 0);
+  ASSERT_EQ(r.outcome, Outcome::solved) << r.message;
+  EXPECT_GE(table.judged, 1U);
+  const MotionCheck check = table.verifier.check_motion({0}, {{1, Pose{}}}, r.path);
+  EXPECT_TRUE(check.valid);
+  EXPECT_GT(check.max_penetration, 1e-3) << "it used the tolerance";
+}
+
+TEST(Squeeze, NeverTakesOutWhatSnapsDeeper) {
+  Table table(snapped(0.03, Pose{}));
+  const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{1500}}}, 1, 0);
+  EXPECT_TRUE(r.outcome == Outcome::depth_limit || r.outcome == Outcome::exhausted);
+  EXPECT_TRUE(r.path.empty());
+  ASSERT_FALSE(r.blocked_by.empty());
+  EXPECT_EQ(r.blocked_by.front(), 1U);
+}
+
+TEST(Squeeze, KeepsToItsBudget) {
+  Table table(snapped(0.03, Pose{}));
+  const PathResult r = table.plan("squeeze", {}, 1, 500);
+  EXPECT_EQ(r.outcome, Outcome::timeout);
+  EXPECT_GE(r.counts.at("looks"), 500);
+  EXPECT_LE(r.counts.at("looks"), 500 + 400);  // a flight is not cut short
+}
+
+TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
+  Table table(snapped(0.03, Pose{}));
+  const auto plan = [&](unsigned depth) {
+    const ParamSet few{{"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}};
+    return table.plan("guided", few, 1, 0, depth);
+  };
+  EXPECT_FALSE(plan(2).counts.contains("squeeze_looks")) << "shallow searches are for many parts";
+  const PathResult deep = plan(6);
+  EXPECT_FALSE(is_success(deep.outcome));
+  EXPECT_GE(deep.counts.at("squeeze_looks"), 1000);
+  EXPECT_LE(deep.counts.at("squeeze_looks"), 1000 + 400);
+}
+
+}  // namespace
+}  // namespace dismantle::squeeze
