@@ -285,6 +285,7 @@ AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const
                                      const RunContext& context) const {
   AssemblyPlan plan;
   std::vector<std::string> problems;
+  std::size_t not_looked_for = 0;
   const auto names = [&](std::size_t i) {
     std::string text;
     for (const PartId id : steps[i].parts) text += (text.empty() ? "'" : ", '") + assembly_.parts[id].name + "'";
@@ -298,21 +299,27 @@ AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const
   for (std::size_t i = 0; i < steps.size(); ++i) {
     context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
     Way way;
+    bool too_late = false;
     if (scenery.missing[i + 1].empty() && !steps[i].part_way) {
-      if (context.should_stop())
-        way.problem = "the run was stopped before";
-      else
-        way = transfer(scenery, i, context);
-      if (way.path.empty()) {
+      too_late = context.should_stop();
+      if (!too_late) way = transfer(scenery, i, context);
+      if (too_late)
+        scenery.leave_out(i + 1, fmt::format("the way of {} from the layout was not looked for", names(i)));
+      else if (way.path.empty())
         scenery.leave_out(i + 1, fmt::format("no way from the layout was found for {}: {}", names(i), way.problem));
-      }
     }
-    if (!scenery.missing[i + 1].empty()) problems.push_back(scenery.missing[i + 1]);
+    if (too_late)
+      ++not_looked_for;
+    else if (!scenery.missing[i + 1].empty())
+      problems.push_back(scenery.missing[i + 1]);
     plan.steps.push_back(to_step(scenery, i, way, written[i]));
   }
   context.progress("assembly", steps.size(), steps.size());
   std::reverse(plan.steps.begin(), plan.steps.end());
   for (std::size_t i = 0; i < plan.steps.size(); ++i) plan.steps[i].step = static_cast<unsigned>(i) + 1;
+  if (not_looked_for > 0)
+    problems.push_back(fmt::format("{} of {} ways from the layout were not looked for: the run was stopped before",
+                                   not_looked_for, steps.size()));
   for (const auto& p : problems) plan.message += (plan.message.empty() ? "" : "; ") + p;
   if (!problems.empty()) {
     plan.status = AssemblyStatus::partial;
