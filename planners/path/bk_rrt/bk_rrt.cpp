@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/path/touched.h"
 #include "dismantle/plugin.h"
 #include "random_tree.h"
 
@@ -89,14 +90,7 @@ class BkRrt final : public PathPlanner {
       result.counts["refused"] += static_cast<double>(tree->refused());
       for (const auto& [part, times] : tree->touched()) touched[part] += times;
     }
-    std::vector<std::pair<std::uint64_t, PartId>> order;
-    for (const auto& [part, times] : touched) order.emplace_back(times, part);
-    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
-      return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    for (const auto& o : order)
-      if (std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == o.second; }))
-        result.blocked_by.push_back(o.second);
+    result.blocked_by = path::most_touched(touched, moving);
   }
 
   Parameters parameters_;

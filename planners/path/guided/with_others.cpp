@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "dismantle/push/plan.h"
-#include "dismantle/squeeze/walk.h"
+#include "dismantle/tolerant_walk/walk.h"
 #include "growth.h"
 
 namespace dismantle::guided {
@@ -23,45 +23,46 @@ class Others {
   Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics, RunContext& context)
       : query_(query),
         parameters_(parameters),
+        tactics_(tactics),
         context_(context),
-        steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited),
-        pushing_(query, tactics, context) {
+        steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
     limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
     limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
     limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
   }
 
-  PathResult under_depth_limit(const push::Tactics& tactics) {
-    pushes_ = push::plan(query_, tactics, context_);
+  PathResult under_depth_limit() {
+    pushes_ = push::plan(query_, tactics_, context_);
+    spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
     // Ways that the judge refused lead out, and only cut a little too deep.
     const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
     if (!undecided(pushes_) || (!nearly && query_.effort.max_depth < kLeastDepth)) return pushes_;
     const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(query_.effort.max_depth, kDeepSearch);
-    const double share = std::ldexp(1.0, -static_cast<int>(halvings));
-    walk(static_cast<std::uint64_t>(share * static_cast<double>(parameters_.squeeze_looks)));
-    return together(is_success(squeezed_.outcome) ? squeezed_ : pushes_);
+    walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
+    return together(undecided(squeezed_) ? pushes_ : squeezed_);
   }
 
   PathResult by_turns() {
+    push::ByTurns pushing(query_, tactics_, context_);
     const auto most = static_cast<std::uint64_t>(parameters_.forest_steps);
     std::optional<tunnel_forest::Growth> growth;
     bool pushing_ends = false, forest_ends = most == 0, walked = false;
     while (!pushing_ends || !forest_ends) {
       if (!pushing_ends) {
-        pushes_ = pushing_.run(limits_);
+        pushes_ = pushing.run(limits_);
         if (!undecided(pushes_)) return together(pushes_);
-        pushing_ends = !pushing_.paused();
+        pushing_ends = !pushing.paused();
       }
       if (!walked) {
-        walk(static_cast<std::uint64_t>(parameters_.squeeze_looks));
+        walk(static_cast<double>(parameters_.squeeze_looks));
         walked = true;
-        if (is_success(squeezed_.outcome) || squeezed_.outcome == Outcome::cancelled) return together(squeezed_);
+        if (!undecided(squeezed_)) return together(squeezed_);
       }
       if (!forest_ends) {
         if (!growth) growth.emplace(tunnel_forest::Parameters{}, query_, context_);
         const std::uint64_t before = growth->used();
         forest_ = growth->run(std::min(most, before + std::min(steps_left_, limits_.pause_after)));
-        if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, growth->used() - before);
+        spend(growth->used() - before);
         if (!undecided(forest_)) return together(forest_);
         if (steps_left_ == 0) {
           forest_.outcome = Outcome::timeout;
@@ -75,16 +76,23 @@ class Others {
   }
 
  private:
-  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max() / 4;
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
   static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
 
+  void spend(std::uint64_t steps) {
+    if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, steps);
+  }
+
   /// Looks count as steps.
-  void walk(std::uint64_t looks) {
-    looks = std::min(looks, steps_left_);
-    if (looks == 0) return;
-    squeeze::Walk walk(squeeze::Parameters{}, query_, context_);
-    squeezed_ = walk.run(looks);
-    if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, walk.looks());
+  void walk(double looks) {
+    const std::uint64_t most = std::min(static_cast<std::uint64_t>(looks), steps_left_);
+    squeezed_.outcome = Outcome::depth_limit;  // also where there is nothing left for it
+    if (most > 0) {
+      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query_, context_);
+      squeezed_ = walk.run(most);
+      spend(walk.looks());
+    }
+    if (undecided(squeezed_) && steps_left_ == 0) squeezed_.outcome = Outcome::timeout;
   }
 
   /// What all have counted and touched, in the one that says how it ended.
@@ -103,10 +111,10 @@ class Others {
 
   const PathQuery& query_;
   const Parameters& parameters_;
+  const push::Tactics& tactics_;
   RunContext& context_;
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
-  push::ByTurns pushing_;
   PathResult pushes_, squeezed_, forest_;
 };
 
@@ -115,7 +123,7 @@ class Others {
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
                             RunContext& context) {
   Others others(query, parameters, tactics, context);
-  return query.effort.max_depth > 0 ? others.under_depth_limit(tactics) : others.by_turns();
+  return query.effort.max_depth > 0 ? others.under_depth_limit() : others.by_turns();
 }
 
 }  // namespace dismantle::guided

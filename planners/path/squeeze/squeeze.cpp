@@ -1,20 +1,19 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dismantle/plugin.h"
-#include "dismantle/squeeze/walk.h"
+#include "dismantle/tolerant_walk/walk.h"
 
 namespace dismantle::squeeze {
 namespace {
 
 class Squeeze final : public PathPlanner {
  public:
-  explicit Squeeze(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return kNeeds; }
+  explicit Squeeze(const tolerant_walk::Parameters& parameters) : parameters_(parameters) {}
+  Capabilities needs() const noexcept override { return tolerant_walk::kNeeds; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
-    Walk walk(parameters_, query, context);
+    tolerant_walk::Walk walk(parameters_, query, context);
     return walk.run(limit(query.effort.max_depth));
   }
 
@@ -27,15 +26,15 @@ class Squeeze final : public PathPlanner {
     return std::min(most, looks < 1e18 ? static_cast<std::uint64_t>(looks) : most);
   }
 
-  Parameters parameters_;
+  tolerant_walk::Parameters parameters_;
 };
 
 }  // namespace
 }  // namespace dismantle::squeeze
 
 DISMANTLE_PLUGIN("dismantle.squeeze", DISMANTLE_VERSION, "MIT", "") {
-  r.add<dismantle::PathPlanner, dismantle::squeeze::Squeeze, dismantle::squeeze::Parameters>(
+  r.add<dismantle::PathPlanner, dismantle::squeeze::Squeeze, dismantle::tolerant_walk::Parameters>(
       "squeeze", "A random tree of poses that may penetrate as deep as the judge allows: snap fits, pressed parts.",
       {.source = "LaValle 1998 (random trees), in the space that the tolerance leaves",
-       .needs = dismantle::squeeze::kNeeds});
+       .needs = dismantle::tolerant_walk::kNeeds});
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dismantle/path/touched.h"
+
 namespace dismantle::tunnel_forest {
 namespace {
 
@@ -109,14 +111,7 @@ void Growth::finish(PathResult& result) const {
     result.counts["refused"] += static_cast<double>(g.forest->refused());
     for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
   }
-  std::vector<std::pair<std::uint64_t, PartId>> order;
-  for (const auto& [part, times] : touched) order.emplace_back(times, part);
-  std::sort(order.begin(), order.end(),
-            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
-  for (const auto& o : order)
-    if (std::none_of(query_.cast.moving.begin(), query_.cast.moving.end(),
-                     [&](const PlacedPart& m) { return m.part == o.second; }))
-      result.blocked_by.push_back(o.second);
+  result.blocked_by = path::most_touched(touched, query_.cast.moving);
 }
 
 }  // namespace dismantle::tunnel_forest

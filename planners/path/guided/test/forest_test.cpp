@@ -7,10 +7,10 @@
 namespace dismantle::guided {
 namespace {
 
-using tunnel_forest::test::assembly_of;
-using tunnel_forest::test::linked_ring;
-using tunnel_forest::test::open_ring;
-using tunnel_forest::test::Table;
+using path::test::assembly_of;
+using path::test::linked_ring;
+using path::test::open_ring;
+using path::test::Table;
 
 /// Without the walk, which sometimes takes the ring off, too.
 ParamSet forest(std::int64_t after, std::int64_t steps) {

@@ -1,3 +1,4 @@
+#include "dismantle/path/touched.h"
 #include "dismantle/push/search.h"
 
 #include <algorithm>
@@ -225,11 +226,7 @@ void Search::finish(PathResult& result) const {
                    {"steps", static_cast<double>(steps_)},
                    {"looks", static_cast<double>(looks_)},
                    {"refused", static_cast<double>(refused_)}};
-  std::vector<std::pair<std::uint64_t, PartId>> order;
-  for (const auto& [part, times] : touched_) order.emplace_back(times, part);
-  std::sort(order.begin(), order.end(),
-            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
-  for (const auto& o : order) result.blocked_by.push_back(o.second);
+  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
   result.best_pose = best_;
 }
 

@@ -11,7 +11,7 @@
 namespace dismantle::tunnel_forest {
 namespace {
 
-using namespace test;
+using namespace path::test;
 
 constexpr std::size_t kSamples = 1000;
 

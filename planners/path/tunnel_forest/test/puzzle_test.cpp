@@ -9,7 +9,7 @@
 namespace dismantle::tunnel_forest {
 namespace {
 
-using namespace test;
+using namespace path::test;
 
 Pose random_pose(Rng& rng) { return {Vector3d(rng.normal(), rng.normal(), rng.normal()), random_turn(rng)}; }
 

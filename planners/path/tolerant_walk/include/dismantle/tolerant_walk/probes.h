@@ -8,9 +8,9 @@
 
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/geometry/pose.h"
-#include "dismantle/squeeze/solid_field.h"
+#include "dismantle/tolerant_walk/solid_field.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 
 /// A point (assembled frame of its part) whose signed distance from the other part may not be less than `keep`.
 struct Probe {
@@ -54,4 +54,4 @@ class Probes {
   std::uint32_t last_ = 0;  // that was violated
 };
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -1,11 +1,11 @@
-#include "dismantle/squeeze/tolerance.h"
+#include "dismantle/tolerant_walk/tolerance.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "dismantle/geometry/hull.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 namespace {
 
 constexpr double kCell = 0.01;            // assembly units: of the fields
@@ -13,14 +13,19 @@ constexpr double kNear = 0.06;            // assembly units: where the parts are
 constexpr double kSpacing = 0.03;         // ... their samples are so far apart,
 constexpr std::size_t kSamples = 5'000;   // or so that there are no more of each part around the other,
 constexpr std::size_t kElsewhere = 1000;  // and so many all over
-
-constexpr double kLearned = 0.5;  // share of max_penetration at a place that the judge has named
+constexpr double kLearned = 0.5;          // share of max_penetration at a place that the judge has named
 
 }  // namespace
 
 Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration)
     : assembly_(assembly), cast_(cast), max_penetration_(max_penetration) {
-  for (const auto& m : cast_.moving) hulls_.push_back(hull_corners(assembly.parts[m.part].mesh->vertices));
+  for (const auto& m : cast_.moving) {
+    const Mesh& mesh = *assembly.parts[m.part].mesh;
+    Ball ball{mesh.box().center(), 0};
+    for (const auto& v : mesh.vertices) ball.radius = std::max(ball.radius, (v - ball.center).norm());
+    balls_.push_back(ball);
+  }
+  for (const auto& s : cast_.still) boxes_.push_back(assembly.parts[s.part].mesh->box());
 }
 
 SolidField& Tolerance::field(PartId part) {
@@ -66,10 +71,10 @@ bool Tolerance::allows(const Pose& displacement) {
     for (std::size_t k = 0; k < cast_.still.size(); ++k) {
       const std::size_t s = k == 0 ? first_ : k <= first_ ? k - 1 : k;
       const PlacedPart& still = cast_.still[s];
-      Aabb box;
-      const Pose place = still.pose.inverse() * at;
-      for (const auto& v : hulls_[i]) box.extend(place * v);
-      if (!box.overlaps(field(still.part).box()) || clear(moving, at, still)) continue;
+      // Fields and probes of what never comes near are never made.
+      const Eigen::Vector3d center = still.pose.inverse() * (at * balls_[i].center);
+      if (boxes_[s].squared_distance(center) > balls_[i].radius * balls_[i].radius || clear(moving, at, still))
+        continue;
       in_way_ = still.part;
       first_ = s;
       return false;
@@ -88,4 +93,4 @@ void Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point) {
     }
 }
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -3,7 +3,7 @@
 
 #include "dismantle/parameters.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 
 struct Parameters {
   double max_penetration = 0.008;
@@ -54,4 +54,4 @@ struct Parameters {
   }
 };
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -1,19 +1,19 @@
 // A peg with a bead that is wider than its hole: it comes out exactly when the judge tolerates that much.
-#include "dismantle/squeeze/walk.h"
+#include "dismantle/tolerant_walk/walk.h"
 
 #include <gtest/gtest.h>
 
 #include "table.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 namespace {
 
 using Eigen::Vector3d;
-using tunnel_forest::test::assembly_of;
-using tunnel_forest::test::block;
-using tunnel_forest::test::boxes;
-using tunnel_forest::test::moved;
-using tunnel_forest::test::Table;
+using path::test::assembly_of;
+using path::test::block;
+using path::test::boxes;
+using path::test::moved;
+using path::test::Table;
 
 /// A frame around a square hole of 1 x 1, closed below; in it a peg with a bead on two sides, under the frame's upper
 /// edge, where the hole has a groove for it.
@@ -74,5 +74,18 @@ TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
   EXPECT_LE(deep.counts.at("squeeze_looks"), 1000 + 400);
 }
 
+TEST(Squeeze, SharesTheBudgetOfGuidedUnderADepthLimit) {
+  Table table(snapped(0.03, Pose{}));
+  const ParamSet whole{{"squeeze_looks", std::int64_t{100'000}}, {"forest_steps", std::int64_t{0}}};
+  const PathResult free = table.plan("guided", whole, 1, 0, 3);
+  const double pushes = free.counts.at("steps") + free.counts.at("looks");
+  const auto budget = static_cast<std::uint64_t>(pushes) + 700;
+  const PathResult r = table.plan("guided", whole, 1, budget, 3);
+  EXPECT_EQ(r.outcome, Outcome::timeout) << "what ended for want of steps has not seen everything";
+  const double used = r.counts.at("steps") + r.counts.at("looks") + r.counts.at("squeeze_looks");
+  EXPECT_GE(used, static_cast<double>(budget));
+  EXPECT_LE(used, static_cast<double>(budget) + 400);
+}
+
 }  // namespace
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -1,4 +1,4 @@
-/// Small solids for the tests of tunnel_forest.
+/// Small solids for the tests of path planners.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,7 +9,7 @@
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/model/assembly.h"
 
-namespace dismantle::tunnel_forest::test {
+namespace dismantle::path::test {
 
 using Eigen::Vector3d;
 
@@ -63,4 +63,4 @@ inline Assembly assembly_of(const std::vector<Mesh>& meshes, const Pose& pose = 
   return a;
 }
 
-}  // namespace dismantle::tunnel_forest::test
+}  // namespace dismantle::path::test

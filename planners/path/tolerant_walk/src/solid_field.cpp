@@ -1,10 +1,10 @@
-#include "dismantle/squeeze/solid_field.h"
+#include "dismantle/tolerant_walk/solid_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 namespace {
 
 constexpr double kAround = 0.1;  // assembly units: so far around the part distances are known; more than probes keep
@@ -114,4 +114,4 @@ double SolidField::at(const Eigen::Vector3d& p) {
   return std::abs(about) > kFar ? about : fine_.at(p, this);
 }
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

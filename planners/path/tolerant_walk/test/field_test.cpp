@@ -1,19 +1,19 @@
 // The fields and samples that the walk decides by, against the original triangles.
 #include <gtest/gtest.h>
 
-#include "dismantle/squeeze/solid_field.h"
-#include "dismantle/squeeze/tolerance.h"
+#include "dismantle/tolerant_walk/solid_field.h"
+#include "dismantle/tolerant_walk/tolerance.h"
 #include "dismantle/verify/verifier.h"
 #include "solids.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 namespace {
 
 using Eigen::Vector3d;
-using tunnel_forest::test::assembly_of;
-using tunnel_forest::test::block;
-using tunnel_forest::test::boxes;
-using tunnel_forest::test::moved;
+using path::test::assembly_of;
+using path::test::block;
+using path::test::boxes;
+using path::test::moved;
 
 Pose random_pose(Rng& rng, double spread) {
   const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
@@ -107,4 +107,4 @@ TEST(Tolerance, LearnsAPlace) {
 }
 
 }  // namespace
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

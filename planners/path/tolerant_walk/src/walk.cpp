@@ -1,11 +1,13 @@
-#include "dismantle/squeeze/walk.h"
+#include "dismantle/tolerant_walk/walk.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace dismantle::squeeze {
+#include "dismantle/path/touched.h"
+
+namespace dismantle::tolerant_walk {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -278,14 +280,7 @@ void Walk::finish(PathResult& result) const {
   result.counts = {{"nodes", static_cast<double>(nodes_.size())},
                    {"looks", static_cast<double>(looks_)},
                    {"refused", static_cast<double>(refused_)}};
-  std::vector<std::pair<std::uint64_t, PartId>> order;
-  for (const auto& [part, times] : touched_) order.emplace_back(times, part);
-  std::sort(order.begin(), order.end(),
-            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
-  for (const auto& o : order)
-    if (std::none_of(query_.cast.moving.begin(), query_.cast.moving.end(),
-                     [&](const PlacedPart& m) { return m.part == o.second; }))
-      result.blocked_by.push_back(o.second);
+  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
 }
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

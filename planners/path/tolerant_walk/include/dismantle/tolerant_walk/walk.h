@@ -9,10 +9,10 @@
 
 #include "dismantle/path/path_thinning.h"
 #include "dismantle/path_planner.h"
-#include "dismantle/squeeze/parameters.h"
-#include "dismantle/squeeze/tolerance.h"
+#include "dismantle/tolerant_walk/parameters.h"
+#include "dismantle/tolerant_walk/tolerance.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 
 /// What the simulator has to be capable of.
 inline constexpr Capabilities kNeeds{};
@@ -73,4 +73,4 @@ class Walk {
   std::map<PartId, std::uint64_t> touched_;
 };
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "dismantle/simulator.h"
-#include "dismantle/squeeze/probes.h"
-#include "dismantle/squeeze/solid_field.h"
+#include "dismantle/tolerant_walk/probes.h"
+#include "dismantle/tolerant_walk/solid_field.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 
 /// A necessary condition, by samples: no pair penetrates deeper than when assembled and `max_penetration`. Made from
 /// the original triangles, and by none of the judge's code. What it needs of a pair is computed when they first come
@@ -41,11 +41,17 @@ class Tolerance {
   const Assembly& assembly_;
   Cast cast_;
   double max_penetration_;
-  std::vector<std::vector<Eigen::Vector3d>> hulls_;  // of the moving parts
+  /// A moving part, for the question whether it may be near another at all.
+  struct Ball {
+    Eigen::Vector3d center;
+    double radius;
+  };
+  std::vector<Ball> balls_;  // by moving part
+  std::vector<Aabb> boxes_;  // by still part, its assembled frame
   std::map<PartId, std::unique_ptr<SolidField>> fields_;
   std::map<std::pair<PartId, PartId>, Pair> pairs_;  // moving, still
   std::optional<PartId> in_way_;
   std::size_t first_ = 0;  // the still part that is asked first: the one that was in the way last
 };
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

@@ -1,4 +1,4 @@
-#include "dismantle/squeeze/probes.h"
+#include "dismantle/tolerant_walk/probes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -214,4 +214,4 @@ bool Probes::any_violated(const Pose& place, SolidField& other) {
   return false;
 }
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

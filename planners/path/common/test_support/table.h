@@ -10,7 +10,7 @@
 #include "dismantle/verify/verifier.h"
 #include "solids.h"
 
-namespace dismantle::tunnel_forest::test {
+namespace dismantle::path::test {
 
 inline const Registry& registry() {
   static const std::unique_ptr<Registry> all = [] {
@@ -59,4 +59,4 @@ struct Table {
   }
 };
 
-}  // namespace dismantle::tunnel_forest::test
+}  // namespace dismantle::path::test

@@ -11,7 +11,7 @@
 #include "dismantle/geometry/mesh.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
-namespace dismantle::squeeze {
+namespace dismantle::tolerant_walk {
 
 /// Two grids, one for near the surface and a coarse one that says where that is. Interpolated, so not exact: within
 /// about a third of a cell at edges. Memory follows use. Not safe to use from several threads.
@@ -50,4 +50,4 @@ class SolidField {
   Grid coarse_, fine_;
 };
 
-}  // namespace dismantle::squeeze
+}  // namespace dismantle::tolerant_walk

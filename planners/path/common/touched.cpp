@@ -1,0 +1,17 @@
+#include "dismantle/path/touched.h"
+
+#include <algorithm>
+
+namespace dismantle::path {
+
+std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched,
+                                 const std::vector<PlacedPart>& moving) {
+  std::vector<PartId> parts;
+  for (const auto& [part, times] : touched)
+    if (std::none_of(moving.begin(), moving.end(), [p = part](const PlacedPart& m) { return m.part == p; }))
+      parts.push_back(part);
+  std::stable_sort(parts.begin(), parts.end(), [&](PartId a, PartId b) { return touched.at(a) > touched.at(b); });
+  return parts;
+}
+
+}  // namespace dismantle::path
