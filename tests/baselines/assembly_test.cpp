@@ -38,8 +38,9 @@ Planned plan(const std::string& sample, const ParamSet& parameters, Settings set
   ingredients.sequence_planner =
       registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
   ingredients.path_planner_id = "mv_t_rrt";
-  ingredients.transfer_planner =
-      registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
+  ingredients.transfer_planner = [&] {
+    return registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
+  };
   ingredients.transfer_planner_id = config.transfer_planner.type;
   RunOptions options;
   options.path_timeout = 0;
@@ -197,7 +198,7 @@ TEST(AssemblySteps, SubAssembliesArePutTogetherFirst) {
   registry.scan();
   const Assembly assembly = fake::tube_with_blocks(3);
   Ingredients ingredients = fake::ingredients(fake::push, std::make_shared<PairFirst>());
-  ingredients.transfer_planner = registry.create<TransferPlanner>("rrt_connect");
+  ingredients.transfer_planner = [&] { return registry.create<TransferPlanner>("rrt_connect"); };
   ingredients.transfer_planner_id = "rrt_connect";
   RunContext context;
   const Plan plan = run(assembly, ingredients, RunOptions{}, context).plan;

@@ -20,13 +20,14 @@
 
 namespace dismantle {
 
-/// How each kind is made; called once per thread for path planners.
+/// How each kind is made; called once per thread for path and transfer planners.
 struct Ingredients {
   std::shared_ptr<Simulator> simulator;
   std::function<std::shared_ptr<PathPlanner>()> path_planner;
   std::shared_ptr<SequencePlanner> sequence_planner;  ///< unused when `only_part` is set
   std::string path_planner_id;
-  std::shared_ptr<TransferPlanner> transfer_planner;  ///< null: assembly steps begin where the disassembly ended
+  /// Empty: assembly steps begin where the disassembly ended.
+  std::function<std::shared_ptr<TransferPlanner>()> transfer_planner;
   std::string transfer_planner_id;
 };
 

@@ -7,8 +7,8 @@
 
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "parallel.h"
 #include "prepare/mesh/edges.h"
-#include "prepare/parallel.h"
 
 namespace dismantle {
 namespace {

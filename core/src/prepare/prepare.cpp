@@ -10,8 +10,8 @@
 #include "dismantle/geometry/mesh_subdivide.h"
 #include "dismantle/prepare/read_input.h"
 #include "dismantle/verify/verifier.h"
+#include "parallel.h"
 #include "prepare/assembly_steps.h"
-#include "prepare/parallel.h"
 #include "prepare/repair_part.h"
 
 namespace dismantle {

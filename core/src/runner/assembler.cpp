@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <utility>
+
+#include "dismantle/errors.h"
+#include "parallel.h"
 
 namespace dismantle {
 
@@ -13,6 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::size_t kWave = 16;        // steps per thread whose ways are looked for together
 constexpr double kGoalTolerance = 1e-6;  // of a pose's coefficients, assembly units or 1
 
 bool near(const Pose& a, const Pose& b) {
@@ -98,6 +103,8 @@ struct Assembler::Way {
   unsigned depth = 0;
   double seconds = 0;
   std::string problem;
+  bool looked_for = true;
+  std::vector<std::pair<LogLevel, std::string>> log;
 };
 
 Assembler::Assembler(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
@@ -173,13 +180,14 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 }
 
 /// What lies where another part is put in cannot lie there. Our own layout leaves room; a given one may not.
-void Assembler::clear_ways_in(Scenery& scenery) const {
+void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
     const std::size_t from = scenery.steps[i].from;
     std::vector<PlacedPart> others = scenery.others(i);
     // Those that it passed on its way out are in order: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.groups[i + 1][p.part] == from; });
-    const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i));
+    const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
+    if (check.interrupted) return;  // no way is looked for any more
     if (check.valid) continue;
     const Violation v = check.violation.value_or(Violation{});
     const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;
@@ -192,7 +200,8 @@ void Assembler::clear_ways_in(Scenery& scenery) const {
   }
 }
 
-Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const RunContext& context) const {
+Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
+                                   const RunContext& context) const {
   const BookedStep& step = scenery.steps[i];
   TransferQuery query{assembly_, *ingredients_.simulator, prepared_, {}, {}, options_.layout.up_axis(), {}, {}};
   query.cast.still = scenery.others(i);
@@ -203,6 +212,13 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const 
   }
   query.effort.max_steps = options_.path_steps;
   query.effort.timeout = options_.path_timeout;
+
+  std::vector<std::pair<LogLevel, std::string>> log;
+  RunContext own = context;
+  own.rng = context.rng.fork(i);
+  own.threads = 1;
+  own.on_progress = nullptr;
+  own.on_log = [&](LogLevel level, std::string_view text) { log.emplace_back(level, text); };
 
   Way accepted;
   query.judge = [&](const Path& path) {
@@ -217,7 +233,7 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const 
       }
       written.path.back()[k] = query.goal[k];
     }
-    const MotionCheck check = verifier_.check_motion(step.parts, query.cast.still, written.path);
+    const MotionCheck check = verifier_.check_motion(step.parts, query.cast.still, written.path, own);
     if (!check.valid) {
       const Violation v = check.violation.value_or(Violation{});
       verdict.has_witness = check.violation.has_value();
@@ -235,13 +251,11 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const 
     return verdict;
   };
 
-  RunContext own = context;
-  own.rng = context.rng.fork(i);
   if (options_.path_timeout > 0) own.deadline = own.deadline.earlier(Deadline::after_seconds(options_.path_timeout));
   const auto begin = Clock::now();
   PathResult result;
   try {
-    result = ingredients_.transfer_planner->plan(query, own);
+    result = planner.plan(query, own);
   } catch (const std::exception& e) {
     result.outcome = Outcome::crashed;
     result.message = e.what();
@@ -251,11 +265,40 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, const 
   }
   accepted.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   accepted.depth = result.depth;
+  accepted.log = log;
   if (is_success(result.outcome) && !accepted.path.empty()) return accepted;
   Way none;
+  none.log = std::move(log);
   none.problem = std::string(to_string(is_success(result.outcome) ? Outcome::crashed : result.outcome));
   if (!result.message.empty()) none.problem += ", " + result.message;
   return none;
+}
+
+/// The ways of the steps [first, last) that have one, by several threads, with what lies where as it is now.
+std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
+                                                 const RunContext& context) {
+  std::vector<Way> ways(last - first);
+  const auto one = [&](std::size_t k, TransferPlanner& planner) {
+    const std::size_t i = first + k;
+    if (!scenery.missing[i + 1].empty() || scenery.steps[i].part_way) return;
+    if (context.should_stop())
+      ways[k].looked_for = false;
+    else
+      ways[k] = transfer(scenery, i, planner, context);
+  };
+  const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), ways.size());
+  while (planners_.size() < threads) {
+    planners_.push_back(ingredients_.transfer_planner());
+    if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
+  }
+  std::atomic<std::size_t> next{0};
+  on_threads(
+      threads, static_cast<unsigned>(threads),
+      [&](std::size_t thread) {
+        for (std::size_t k = next++; k < ways.size(); k = next++) one(k, *planners_[thread]);
+      },
+      [] { return false; });
+  return ways;
 }
 
 PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& way, const PlanStep& there) const {
@@ -282,7 +325,7 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
 }
 
 AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const std::vector<PlanStep>& written,
-                                     const RunContext& context) const {
+                                     const RunContext& context) {
   AssemblyPlan plan;
   std::vector<std::string> problems;
   std::size_t not_looked_for = 0;
@@ -293,26 +336,32 @@ AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const
   };
   Scenery scenery(steps, assembly_.parts.size());
   place_groups(scenery, context);
-  clear_ways_in(scenery);
+  clear_ways_in(scenery, context);
 
-  // In the order of the disassembly: where a group is put in is known before it is asked how to get there.
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
-    Way way;
-    bool too_late = false;
-    if (scenery.missing[i + 1].empty() && !steps[i].part_way) {
-      too_late = context.should_stop();
-      if (!too_late) way = transfer(scenery, i, context);
-      if (too_late)
+  // In the order of the disassembly: where a group is put in is known before it is asked how to get there. A group that
+  // is left out lies elsewhere from then on, so what was found for later steps does not count.
+  const std::size_t wave = context.threads > 1 ? kWave * context.threads : 1;
+  for (std::size_t first = 0; first < steps.size();) {
+    std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);
+    bool as_supposed = true;
+    for (std::size_t k = 0; k < ways.size() && as_supposed; ++k) {
+      const std::size_t i = first++;
+      context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
+      for (const auto& [level, text] : ways[k].log) context.log(level, text);
+      if (!ways[k].looked_for) {
+        ++not_looked_for;
         scenery.leave_out(i + 1, fmt::format("the way of {} from the layout was not looked for", names(i)));
-      else if (way.path.empty())
-        scenery.leave_out(i + 1, fmt::format("no way from the layout was found for {}: {}", names(i), way.problem));
+        as_supposed = false;
+      } else {
+        if (scenery.missing[i + 1].empty() && !steps[i].part_way && ways[k].path.empty()) {
+          scenery.leave_out(i + 1,
+                            fmt::format("no way from the layout was found for {}: {}", names(i), ways[k].problem));
+          as_supposed = false;
+        }
+        if (!scenery.missing[i + 1].empty()) problems.push_back(scenery.missing[i + 1]);
+      }
+      plan.steps.push_back(to_step(scenery, i, ways[k], written[i]));
     }
-    if (too_late)
-      ++not_looked_for;
-    else if (!scenery.missing[i + 1].empty())
-      problems.push_back(scenery.missing[i + 1]);
-    plan.steps.push_back(to_step(scenery, i, way, written[i]));
   }
   context.progress("assembly", steps.size(), steps.size());
   std::reverse(plan.steps.begin(), plan.steps.end());

@@ -31,14 +31,15 @@ class Assembler {
 
   /// `written` are the same steps as the plan has them.
   AssemblyPlan put_together(const std::vector<BookedStep>& steps, const std::vector<PlanStep>& written,
-                            const RunContext& context) const;
+                            const RunContext& context);
 
  private:
   struct Scenery;
   struct Way;
   void place_groups(Scenery& scenery, const RunContext& context) const;
-  void clear_ways_in(Scenery& scenery) const;
-  Way transfer(const Scenery& scenery, std::size_t step, const RunContext& context) const;
+  void clear_ways_in(Scenery& scenery, const RunContext& context) const;
+  std::vector<Way> transfers(const Scenery& scenery, std::size_t first, std::size_t last, const RunContext& context);
+  Way transfer(const Scenery& scenery, std::size_t step, TransferPlanner& planner, const RunContext& context) const;
   PlanStep to_step(const Scenery& scenery, std::size_t step, const Way& way, const PlanStep& there) const;
   Aabb box_of(PartId part, const Pose& pose) const;
 
@@ -48,6 +49,7 @@ class Assembler {
   const RunOptions& options_;
   const Verifier& verifier_;
   PathNormalizer normalizer_;
+  std::vector<std::shared_ptr<TransferPlanner>> planners_;  ///< by thread
 };
 
 }  // namespace dismantle

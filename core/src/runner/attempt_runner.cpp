@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/verify/explanations.h"
 #include "runner/stopwatch.h"
 
 namespace dismantle {
@@ -98,27 +99,14 @@ const Lock* AttemptRunner::locked(const Attempt& attempt) const {
   return nullptr;
 }
 
-std::string AttemptRunner::describe(const Lock& lock) const {
-  const Eigen::Vector3d at = assembly_.normalization.to_input(lock.point);
-  return fmt::format(
-      "'{0}' and '{1}' are locked into each other: ({2:.6g}, {3:.6g}, {4:.6g}) lies in both, {5:.4g} below "
-      "the surface of '{0}', so on any way apart '{1}' cuts so deep into it; {6:.4g} is allowed (assembly "
-      "units; see verify.max_penetration)",
-      assembly_.parts[lock.inside].name, assembly_.parts[lock.other].name, at.x(), at.y(), at.z(), lock.depth,
-      lock.allowed);
+/// Two parts, before a search that takes longer than looking whether they hold each other.
+std::optional<Cage> AttemptRunner::caged(const Attempt& attempt) const {
+  if (!worth_a_proof(attempt) || attempt.moving.size() != 1 || attempt.still.size() != 1) return std::nullopt;
+  return verifier_.caged(attempt.moving.front().part, attempt.still.front().part);
 }
 
-std::string AttemptRunner::describe(const Enclosure& enclosure) const {
-  const Eigen::Vector3d at = assembly_.normalization.to_input(enclosure.point);
-  std::vector<std::string> around;
-  for (const PartId id : enclosure.around) around.push_back(fmt::format("'{}'", assembly_.parts[id].name));
-  return fmt::format(
-      "'{}' is shut in by {}: a ball of radius {:.4g} (assembly units) about ({:.6g}, {:.6g}, {:.6g}), which it "
-      "holds, is too large for every way out, less the penetration that is allowed",
-      assembly_.parts[enclosure.inside].name, fmt::join(around, ", "), enclosure.radius, at.x(), at.y(), at.z());
-}
-
-AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path) const {
+AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path,
+                                              const RunContext& context) const {
   Judgement j;
   j.given = path;
   j.written = normalizer_.normalize(path, attempt.moving);
@@ -126,9 +114,10 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
     j.verdict.reason = j.written.problem;
     return j;
   }
-  j.check = verifier_.check_motion(ids_of(attempt.moving), attempt.still, j.written.path);
+  j.check = verifier_.check_motion(ids_of(attempt.moving), attempt.still, j.written.path, context);
   if (!j.check.valid) {
-    j.verdict.reason = "the path cuts into another part";
+    j.verdict.reason =
+        j.check.interrupted ? "the run was stopped before the path was judged" : "the path cuts into another part";
     if (j.check.violation) {
       const Violation& v = *j.check.violation;
       j.verdict.has_witness = true;
@@ -173,10 +162,10 @@ ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way
       throw std::invalid_argument("a proposed way does not begin where its parts are");
   Judgement j;
   if (const Lock* lock = locked(attempt); lock != nullptr && !attempt.part_way) {
-    result = failure(Outcome::exhausted, describe(*lock));
+    result = failure(Outcome::exhausted, describe(*lock, assembly_));
     result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
   } else {
-    j = judge(attempt, way);
+    j = judge(attempt, way, context);
     result.outcome = j.verdict.accepted ? Outcome::solved : Outcome::exhausted;
     result.message = j.verdict.reason;
     result.depth = 1;
@@ -193,15 +182,16 @@ ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way
   return computed;
 }
 
+/// What is found just in time is judged: only the end of the `run` interrupts that.
 PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context,
-                               Judgement& last) const {
+                               const RunContext& run, Judgement& last) const {
   const std::string missing = lacking(planner.needs(), attempt.moving.size());
   if (!missing.empty()) return failure(Outcome::unsupported, missing);
   RunContext own = context;
   const Effort effort{attempt.max_depth, path_steps_, path_timeout_};
   const PathQuery query{
       assembly_, simulator_, prepared_, {attempt.moving, attempt.still}, effort, [&](const Path& path) {
-        last = judge(attempt, path);
+        last = judge(attempt, path, run);
         return last.verdict;
       }};
   return planner.plan(query, own);
@@ -221,21 +211,26 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
     if (attempt.still.empty()) {
       result.outcome = Outcome::start_is_goal;  // nothing left to be apart from
     } else if (const Lock* lock = locked(attempt)) {
-      result = failure(Outcome::exhausted, describe(*lock));
+      result = failure(Outcome::exhausted, describe(*lock, assembly_));
       result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
     } else if (const auto enclosure =
                    worth_a_proof(attempt) ? verifier_.shut_in(attempt.moving, attempt.still) : std::nullopt) {
-      result = failure(Outcome::exhausted, describe(*enclosure));
+      result = failure(Outcome::exhausted, describe(*enclosure, assembly_));
       result.blocked_by =
           holds(attempt.moving, enclosure->inside) ? enclosure->around : std::vector<PartId>{enclosure->inside};
+    } else if (const auto cage = caged(attempt)) {
+      result = failure(Outcome::exhausted, describe(*cage, assembly_));
+      result.blocked_by = {attempt.still.front().part};
     } else {
-      result = plan(planner, attempt, own, last);
+      result = plan(planner, attempt, own, context, last);
     }
     if (result.outcome == Outcome::solved) {
-      if (last.written.path.empty() || !same_path(last.given, result.path)) last = judge(attempt, result.path);
+      if (last.written.path.empty() || !same_path(last.given, result.path)) last = judge(attempt, result.path, context);
       if (last.verdict.accepted) {
         answer.max_penetration = last.check.max_penetration;
         result.path = std::move(last.written.path);
+      } else if (last.check.interrupted) {
+        result = failure(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout, last.verdict.reason);
       } else {
         result.outcome = Outcome::crashed;
         result.message = fmt::format("path planner '{}' reports as solved a path that the judge refuses: {}",

@@ -1,6 +1,7 @@
 /// One attempt, from question to judged answer. The only place where a path planner is called.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dismantle/path_oracle.h"
@@ -34,11 +35,11 @@ class AttemptRunner {
 
  private:
   struct Judgement;
-  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, Judgement& last) const;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, const RunContext& run,
+                  Judgement& last) const;
   const Lock* locked(const Attempt& attempt) const;
-  std::string describe(const Lock& lock) const;
-  std::string describe(const Enclosure& enclosure) const;
-  Judgement judge(const Attempt& attempt, const Path& path) const;
+  std::optional<Cage> caged(const Attempt& attempt) const;
+  Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 
   const Assembly& assembly_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <future>
 #include <stdexcept>
 #include <utility>
 
@@ -180,7 +181,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   result.prepare_seconds = seconds_since(begin);
 
   begin = Clock::now();
-  const Verifier verifier(assembly, options.verify);
+  const Verifier verifier(assembly, options.verify, own.threads);
   struct Nothing final : Prepared {};
   const Nothing nothing;
   if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
@@ -209,16 +210,25 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     }
     ledger.set_unsolved(reasons(sequence, ledger.left()));
   }
-  const auto needed = needed_steps(ledger.booked(), assembly.parts.size(), verifier, own);
+  // Neither of the two looks at what the other finds.
+  const auto launch = own.threads > 1 ? std::launch::async : std::launch::deferred;
+  auto ordering = std::async(launch, [&ledger, &verifier, &assembly, &own] {
+    return needed_steps(ledger.booked(), assembly.parts.size(), verifier, own);
+  });
+  AssemblyPlan back;
+  const bool puts_together =
+      prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty();
+  if (puts_together) {
+    RunContext putting = own;
+    putting.rng = Rng(options.seed).fork(kTransferStream);
+    back = Assembler(assembly, *prepared, ingredients, options, verifier)
+               .put_together(ledger.booked(), ledger.plan().disassembly, putting);
+  }
+  const auto needed = ordering.get();
   ledger.set_needed(needed);
   for (const auto& [a, b] : part_precedence(ledger.booked(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
-  if (prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty()) {
-    own.rng = Rng(options.seed).fork(kTransferStream);
-    AssemblyPlan back = Assembler(assembly, *prepared, ingredients, options, verifier)
-                            .put_together(ledger.booked(), ledger.plan().disassembly, own);
-    ledger.set_assembly(std::move(back.steps), back.status, std::move(back.message));
-  }
+  if (puts_together) ledger.set_assembly(std::move(back.steps), back.status, std::move(back.message));
   result.plan = ledger.plan();
   result.counts = oracle.counts();
   result.planner_counts = oracle.planner_counts();

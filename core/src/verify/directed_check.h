@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "dismantle/run_context.h"
 #include "verify/patch.h"
 #include "verify/relative_motion.h"
 #include "verify/solid.h"
@@ -44,7 +45,9 @@ struct Budget {
   std::uint64_t tests_left = 0;
   std::uint64_t patches_left = 0;
   std::uint64_t tests_done = 0;
+  const RunContext* context = nullptr;  ///< may be null; when it says stop, nothing is left
   bool spend_test() {
+    if (context != nullptr && tests_done % 256 == 0 && context->should_stop()) tests_left = 0;
     if (tests_left == 0) return false;
     --tests_left;
     ++tests_done;

@@ -4,14 +4,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "dismantle/geometry/hull.h"
+#include "parallel.h"
+#include "verify/hook_cage.h"
 #include "verify/lock.h"
 #include "verify/pair_check.h"
+#include "verify/ring_cage.h"
 #include "verify/sampling.h"
 #include "verify/shut_in.h"
 
@@ -69,18 +73,29 @@ struct Verifier::Impl {
     Aabb swept;  // world
   };
 
-  Impl(const Assembly& a, VerifyOptions o)
-      : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)) {
-    bodies.reserve(a.parts.size());
-    for (const auto& part : a.parts) {
-      Body body{verify::split_into_solids(*part.mesh), part.mesh->box(), hull_corners(part.mesh->vertices)};
-      for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
-      bodies.push_back(std::move(body));
-      meshes.push_back(part.mesh);
-    }
-    balls.resize(bodies.size());
-    for (const auto& known : assembly_overlaps)
-      if (const auto lock = locking_point(known)) locks.push_back(*lock);
+  Impl(const Assembly& a, VerifyOptions o, unsigned threads)
+      : assembly_overlaps(a.overlaps),
+        options(o),
+        rungs(rungs_up_to(o.max_penetration)),
+        bodies(a.parts.size()),
+        middles(a.parts.size()),
+        balls(a.parts.size()) {
+    const auto never = [] { return false; };
+    for (const auto& part : a.parts) meshes.push_back(part.mesh);
+    on_threads(
+        bodies.size(), threads,
+        [&](std::size_t i) {
+          const Mesh& mesh = *meshes[i];
+          Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
+          for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
+          bodies[i] = std::move(body);
+        },
+        never);
+    std::vector<std::optional<Lock>> found(assembly_overlaps.size());
+    on_threads(
+        found.size(), threads, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
+    for (const auto& lock : found)
+      if (lock) locks.push_back(*lock);
   }
 
   std::optional<Lock> locking_point(const InitialOverlap& o) const {
@@ -103,9 +118,14 @@ struct Verifier::Impl {
   verify::Ball ball_of(PartId part) const;
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
 
-  bool check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const;
+  const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part) const;
+  std::optional<Cage> caged(PartId a, PartId b) const;
+  using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
+  void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
+  bool near(const Actor& a, const Actor& b) const;
+  bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
-             std::size_t& rung, MotionCheck& result) const;
+             const RunContext& context, std::size_t& rung, MotionCheck& result) const;
 
   std::vector<InitialOverlap> assembly_overlaps;
   VerifyOptions options;
@@ -113,6 +133,9 @@ struct Verifier::Impl {
   std::vector<Lock> locks;
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
+  mutable std::mutex cages_guard, middles_guard;
+  mutable std::map<std::pair<PartId, PartId>, std::optional<Cage>> cages;  // of pairs that were asked for
+  mutable std::vector<std::optional<std::vector<std::vector<verify::InnerBall>>>> middles;  // by part, by solid
   mutable std::mutex balls_guard;
   mutable std::vector<std::optional<verify::Ball>> balls;  // by part, found when first asked for
 };
@@ -160,21 +183,61 @@ std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& 
   return found;
 }
 
+bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
+  Aabb around = a.swept;
+  around.inflate(kStill);
+  return around.overlaps(b.swept);
+}
+
+/// Pair after pair, each from the rung that those before it have raised. Threads look at several at once, from the rung
+/// of the first; where that was raised meanwhile, the pair is looked at again. So it is as if there were one.
+void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
+  struct Ahead {
+    bool passed = false;
+    std::size_t rung = 0;
+    MotionCheck found;
+  };
+  const std::size_t wave = context.threads > 1 ? 2 * context.threads : 1;
+  std::size_t rung = 0;
+  for (std::size_t first = 0; first < pairs.size(); first += wave) {
+    std::vector<Ahead> ahead(std::min(wave, pairs.size() - first));
+    const std::size_t from = rung;
+    const auto look = [&](std::size_t k, Ahead& a) {
+      a.passed = check(*pairs[first + k].first, *pairs[first + k].second, context, a.rung, a.found);
+    };
+    on_threads(
+        ahead.size(), context.threads,
+        [&](std::size_t k) {
+          look(k, ahead[k] = {false, from, {}});
+        },
+        [] { return false; });
+    for (std::size_t k = 0; k < ahead.size(); ++k) {
+      if (rung != from) look(k, ahead[k] = {false, rung, {}});
+      rung = ahead[k].rung;
+      result.tests += ahead[k].found.tests;
+      if (ahead[k].passed) continue;
+      result.violation = ahead[k].found.violation;
+      result.interrupted = ahead[k].found.interrupted;
+      return;
+    }
+  }
+  result.valid = true;
+  result.max_penetration = rungs[rung];
+}
+
 /// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
-bool Verifier::Impl::check(const Actor& a, const Actor& b, std::size_t& rung, MotionCheck& result) const {
+bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung,
+                           MotionCheck& result) const {
   const double allowed = overlap(a.part, b.part);
-  Aabb near = a.swept;
-  near.inflate(kStill);
-  if (!near.overlaps(b.swept)) return true;
   if (verify::RelativeMotion(a.poses, b.poses, bodies[a.part].box).constant(kStill)) return true;
   for (const auto& x : bodies[a.part].solids)
     for (const auto& y : bodies[b.part].solids)
-      if (!check(a, b, x, y, allowed, rung, result)) return false;
+      if (!check(a, b, x, y, allowed, context, rung, result)) return false;
   return true;
 }
 
 bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
-                           double allowed, std::size_t& rung, MotionCheck& result) const {
+                           double allowed, const RunContext& context, std::size_t& rung, MotionCheck& result) const {
   const auto grown = [&](Aabb box) {  // displaced corners may leave the box by as much as they are displaced
     box.inflate(allowed + options.max_penetration);
     return box;
@@ -188,10 +251,14 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   for (bool first_try = true;; first_try = false) {
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
     verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
-                          decides ? kFullPatches : kTryPatches, 0};
+                          decides ? kFullPatches : kTryPatches, 0, &context};
     Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
+    if (f.answer == Answer::exhausted && context.should_stop()) {
+      result.interrupted = true;
+      return false;
+    }
     if (first_try) {  // before more effort: how deep is it at least?
       const Finding seen = verify::deepest_sample(x, y, forward, backward);
       if (seen.depth > f.depth || f.answer != Answer::violated)
@@ -224,10 +291,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   }
 }
 
-Verifier::Verifier(const Assembly& assembly, VerifyOptions options) {
+Verifier::Verifier(const Assembly& assembly, VerifyOptions options, unsigned threads) {
   if (!(options.max_penetration > 0) || !std::isfinite(options.max_penetration))
     throw std::invalid_argument("Verifier: max_penetration must be finite and > 0");
-  impl_ = std::make_unique<Impl>(assembly, options);
+  impl_ = std::make_unique<Impl>(assembly, options, threads);
 }
 
 Verifier::~Verifier() = default;
@@ -238,6 +305,11 @@ const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
 
 MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                                    const Path& path) const {
+  return check_motion(moving, still, path, RunContext{});
+}
+
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+                                   const Path& path, const RunContext& context) const {
   if (path.size() < 2) throw std::invalid_argument("Verifier: a path needs two instants at least");
   for (const auto& row : path) {
     if (row.size() != moving.size()) throw std::invalid_argument("Verifier: path has the wrong number of columns");
@@ -257,16 +329,15 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
     actor.swept = box_along(impl_->bodies.at(s.part).box, actor.poses);
     others.push_back(std::move(actor));
   }
-  MotionCheck result;
-  std::size_t rung = 0;
+  Impl::Pairs pairs;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     for (const auto& other : others)
-      if (!impl_->check(movers[i], other, rung, result)) return result;
+      if (impl_->near(movers[i], other)) pairs.emplace_back(&movers[i], &other);
     for (std::size_t k = i + 1; k < movers.size(); ++k)
-      if (!impl_->check(movers[i], movers[k], rung, result)) return result;
+      if (impl_->near(movers[i], movers[k])) pairs.emplace_back(&movers[i], &movers[k]);
   }
-  result.valid = true;
-  result.max_penetration = impl_->rungs[rung];
+  MotionCheck result;
+  impl_->check(pairs, context, result);
   return result;
 }
 
@@ -287,7 +358,7 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
       grown = y.box;
       grown.inflate(limits.most());
       const verify::RelativeMotion backward(poses_b, poses_a, grown);
-      verify::Budget budget{kQuickTests, kQuickPatches, 0};
+      verify::Budget budget{kQuickTests, kQuickPatches};
       if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
   return true;
@@ -299,6 +370,48 @@ std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving
   if (auto found = impl_->shut_in(moving, still)) return found;
   // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
   return moving.size() == 1 ? impl_->shut_in(still, moving) : std::nullopt;
+}
+
+const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part) const {
+  const std::scoped_lock guard(middles_guard);
+  auto& known = middles.at(part);
+  if (!known) {
+    known.emplace();
+    for (const auto& solid : bodies.at(part).solids)
+      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration));
+  }
+  return *known;
+}
+
+std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
+  const double depth = (overlap(a, b) + options.max_penetration) * (1 + 1e-6);
+  constexpr std::size_t kRings = 4;
+  Aabb near = bodies.at(a).box;
+  near.inflate(options.max_penetration);
+  if (!near.overlaps(bodies.at(b).box)) return std::nullopt;
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+    for (const auto& x : bodies[inside].solids)
+      for (const verify::InnerRing& ring : verify::rings_in(x, depth, kRings))
+        for (const auto& y : bodies[other].solids)
+          if (const auto cage = verify::ring_cage(ring, y))
+            return Cage{Cage::Kind::ring, inside, other, ring.center, 2 * ring.radius, cage->opening};
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+    for (std::size_t i = 0; i < bodies[inside].solids.size(); ++i)
+      for (const auto& y : bodies[other].solids)
+        if (const auto cage = verify::hook_cage(bodies[inside].solids[i], middles_of(inside)[i], y, depth))
+          return Cage{Cage::Kind::hook, inside, other, cage->hole, 0, cage->width};
+  return std::nullopt;
+}
+
+std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
+  if (a > b) std::swap(a, b);
+  {
+    const std::scoped_lock guard(impl_->cages_guard);
+    if (const auto known = impl_->cages.find({a, b}); known != impl_->cages.end()) return known->second;
+  }
+  const auto found = impl_->caged(a, b);
+  const std::scoped_lock guard(impl_->cages_guard);
+  return impl_->cages.try_emplace({a, b}, found).first->second;
 }
 
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {

@@ -22,6 +22,10 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
               .max = 1e8,
               .doc = "When neither parts nor groups are free: largest number of states in the search for slides that "
                      "leave parts part-way (puzzles). 0 = no such search."});
+  schema.add(
+      "cages", &BlockingParams::cages,
+      {.doc = "Then look whether two parts provably hold each other (a ring in a groove, a bent bar in a hole), and "
+              "move those as one."});
   schema.add("turns", &BlockingParams::turns,
              {.doc = "Then turn parts about the axes of their round surfaces, and leave them turned where that frees "
                      "another part (latches)."});

@@ -12,6 +12,7 @@ struct BlockingParams {
   bool straight = true;
   bool groups = true;
   std::int64_t slide_states = 60'000;
+  bool cages = true;
   bool turns = true;
   unsigned max_depth = 8;
   static void describe(Schema<BlockingParams>& schema);

@@ -1,10 +1,8 @@
 #include "blocking/relations.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "dismantle/geometry/hull.h"
 
@@ -18,8 +16,8 @@ constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
 
 }  // namespace
 
-Relations::Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions)
-    : assembly_(assembly), judge_(judge), directions_(directions), shadows_(directions.all.size()) {
+Relations::Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions, unsigned threads)
+    : directions_(directions), shadows_(directions.all.size()), answers_(judge, threads) {
   for (const auto& part : assembly.parts) hulls_.push_back(hull_corners(part.mesh->vertices));
   for (const auto& d : directions.all) {
     const Vec3 across = d.unitOrthogonal();
@@ -69,14 +67,24 @@ std::size_t Relations::turn(const Eigen::Quaterniond& q) {
   return static_cast<std::size_t>(known - turns_.begin());
 }
 
-/// One key for both ways of looking at a pair: i along d past j is j along -d past i.
-Relations::Key Relations::key_of(const Pair& p) {
+/// One of both ways of looking at a pair: i along d past j is j along -d past i. A proof that has a budget may tell
+/// them apart, and rounding offsets; asked like this, it does not matter who asks.
+Pair Relations::canonical(Pair p) {
+  if (p.moving > p.still) {
+    std::swap(p.moving, p.still);
+    std::swap(p.turn_moving, p.turn_still);
+    p.offset = -p.offset;
+    p.direction = Directions::opposite(p.direction);
+  }
+  for (double& x : p.offset) x = kGrid * std::round(x / kGrid) + 0.0;
+  return p;
+}
+
+Relations::Key Relations::key_of(const Pair& pair) {
+  const Pair p = canonical(pair);
   const auto grid = [](double x) { return std::lround(x / kGrid); };
-  const Vec3 o = p.moving < p.still ? p.offset : Vec3(-p.offset);
-  if (p.moving < p.still)
-    return {p.moving, p.still, p.direction, grid(o.x()), grid(o.y()), grid(o.z()), p.turn_moving, p.turn_still};
-  return {p.still,      p.moving,     Directions::opposite(p.direction), grid(o.x()), grid(o.y()), grid(o.z()),
-          p.turn_still, p.turn_moving};
+  return {p.moving,           p.still,       p.direction, grid(p.offset.x()), grid(p.offset.y()),
+          grid(p.offset.z()), p.turn_moving, p.turn_still};
 }
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
@@ -95,11 +103,12 @@ bool Relations::far(const Pair& p) const {
   return false;
 }
 
-bool Relations::ask(const Pair& p) const {
+PassQuestion Relations::question(const Pair& pair) const {
+  const Pair p = canonical(pair);
   const Pose begin{p.offset, turns_[p.turn_moving]};
   Pose end = begin;
   end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
-  return !judge_.passes(p.moving, p.still, Pose{Vec3::Zero(), turns_[p.turn_still]}, {begin, end});
+  return {key_of(pair), p.moving, p.still, Pose{Vec3::Zero(), turns_[p.turn_still]}, {begin, end}};
 }
 
 bool Relations::blocks(const Pair& pair) {
@@ -107,29 +116,31 @@ bool Relations::blocks(const Pair& pair) {
   const Key key = key_of(pair);
   const auto found = blocks_.find(key);
   if (found != blocks_.end()) return found->second;
-  ++computed_;
-  return blocks_.emplace(key, ask(pair)).first->second;
+  const PassQuestion asked = question(pair);
+  return blocks_.emplace(key, answers_.answer({&asked, 1}).front() != 0).first->second;
 }
 
-void Relations::compute(std::span<const Pair> pairs, unsigned threads) {
-  std::vector<std::pair<Key, const Pair*>> todo;
+void Relations::compute(std::span<const Pair> pairs) {
+  std::vector<PassQuestion> todo;
   for (const Pair& pair : pairs)
-    if (!known(pair)) todo.emplace_back(key_of(pair), &pair);
-  const auto by_key = [](const auto& a, const auto& b) { return a.first < b.first; };
+    if (!known(pair)) todo.push_back(question(pair));
+  const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
   std::sort(todo.begin(), todo.end(), by_key);
-  todo.erase(std::unique(todo.begin(), todo.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+  todo.erase(std::unique(todo.begin(), todo.end(), [](const auto& a, const auto& b) { return a.key == b.key; }),
              todo.end());
-  std::vector<char> answers(todo.size());
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t k = next++; k < todo.size(); k = next++) answers[k] = ask(*todo[k].second) ? 1 : 0;
-  };
-  std::vector<std::thread> helpers;
-  for (unsigned t = 1; t < threads && t < todo.size(); ++t) helpers.emplace_back(work);
-  work();
-  for (auto& helper : helpers) helper.join();
-  for (std::size_t k = 0; k < todo.size(); ++k) blocks_.emplace(todo[k].first, answers[k] != 0);
-  computed_ += todo.size();
+  const std::vector<char> answers = answers_.answer(todo);
+  for (std::size_t k = 0; k < todo.size(); ++k) blocks_.emplace(todo[k].key, answers[k] != 0);
+}
+
+void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
+  std::deque<AnswersAhead::Line> lines;
+  for (const auto& list : lists) {
+    AnswersAhead::Line line;
+    for (const Pair& pair : list)
+      if (!known(pair)) line.push_back(question(pair));
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
+  answers_.hint(std::move(lines));
 }
 
 }  // namespace dismantle::blocking

@@ -5,12 +5,12 @@
 
 #include <cstdint>
 #include <map>
-#include <mutex>
 #include <span>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
 
+#include "blocking/answers_ahead.h"
 #include "blocking/directions.h"
 #include "dismantle/verify/verifier.h"
 
@@ -25,16 +25,21 @@ struct Pair {
 };
 
 /// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
-/// its end. Not safe to call from several threads; works on several itself.
+/// its end. Not safe to call from several threads; works on `threads` itself.
 class Relations {
  public:
   /// All references must outlive this.
-  Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions);
+  Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions, unsigned threads = 1);
 
   bool blocks(const Pair& pair);
-  /// The same for many, on so many threads.
-  void compute(std::span<const Pair> pairs, unsigned threads);
+  /// The same for many.
+  void compute(std::span<const Pair> pairs);
+  /// Asked for before, or far. What was found ahead does not count, so that threads do not show.
   bool known(const Pair& pair) const;
+  /// Worth telling what will probably be asked?
+  bool wants_hints() const { return answers_.works_ahead() && answers_.waiting() < kEnoughHints; }
+  /// Each list in the order in which it will be asked, until a pair is blocked. Replaces what was told before.
+  void hint(const std::vector<std::vector<Pair>>& lists);
   /// Certainly apart all the way, by boxes alone.
   bool far(const Pair& pair) const;
   /// Way along d after which `moving` is past `still`.
@@ -43,20 +48,21 @@ class Relations {
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
   /// A number for a rotation from the assembled orientation; 0 is none. Equal rotations have equal numbers.
   std::size_t turn(const Eigen::Quaterniond& q);
-  std::uint64_t computed() const { return computed_; }
+  /// How many were asked for.
+  std::uint64_t computed() const { return blocks_.size(); }
 
  private:
   struct Shadow {
     double lo[3], hi[3];  // along the direction and two across it
   };
-  using Key = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
+  using Key = RelationKey;
+  static constexpr std::size_t kEnoughHints = 16;
+  static Pair canonical(Pair pair);
   static Key key_of(const Pair& pair);
+  PassQuestion question(const Pair& pair) const;
   Shadow cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
-  bool ask(const Pair& pair) const;
 
-  const Assembly& assembly_;
-  const Verifier& judge_;
   const Directions& directions_;
   std::vector<std::vector<Eigen::Vector3d>> hulls_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
@@ -64,7 +70,7 @@ class Relations {
   std::vector<Eigen::Quaterniond> turns_{Eigen::Quaterniond::Identity()};
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
-  std::uint64_t computed_ = 0;
+  AnswersAhead answers_;
 };
 
 }  // namespace dismantle::blocking

@@ -159,7 +159,7 @@ void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
       for (const UnitId other : group.units)
         if (other != u)
           for (const Pair& pair : pairs_of(u, other, d)) pairs.push_back(pair);
-      relations_->compute(pairs, context_.threads);
+      relations_->compute(pairs);
       if (stop()) return;
       std::vector<UnitId> in_way;
       for (const Pair& pair : pairs)

@@ -9,7 +9,7 @@ namespace dismantle::blocking {
 namespace {
 
 constexpr std::size_t kWave = 4;       // directions of one part that are looked at together, nearest way out first
-constexpr std::size_t kLookAhead = 4;  // parts per thread that are looked at together
+constexpr std::size_t kHints = 24;     // directions about which other threads are told ahead
 constexpr double kBeyond = 1e-3;       // assembly units: how far past the last part a way leads at most
 constexpr int kHalvings = 12;          // of the way, to find where the hulls come apart
 constexpr double kClear = 0.01;        // assembly units: further than that, so that rounding when written does no harm
@@ -62,80 +62,93 @@ std::vector<std::size_t> TakingApart::directions_of(const Group& group, UnitId u
   return list;
 }
 
-/// What has to be known next to decide whether `unit` is free along `direction`. Nothing: it is decided; then
-/// watched_ names one that is in the way, or nobody.
-std::optional<Pair> TakingApart::open_question(const Group& group, UnitId unit, std::size_t direction) {
+/// Pairs that have to be known to decide whether `unit` is free along `direction`, the likeliest to be in the way
+/// first. None: it is decided; then watched_ names one that is in the way, or nobody.
+std::vector<Pair> TakingApart::open_questions(const Group& group, UnitId unit, std::size_t direction) {
   const auto watched = watched_[unit].find(direction);
   if (watched != watched_[unit].end()) {
-    if (in_group(group, watched->second)) return std::nullopt;  // as long as that one is there
+    if (in_group(group, watched->second)) return {};  // as long as that one is there
     watched_[unit].erase(watched);
   }
-  std::optional<Pair> nearest;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest is the likeliest
   for (const UnitId other : group.units) {
     if (other == unit) continue;
     for (const Pair& pair : pairs_of(unit, other, direction)) {
       if (relations_->known(pair)) {
         if (!relations_->blocks(pair)) continue;
         watched_[unit][direction] = other;
-        return std::nullopt;
+        return {};
       }
-      // The nearest is the likeliest to be in the way.
-      const double gap = relations_->extent(pair.still, direction, pair.turn_still).first -
-                         relations_->extent(pair.moving, direction, pair.turn_moving).second -
-                         pair.offset.dot(directions_.all[direction]);
-      if (gap < least) {
-        least = gap;
-        nearest = pair;
-      }
+      unknown.emplace_back(relations_->extent(pair.still, direction, pair.turn_still).first -
+                               relations_->extent(pair.moving, direction, pair.turn_moving).second -
+                               pair.offset.dot(directions_.all[direction]),
+                           pair);
     }
   }
-  return nearest;
+  std::stable_sort(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Pair> pairs;
+  for (const auto& [gap, pair] : unknown) pairs.push_back(pair);
+  return pairs;
 }
 
-/// Decides the directions of `units` wave by wave, each unit until it has a free one.
-void TakingApart::resolve(const Group& group, const std::vector<UnitId>& units) {
-  struct Task {
-    UnitId unit;
-    std::vector<std::size_t> directions;
-    std::size_t wave = 0;
-  };
-  std::vector<Task> tasks;
-  for (const UnitId u : units) tasks.push_back({u, directions_of(group, u), 0});
-  while (!tasks.empty() && !stop()) {
+/// Decides the directions of `unit` wave by wave, until it has a free one. `next`: units whose turn it probably is
+/// then.
+void TakingApart::resolve(const Group& group, UnitId unit, std::span<const UnitId> next) {
+  const std::vector<std::size_t> directions = directions_of(group, unit);
+  for (std::size_t first = 0; first < directions.size() && !stop();) {
+    const std::size_t last = std::min(first + kWave, directions.size());
     std::vector<Pair> questions;
-    for (auto task = tasks.begin(); task != tasks.end();) {
-      const std::size_t first = task->wave * kWave;
-      const std::size_t last = std::min(first + kWave, task->directions.size());
-      bool open = false, free = false;
-      for (std::size_t k = first; k < last; ++k) {
-        const std::size_t d = task->directions[k];
-        if (const auto question = open_question(group, task->unit, d)) {
-          questions.push_back(*question);
-          open = true;
-        } else {
-          free = free || !watched_[task->unit].contains(d);
-        }
-      }
-      if (open) {
-        ++task;
-      } else if (free || last == task->directions.size()) {
-        task = tasks.erase(task);
-      } else {
-        ++task->wave;
-      }
+    bool free = false;
+    for (std::size_t k = first; k < last; ++k) {
+      if (const auto open = open_questions(group, unit, directions[k]); !open.empty())
+        questions.push_back(open.front());
+      else
+        free = free || !watched_[unit].contains(directions[k]);
     }
-    relations_->compute(questions, context_.threads);
+    if (!questions.empty()) {
+      if (relations_->wants_hints()) hint(group, std::span(directions).subspan(first), unit, next);
+      relations_->compute(questions);
+    } else {
+      if (free) return;
+      first = last;
+    }
   }
+}
+
+/// What will probably be asked: about `unit` in these directions, then about the first that are open of those after it.
+void TakingApart::hint(const Group& group, std::span<const std::size_t> directions, UnitId unit,
+                       std::span<const UnitId> next) {
+  std::vector<std::vector<Pair>> lists;
+  const auto add = [&](UnitId u, std::size_t direction) {
+    auto list = open_questions(group, u, direction);
+    if (list.empty()) return false;
+    lists.push_back(std::move(list));
+    return true;
+  };
+  for (const std::size_t d : directions)
+    if (lists.size() < kHints) add(unit, d);
+  for (const UnitId u : next) {
+    if (lists.size() >= kHints) break;
+    std::size_t open = 0;
+    for (const std::size_t d : directions_of(group, u)) {
+      if (open == kWave || lists.size() >= kHints) break;
+      if (add(u, d))
+        ++open;
+      else if (!watched_[u].contains(d))
+        break;  // free
+    }
+  }
+  relations_->hint(lists);
 }
 
 /// The shortest way out among the first wave of directions that has a free one.
-std::optional<std::size_t> TakingApart::free_direction(const Group& group, UnitId unit) {
-  resolve(group, {unit});
+std::optional<std::size_t> TakingApart::free_direction(const Group& group, UnitId unit, std::span<const UnitId> next) {
+  resolve(group, unit, next);
   if (stop()) return std::nullopt;
   for (const std::size_t d : directions_of(group, unit)) {
     if (watched_[unit].contains(d) || refused_.contains({units_[unit], d})) continue;
-    if (open_question(group, unit, d)) continue;  // not looked at: a nearer wave had a free one, which was refused
+    if (!open_questions(group, unit, d).empty())
+      continue;  // not looked at: a nearer wave had a free one, which was refused
     if (!watched_[unit].contains(d)) return d;
   }
   return std::nullopt;
@@ -178,13 +191,9 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
 
 bool TakingApart::remove_free_unit(Group& group) {
   const std::vector<UnitId> units = group.units;
-  const std::size_t ahead = context_.threads > 1 ? kLookAhead * context_.threads : 1;
   for (std::size_t k = 0; k < units.size() && !stop(); ++k) {
-    if (k % ahead == 0 && ahead > 1)  // only makes the answers known sooner
-      resolve(group, {units.begin() + static_cast<std::ptrdiff_t>(k),
-                      units.begin() + static_cast<std::ptrdiff_t>(std::min(k + ahead, units.size()))});
     if (!may_leave(group, {units[k]})) continue;
-    while (const auto d = free_direction(group, units[k]))
+    while (const auto d = free_direction(group, units[k], std::span(units).subspan(k + 1)))
       if (leave(group, {units[k]}, *d)) return true;
   }
   return false;
@@ -206,7 +215,7 @@ bool TakingApart::remove_for_target(Group& group) {
       for (const UnitId other : group.units)
         if (other != unit)
           for (const Pair& pair : pairs_of(unit, other, d)) pairs.push_back(pair);
-      relations_->compute(pairs, context_.threads);
+      relations_->compute(pairs);
       std::vector<UnitId> in_way;
       for (const Pair& pair : pairs)
         if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
@@ -235,7 +244,7 @@ bool TakingApart::split(Group& group) {
       for (std::size_t j = 0; j < n; ++j)
         if (i != j)
           for (const Pair& pair : pairs_of(group.units[i], group.units[j], d)) pairs.push_back(pair);
-    relations_->compute(pairs, context_.threads);
+    relations_->compute(pairs);
     std::vector<std::vector<std::size_t>> in_way(n);
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) {

@@ -59,7 +59,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   groups_.push_back(std::move(all));
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
-    relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_);
+    relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_, context.threads);
   }
 }
 
@@ -97,6 +97,7 @@ void TakingApart::dismantle(Group group) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
+    if (relations_ && params_.cages && join_held(group)) continue;
     if (relations_ && params_.turns && group.units.size() > 2 && !group.turns_done &&
         (group.depth > 1 || group.searched_out)) {
       if (turn(group)) continue;
@@ -208,13 +209,15 @@ bool TakingApart::unit_locked(UnitId unit) const {
 
 /// Parts of a unit that nothing can part have no way, and the oracle knows why.
 void TakingApart::tell_locked(UnitId unit) {
-  const auto& parts = units_[unit];
+  const auto& parts = units_[unit];  // a unit that was joined to another has none
   for (const PartId id : parts) {
     Attempt attempt;
     for (const PartId other : parts) (other == id ? attempt.moving : attempt.still).push_back({other, poses_[other]});
     Unsolved u;
     u.part = id;
-    if (locked_[id]) {
+    if (const auto held = held_.find(id); held != held_.end()) {
+      u = held->second;
+    } else if (locked_[id]) {
       const PathResult& result = oracle_.attempt(attempt, context_).result;
       u.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
       u.blocked_by = result.blocked_by;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,12 +69,18 @@ class TakingApart {
   bool remove_for_target(Group& group);
   bool split(Group& group);
   bool leave(Group& group, const std::vector<UnitId>& units, std::size_t direction);
-  void resolve(const Group& group, const std::vector<UnitId>& units);
-  std::optional<std::size_t> free_direction(const Group& group, UnitId unit);
-  std::optional<Pair> open_question(const Group& group, UnitId unit, std::size_t direction);
+  void resolve(const Group& group, UnitId unit, std::span<const UnitId> next);
+  void hint(const Group& group, std::span<const std::size_t> directions, UnitId unit, std::span<const UnitId> next);
+  std::optional<std::size_t> free_direction(const Group& group, UnitId unit, std::span<const UnitId> next = {});
+  std::vector<Pair> open_questions(const Group& group, UnitId unit, std::size_t direction);
   std::vector<Pair> pairs_of(UnitId moving, UnitId still, std::size_t direction) const;
   std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
+
+  // holding.cpp: pairs that are proved to hold each other
+  bool join_held(Group& group);
+  void join(Group& group, UnitId u, UnitId v);
+  bool passes_straight(PartId a, PartId b);
 
   // turning.cpp: parts that are turned where they are
   bool turn(Group& group);
@@ -99,8 +106,11 @@ class TakingApart {
   SequenceObserver& observer_;
   RunContext& context_;
   std::vector<std::vector<PartId>> units_;
-  std::vector<UnitId> unit_of_;    // by part
-  std::vector<bool> locked_;       // by part: into another of its unit
+  std::vector<UnitId> unit_of_;                    // by part
+  std::vector<bool> locked_;                       // by part: into another of its unit
+  std::map<PartId, Unsolved> held_;                // of those: held by another without overlap, and why
+  std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
+  std::size_t proofs_ = 0;
   std::vector<Pose> poses_;        // by part
   std::vector<std::size_t> turn_;  // by part: the rotation in poses_, as relations_ names it
   std::deque<Group> groups_;       // waiting

@@ -47,9 +47,9 @@ std::optional<std::pair<TakingApart::UnitId, std::size_t>> TakingApart::freed_by
       if (watched == watched_[u].end() || watched->second != unit) continue;
       // Another that is in the way holds whatever this one does; if it is this one again, it was before.
       watched_[u].erase(watched);
-      while (const auto question = open_question(group, u, d)) {
+      for (auto open = open_questions(group, u, d); !open.empty(); open = open_questions(group, u, d)) {
         ++turn_questions_;
-        relations_->blocks(*question);
+        relations_->blocks(open.front());
       }
       if (!watched_[u].contains(d)) return std::pair(u, d);
     }

@@ -11,8 +11,9 @@ Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
   out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
   out.path_planner_id = config.path_planner.type;
   if (config.layout.enabled) {
-    out.transfer_planner =
-        registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
+    out.transfer_planner = [&registry, choice = config.transfer_planner] {
+      return registry.create<TransferPlanner>(choice.type, choice.params);
+    };
     out.transfer_planner_id = config.transfer_planner.type;
   }
   return out;

@@ -10,6 +10,7 @@
 #include "dismantle/export.h"
 #include "dismantle/model/assembly.h"
 #include "dismantle/path_planner.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle {
 
@@ -32,7 +33,8 @@ struct MotionCheck {
   bool valid = false;
   double max_penetration = 0;  ///< valid: certified upper bound above the initial overlap (a rung of a fixed ladder)
   std::optional<Violation> violation;
-  std::uint64_t tests = 0;  ///< elementary sweep tests done
+  std::uint64_t tests = 0;   ///< elementary sweep tests done
+  bool interrupted = false;  ///< not valid, for it was told to stop
 };
 
 /// Two parts that overlap when assembled in such a way that no motion within the limits can part them: a point lies in
@@ -52,6 +54,19 @@ struct Enclosure {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the ball's centre, assembled
   double radius = 0;                                ///< assembly units
   std::vector<PartId> around;                       ///< those that bound its room, most of it first
+};
+
+/// Two parts that hold each other though nothing of them overlaps: no motion within the limits parts them.
+struct Cage {
+  enum class Kind {
+    ring,  ///< a circle within `inside` is in a chamber of `other`, all of whose openings are narrower
+    hook,  ///< `inside` goes through a hole in `other`, between two bends that cannot follow
+  };
+  Kind kind = Kind::ring;
+  PartId inside = 0, other = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the circle's centre; a point of `inside` in the hole; assembled
+  double size = 0;                                  ///< diameter of the circle, assembly units; 0 for a hook
+  double opening = 0;                               ///< diameter of the widest opening, or of the hole
 };
 
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
@@ -77,13 +92,17 @@ struct Enclosure {
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
  public:
-  Verifier(const Assembly& assembly, VerifyOptions options);
+  /// `threads` (>= 1): how many may build it; it does not depend on that.
+  Verifier(const Assembly& assembly, VerifyOptions options, unsigned threads = 1);
   ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
   /// relative to each other are not looked at.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                            const Path& path) const;
+  /// The same with so many threads, until told to stop.
+  MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still, const Path& path,
+                           const RunContext& context) const;
   /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
   /// means refused, or not proved with a small share of the effort.
   bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
@@ -92,6 +111,9 @@ class DISMANTLE_API Verifier {
   const VerifyOptions& options() const;
   /// All pairs that are locked by their overlap, sorted by (a, b) as Assembly::overlaps. Found when built.
   const std::vector<Lock>& locks() const;
+  /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
+  /// no motion within the limits leads out of it. Fractions of a second up to a few.
+  std::optional<Cage> caged(PartId a, PartId b) const;
   /// Are the moving parts shut in by the still ones, or (a single moving part) one of those by it? Found only when it
   /// can be proved within a fixed effort; a fraction of a second up to a few.
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& moving, const std::vector<PlacedPart>& still) const;

@@ -1,0 +1,52 @@
+#include "dismantle/verify/explanations.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+namespace dismantle {
+
+namespace {
+
+std::string place(const Eigen::Vector3d& assembled, const Assembly& assembly) {
+  const Eigen::Vector3d p = assembly.normalization.to_input(assembled);
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
+}
+
+}  // namespace
+
+std::string describe(const Lock& lock, const Assembly& assembly) {
+  return fmt::format(
+      "'{0}' and '{1}' are locked into each other: {2} lies in both, {3:.4g} below the surface of '{0}', so on any way "
+      "apart '{1}' cuts so deep into it; {4:.4g} is allowed (assembly units; see verify.max_penetration)",
+      assembly.parts[lock.inside].name, assembly.parts[lock.other].name, place(lock.point, assembly), lock.depth,
+      lock.allowed);
+}
+
+std::string describe(const Enclosure& enclosure, const Assembly& assembly) {
+  std::vector<std::string> around;
+  for (const PartId id : enclosure.around) around.push_back(fmt::format("'{}'", assembly.parts[id].name));
+  return fmt::format(
+      "'{}' is shut in by {}: a ball of radius {:.4g} (assembly units) about {}, which it holds, is too large for "
+      "every "
+      "way out, less the penetration that is allowed",
+      assembly.parts[enclosure.inside].name, fmt::join(around, ", "), enclosure.radius,
+      place(enclosure.point, assembly));
+}
+
+std::string describe(const Cage& cage, const Assembly& assembly) {
+  const std::string &inside = assembly.parts[cage.inside].name, &other = assembly.parts[cage.other].name;
+  if (cage.kind == Cage::Kind::ring)
+    return fmt::format(
+        "'{0}' and '{1}' hold each other: '{0}' has a ring of diameter {2:.4g} about {3} in a chamber of '{1}', which "
+        "opens no wider than {4:.4g} (assembly units, less the penetration that is allowed)",
+        inside, other, cage.size, place(cage.point, assembly), cage.opening);
+  return fmt::format(
+      "'{0}' and '{1}' hold each other: '{0}' goes through a hole in '{1}' at {2}, {3:.4g} wide (assembly units), and "
+      "is "
+      "bent on both sides; neither bend can follow, less the penetration that is allowed",
+      inside, other, place(cage.point, assembly), cage.opening);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,429 @@
+#include "verify/hook_cage.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "verify/patch.h"
+#include "verify/section.h"
+
+namespace dismantle::verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using std::numbers::pi;
+
+constexpr double kSamples = 5'000;        // of the bar's surface
+constexpr std::size_t kMostNodes = 1200;  // of its middle
+constexpr double kJoined = 0.95;          // of what two nodes keep: so near each other they are joined
+constexpr std::size_t kDirections = 400;  // in which a bend's lines are looked for
+constexpr std::size_t kHoles = 4;         // holes tried
+constexpr std::size_t kNear = 40;         // nodes on each side of a hole where bends are looked for
+constexpr std::size_t kBends = 3;         // bends tried on each side
+constexpr int kStepsAlong = 14;           // of a bend's lines; each half of what the corner keeps
+constexpr int kFinest = 6;                // halvings of the faces of a cube of directions
+constexpr std::size_t kShortest = 8;      // ... and fewer are no line
+constexpr double kLeast = 50 * pi / 180;  // a bend is no less than that
+
+/// A point in the middle of the bar and what it keeps.
+struct Node {
+  Vec3 at;
+  double keep;
+};
+
+double ball_at(const Solid& solid, const Vec3& p, const Vec3& inward, double most) {
+  double radius = most;
+  for (int k = 0; k < 30; ++k) {
+    const ClosestPoint seen = solid.bvh.closest(p + radius * inward, radius * (1 - 1e-9));
+    if (!(seen.distance < radius - 1e-7)) break;
+    const Vec3 to = seen.point - p;
+    const double along = to.dot(inward);
+    if (!(along > 0)) return 0;
+    const double next = to.squaredNorm() / (2 * along);
+    if (!(next < radius)) break;
+    radius = next;
+  }
+  return radius;
+}
+
+/// To where it is deeper, as far as that goes: a ball that touches a flat facet beside its middle is smaller than the
+/// one that fits in.
+Vec3 deeper(const Solid& bar, Vec3 p) {
+  Escape at = escape_at(p, bar);
+  double step = 0.3 * at.depth;
+  for (int k = 0; k < 40 && step > 0.01 * at.depth; ++k) {
+    const Vec3 next = p - step * at.out;
+    const Escape there = escape_at(next, bar);
+    if (there.depth > at.depth) {
+      p = next;
+      at = there;
+    } else {
+      step *= 0.5;
+    }
+  }
+  return p;
+}
+
+/// Nodes for a depth, thinned out: the deepest first, others only at some distance.
+std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth) {
+  std::vector<Node> nodes;
+  for (const InnerBall& ball : balls) {
+    const Node n{ball.center, ball.radius - depth};
+    if (nodes.size() == kMostNodes || !(n.keep > 0.1 * depth)) break;
+    // Balls in edges and corners, beside much larger ones.
+    if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& m) {
+          const double apart = (m.at - n.at).norm();
+          return apart < 0.3 * m.keep || (m.keep > 1.5 * n.keep && apart < 2 * m.keep);
+        }))
+      continue;
+    nodes.push_back(n);
+  }
+  return nodes;
+}
+
+using Joined = std::vector<std::vector<std::size_t>>;
+
+Joined join(const std::vector<Node>& nodes) {
+  Joined joined(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if ((nodes[i].at - nodes[k].at).norm() < kJoined * (nodes[i].keep + nodes[k].keep)) {
+        joined[i].push_back(k);
+        joined[k].push_back(i);
+      }
+  return joined;
+}
+
+/// Where the bar goes at a node.
+Vec3 course(const std::vector<Node>& nodes, std::size_t node) {
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (const Node& n : nodes) {
+    const Vec3 d = n.at - nodes[node].at;
+    if (d.norm() < 2 * nodes[node].keep) second += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second);
+  return axes.eigenvectors().col(2);
+}
+
+/// Curves on the surface close around the bar, one for each hole, in the middle of it; with the node there.
+std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const Solid& around,
+                                                const std::vector<Node>& nodes) {
+  struct Tight {
+    std::size_t node;
+    Vec3 along;
+    Loop loop;
+  };
+  std::vector<Tight> tight;
+  const Pose to_local = around.frame.inverse();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 local = to_local * nodes[i].at;
+    const double reach = 4 * nodes[i].keep;
+    if (!(around.bvh.closest(local, reach).distance < reach)) continue;
+    const Vec3 along = course(nodes, i);
+    for (Loop& loop : surface.section({along, along.dot(nodes[i].at)}))
+      if (loop.diameter < 2 * reach && loop.around(nodes[i].at)) tight.push_back({i, along, std::move(loop)});
+  }
+  // Those next to each other belong to one hole.
+  std::vector<std::pair<Loop, std::size_t>> found;
+  std::vector<char> taken(tight.size(), 0);
+  for (std::size_t first = 0; first < tight.size() && found.size() < kHoles; ++first) {
+    if (taken[first]) continue;
+    std::vector<std::size_t> hole{first};
+    taken[first] = 1;
+    for (std::size_t k = 0; k < hole.size(); ++k)
+      for (std::size_t other = 0; other < tight.size(); ++other) {
+        const Node &a = nodes[tight[hole[k]].node], &b = nodes[tight[other].node];
+        if (taken[other] || (a.at - b.at).norm() > 2 * (a.keep + b.keep)) continue;
+        taken[other] = 1;
+        hole.push_back(other);
+      }
+    const Vec3 along = tight[first].along;
+    std::stable_sort(hole.begin(), hole.end(), [&](std::size_t a, std::size_t b) {
+      return along.dot(nodes[tight[a].node].at) < along.dot(nodes[tight[b].node].at);
+    });
+    const Tight& middle = tight[hole[hole.size() / 2]];
+    found.emplace_back(middle.loop, middle.node);
+  }
+  return found;
+}
+
+/// What the surface of another part keeps from the points of a line through the bar; until it keeps nothing.
+std::vector<double> kept_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
+  std::vector<double> keep;
+  for (int k = 0; k < kStepsAlong; ++k) {
+    const double d = escape_at(bar.frame.inverse() * (from + k * step * direction), bar).depth - depth;
+    if (!(d > 0.5 * step)) break;  // so that nothing gets between two points
+    keep.push_back(d);
+  }
+  return keep;
+}
+
+struct Line {
+  Vec3 along;
+  std::vector<double> keep;
+  double worth = 0;  ///< sum of keep
+};
+
+Line line_along(const Solid& bar, const Vec3& corner, const Vec3& along, double step, double depth) {
+  Line line{along, kept_along(bar, corner, along, step, depth), 0};
+  for (const double d : line.keep) line.worth += d;
+  return line;
+}
+
+/// Turned to where it keeps more, while `suits` holds of its direction.
+template <class Suits>
+Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double step, double depth,
+              const Suits& suits) {
+  for (; by > 0.004; by *= 0.5)
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 e = best.along.unitOrthogonal(), f = best.along.cross(e);
+      const double a = k * pi / 4;
+      const Vec3 along = (best.along + by * (std::cos(a) * e + std::sin(a) * f)).normalized();
+      if (!suits(along)) continue;
+      Line next = line_along(bar, corner, along, step, depth);
+      if (next.worth > best.worth) best = std::move(next);
+    }
+  return best;
+}
+
+/// Two lines through the bar that meet at a place near the node, which may move a little to where they keep more.
+std::optional<std::pair<Bend, double>> bend_at(const Solid& bar, const Node& node, double depth) {
+  const double step = 0.5 * node.keep;
+  const auto any = [](const Vec3&) { return true; };
+  const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };
+  std::vector<Line> lines;
+  for (std::size_t k = 0; k < kDirections; ++k) {  // a spiral from pole to pole
+    const double z = 1 - (2 * k + 1.0) / kDirections, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
+    lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step, depth));
+  }
+  Vec3 corner = node.at;
+  Line first = improved(bar, corner, *std::max_element(lines.begin(), lines.end(), better), 0.1, step, depth, any);
+  const auto bends = [&](const Vec3& along) { return std::abs(first.along.dot(along)) < std::cos(kLeast); };
+  std::erase_if(lines, [&](const Line& l) { return !bends(l.along); });
+  if (lines.empty()) return std::nullopt;
+  Line second = improved(bar, corner, *std::max_element(lines.begin(), lines.end(), better), 0.1, step, depth, bends);
+  if (std::min(first.keep.size(), second.keep.size()) < kShortest) return std::nullopt;
+  for (double by = 0.4 * node.keep; by > 0.02 * node.keep; by *= 0.5)
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 at = corner + (k % 2 == 0 ? by : -by) * (k < 2 ? first : second).along;
+      if ((at - node.at).norm() > kJoined * node.keep) continue;
+      Line one = improved(bar, at, line_along(bar, at, first.along, step, depth), 0.05, step, depth, any);
+      Line two = improved(bar, at, line_along(bar, at, second.along, step, depth), 0.05, step, depth, any);
+      if (!(one.worth + two.worth > first.worth + second.worth)) continue;
+      first = std::move(one);
+      second = std::move(two);
+      corner = at;
+    }
+  const std::size_t n = std::min(first.keep.size(), second.keep.size());
+  if (n < kShortest) return std::nullopt;
+  Bend bend{corner, {first.along, second.along}, step, {}};
+  for (std::size_t k = 0; k < n; ++k) bend.keep.push_back(std::min(first.keep[k], second.keep[k]));
+  // What is bent the most keeps the most away.
+  return std::pair(bend, (first.worth + second.worth) * first.along.cross(second.along).norm());
+}
+
+/// A cell of directions: all unit vectors within `radius` (as a distance) of `center`.
+struct Cap {
+  int face, level, x, y;
+  Vec3 center;
+  double radius;
+  Cap(int f, int l, int i, int k) : face(f), level(l), x(i), y(k) {
+    const double edge = 2.0 / (1 << l);
+    const auto at = [&](double u, double v) {
+      Vec3 p;
+      p[f / 2] = f % 2 == 0 ? 1 : -1;
+      p[(f / 2 + 1) % 3] = -1 + edge * u;
+      p[(f / 2 + 2) % 3] = -1 + edge * v;
+      return Vec3(p.normalized());
+    };
+    center = at(i + 0.5, k + 0.5);
+    radius = 0;
+    for (int c = 0; c < 4; ++c) radius = std::max(radius, (at(i + c % 2, k + c / 2) - center).norm());
+  }
+};
+
+/// With the corner anywhere on the disc of `loop`: directions in which a line of the bend may lead.
+class Ways {
+ public:
+  Ways(const Loop& loop, const Solid& around, const Bend& bend)
+      : loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
+    for (int level = 0; level <= kFinest; ++level) places_.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
+    for (int face = 0; face < 6; ++face) cover(Cap(face, 0, 0, 0));
+  }
+  const std::vector<Cap>& directions() const { return found_; }
+
+ private:
+  struct Places {
+    double edge;
+    std::vector<Vec3> centers;
+  };
+
+  double room(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
+
+  /// Squares of the disc in some of which the corner is.
+  Places places(double edge) const {
+    Places result{edge, {}};
+    const Vec3 e = loop_.plane.normal.unitOrthogonal(), f = loop_.plane.normal.cross(e);
+    double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
+    for (const Vec3& p : loop_.points)
+      for (int k = 0; k < 2; ++k) {
+        const double x = (k == 0 ? e : f).dot(p);
+        lo[k] = std::min(lo[k], x);
+        hi[k] = std::max(hi[k], x);
+      }
+    for (double x = lo[0] + 0.5 * edge; x < hi[0] + 0.5 * edge; x += edge)
+      for (double y = lo[1] + 0.5 * edge; y < hi[1] + 0.5 * edge; y += edge) {
+        const Vec3 p = x * e + y * f + loop_.plane.offset * loop_.plane.normal;
+        const double needed = bend_.keep[0] - half_diagonal(edge);
+        // A square that is not within the curve, and whose centre is further from it than its corners are, has no
+        // point within.
+        if (!loop_.around(p) && room(p, half_diagonal(edge) * 1.0001) > half_diagonal(edge)) continue;
+        if (room(p, std::max(needed, 0.0)) >= needed) result.centers.push_back(p);
+      }
+    return result;
+  }
+  static double half_diagonal(double edge) { return std::numbers::sqrt2 / 2 * edge; }
+
+  bool possible(const Cap& cap) {
+    Places& places = places_[static_cast<std::size_t>(cap.level)];
+    for (Vec3& c : places.centers) {
+      bool free = true;
+      for (std::size_t k = bend_.keep.size(); k-- > 1 && free;) {
+        const double s = static_cast<double>(k) * bend_.step;
+        const double needed = bend_.keep[k] - half_diagonal(places.edge) - s * cap.radius;
+        if (needed > 0) free = room(c + s * cap.center, needed) >= needed;
+      }
+      if (!free) continue;
+      std::swap(c, places.centers.front());  // the next direction is near this one
+      return true;
+    }
+    return false;
+  }
+
+  void cover(const Cap& cap) {
+    if (!possible(cap)) return;
+    if (cap.level == kFinest) {
+      found_.push_back(cap);
+      return;
+    }
+    for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2));
+  }
+
+  const Loop& loop_;
+  const Solid& around_;
+  const Bend& bend_;
+  Pose to_local_;
+  std::vector<Places> places_;  ///< by level
+  std::vector<Cap> found_;
+};
+
+/// Can the corner never be on the disc?
+bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend) {
+  const Ways ways(loop, around, bend);
+  const double apart = (bend.along[0] - bend.along[1]).norm();
+  for (const Cap& a : ways.directions())
+    for (const Cap& b : ways.directions())
+      if (std::abs((a.center - b.center).norm() - apart) <= a.radius + b.radius) return false;
+  return true;
+}
+
+/// Nodes that can be reached from `start` without crossing the disc, nearest first.
+std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& nodes, const Joined& joined,
+                                 std::size_t from, bool above) {
+  const auto crosses = [&](const Vec3& a, const Vec3& b) {
+    const double ha = loop.plane.height(a), hb = loop.plane.height(b);
+    return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
+  };
+  std::vector<std::size_t> list;
+  std::vector<char> seen(nodes.size(), 0);
+  seen[from] = 1;
+  for (const std::size_t n : joined[from])
+    if ((loop.plane.height(nodes[n].at) > 0) == above) {
+      seen[n] = 1;
+      list.push_back(n);
+    }
+  for (std::size_t k = 0; k < list.size(); ++k)
+    for (const std::size_t n : joined[list[k]])
+      if (!seen[n] && !crosses(nodes[list[k]].at, nodes[n].at)) {
+        seen[n] = 1;
+        list.push_back(n);
+      }
+  return list;
+}
+
+}  // namespace
+
+std::vector<InnerBall> middle_of(const Solid& bar, double least) {
+  std::vector<InnerBall> balls;
+  const double largest = 0.5 * bar.box.size().minCoeff();
+  if (!(largest > least)) return balls;
+  double area = 0;
+  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) {
+    const Vec3 a = bar.mesh.vertex(t, 0);
+    area += 0.5 * (bar.mesh.vertex(t, 1) - a).cross(bar.mesh.vertex(t, 2) - a).norm();
+  }
+  const double spacing = std::max(least, std::sqrt(area / kSamples));
+  std::map<std::array<long, 3>, Vec3> centers;  // one in each cell of a grid
+  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) {
+    const Vec3 a = bar.mesh.vertex(t, 0), u = bar.mesh.vertex(t, 1) - a, v = bar.mesh.vertex(t, 2) - a;
+    const auto along_u = static_cast<int>(std::ceil(u.norm() / spacing));
+    const auto along_v = static_cast<int>(std::ceil(v.norm() / spacing));
+    for (int i = 0; i < along_u; ++i)
+      for (int k = 0; k < along_v; ++k) {
+        const double x = (i + 0.5) / along_u, y = (k + 0.5) / along_v;
+        if (x + y > 1) continue;
+        const Vec3 p = a + x * u + y * v;
+        const double radius = ball_at(bar, p, -bar.normals[t], largest);
+        if (!(radius > 0.5 * least)) continue;
+        const Vec3 c = p - radius * bar.normals[t];
+        centers.try_emplace({std::lround(c.x() / least), std::lround(c.y() / least), std::lround(c.z() / least)}, c);
+      }
+  }
+  for (const auto& [cell, start] : centers) {
+    const Vec3 center = deeper(bar, start);
+    const double radius = escape_at(center, bar).depth;
+    if (radius > least) balls.push_back({bar.frame * center, radius});
+  }
+  std::stable_sort(balls.begin(), balls.end(),
+                   [](const InnerBall& a, const InnerBall& b) { return a.radius > b.radius; });
+  return balls;
+}
+
+std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
+                                  double depth) {
+  const std::vector<Node> nodes = nodes_of(middle, depth);
+  if (nodes.size() < 8) return std::nullopt;
+  const Joined joined = join(nodes);
+  const Surface surface(around);
+  for (const auto& [loop, node] : holes(surface, around, nodes)) {
+    HookCage cage{nodes[node].at, loop.diameter, {}};
+    int bent = 0;
+    for (const bool above : {false, true}) {
+      std::vector<std::pair<Bend, double>> bends;
+      std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
+      near.resize(std::min(near.size(), kNear));
+      for (const std::size_t n : near)
+        if (auto bend = bend_at(bar, nodes[n], depth)) bends.push_back(std::move(*bend));
+      std::stable_sort(bends.begin(), bends.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+      bends.resize(std::min(bends.size(), kBends));
+      for (const auto& [bend, worth] : bends) {
+        if (!cannot_pass(loop, around, bend)) continue;
+        cage.bends[above ? 1 : 0] = bend;
+        ++bent;
+        break;
+      }
+      if (bent == 0) break;
+    }
+    if (bent == 2) return cage;
+  }
+  return std::nullopt;
+}
+
+}  // namespace dismantle::verify
