@@ -1,6 +1,7 @@
 /// One attempt, from question to judged answer. The only place where a path planner is called.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "dismantle/path_oracle.h"
@@ -36,6 +37,7 @@ class AttemptRunner {
   struct Judgement;
   PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, Judgement& last) const;
   const Lock* locked(const Attempt& attempt) const;
+  std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   std::string describe(const Lock& lock) const;
   std::string describe(const Enclosure& enclosure) const;
   Judgement judge(const Attempt& attempt, const Path& path) const;

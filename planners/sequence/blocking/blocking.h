@@ -13,6 +13,7 @@ struct BlockingParams {
   bool groups = true;
   std::int64_t slide_states = 60'000;
   bool turns = true;
+  bool at_once = true;
   unsigned max_depth = 8;
   static void describe(Schema<BlockingParams>& schema);
 };

@@ -20,11 +20,13 @@ PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned 
                        RunContext& context) {
   Search translation(query, MotionSpace::translation, tactics, context);
   const auto level = static_cast<std::uint64_t>(depth);
-  limits.expansions = static_cast<std::uint64_t>(tactics.translation_nodes) * level;
+  const bool each_its_way = !query.leaving.empty();  // a state has many more actions then, and somebody turns mostly
+  limits.expansions =
+      static_cast<std::uint64_t>(each_its_way ? tactics.rotation_nodes : tactics.translation_nodes) * level;
   limits.rank = depth;  // the first level: what the contacts leave free, and the axes
   PathResult first = translation.run(limits);
   if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
-  if (depth == 1) {
+  if (depth == 1 && !each_its_way) {
     first.outcome = Outcome::depth_limit;  // what cannot move may still be turned
     return first;
   }

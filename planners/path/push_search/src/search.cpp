@@ -1,8 +1,9 @@
-#include "dismantle/path/touched.h"
 #include "dismantle/push/search.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "dismantle/path/touched.h"
 
 namespace dismantle::push {
 namespace {
@@ -15,6 +16,8 @@ constexpr double kPlaceShare = 5;
 constexpr unsigned kMostRank = 4;
 /// States in the middle of runs wait until the ends have been given all their actions.
 constexpr unsigned kMiddleRank = 2;
+/// So do states in which only one part has moved, where each moves in its own way.
+constexpr unsigned kAloneRank = 2;
 /// Turns that lean end there, in rad.
 constexpr double kOnceRound = 6.5;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
@@ -46,7 +49,9 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       bodies_(balls(*world_)),
       axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.cast, axes_),
-      stages_(space == MotionSpace::translation ? tactics.translating : tactics.turning),
+      stages_(!query.leaving.empty()              ? tactics.each_its_way
+              : space == MotionSpace::translation ? tactics.translating
+                                                  : tactics.turning),
       seen_(bodies_, tactics.similarity_translation, tactics.similarity_rotation),
       fine_(bodies_, kSameShare * tactics.similarity_translation, kSameShare * tactics.similarity_rotation),
       places_(bodies_, kPlaceShare * tactics.similarity_translation, tactics.similarity_rotation) {}
@@ -72,13 +77,8 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   const auto id = static_cast<std::int32_t>(nodes_.size());
   seen_.add(node.state, static_cast<std::uint32_t>(id));
   fine_.add(node.state, static_cast<std::uint32_t>(id));
-  double way_from_start = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    way_from_start =
-        std::max(way_from_start,
-                 (state.bodies[i].pose * bodies_[i].center - query_.cast.moving[i].pose * bodies_[i].center).norm());
-  if (way_from_start > farthest_) {
-    farthest_ = way_from_start;
+  if (const double from_start = way_from_start(state); from_start > farthest_) {
+    farthest_ = from_start;
     best_.clear();
     for (const auto& b : state.bodies) best_.push_back(b.pose);
   }
@@ -86,8 +86,37 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   return id;
 }
 
+/// Has one come apart from all others, or where nobody is to leave the group, the group from the rest?
+bool Search::out(const State& state) {
+  if (query_.leaving.empty()) return world_->separated(state);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto& leaving = query_.leaving;
+    if (std::find(leaving.begin(), leaving.end(), query_.cast.moving[i].part) != leaving.end() &&
+        world_->leaves(state, i))
+      return true;
+  }
+  return false;
+}
+
+/// Of the centre that came furthest. Each in its own way: of the part that came second furthest, turns included; where
+/// that is nothing, one part has moved alone.
+double Search::way_from_start(const State& state) const {
+  std::vector<double> ways;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Pose& start = query_.cast.moving[i].pose;
+    const Pose& now = state.bodies[i].pose;
+    ways.push_back((now * bodies_[i].center - start * bodies_[i].center).norm());
+    if (!query_.leaving.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
+  }
+  std::sort(ways.begin(), ways.end());
+  return query_.leaving.empty() ? ways.back() : ways[ways.size() - 2];
+}
+
 unsigned Search::rank(const Node& node) const {
-  const unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
+  unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
+  // What one part does alone there are other means for.
+  if (!query_.leaving.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
+    stage += kAloneRank;
   if (!tactics_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
   // A state is in its own place once it has been searched from.
@@ -180,7 +209,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     steps_ += report.steps;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
-    if (way.size() > before && world_->separated(state))
+    if (way.size() > before && out(state))
       return judge(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
@@ -239,6 +268,11 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
       return diagonal_actions(*world_, tactics_.force, axes_);
     case Stage::screws:
       return screw_actions(*world_, tactics_.force, axes_);
+    case Stage::one_driven:
+      return one_driven(*world_, tactics_.force, turning(), axes_);
+    case Stage::two_along:
+    case Stage::two_across:
+      return two_driven(*world_, tactics_.force, turning(), axes_, stage == Stage::two_across);
     case Stage::twists:
     case Stage::free:
     case Stage::leaning:
@@ -312,7 +346,7 @@ PathResult Search::run(const Limits& limits) {
   PathResult result;
   if (nodes_.empty()) {
     reset();
-    if (world_->separated(nodes_.front().state)) {
+    if (out(nodes_.front().state)) {
       result.outcome = Outcome::start_is_goal;
       result.path = path_to(0);
       result.path.push_back(result.path.front());

@@ -93,6 +93,7 @@ class MazeWorld final : public World {
       if (maze_.exit.contains(b.pose.t)) return false;
     return true;
   }
+  bool leaves(const State& state, std::size_t body) override { return !maze_.exit.contains(state.bodies[body].pose.t); }
   void learn(PartId, PartId, const Vector3d&) override {
     ++notes_.learned;
     learned_ = true;
