@@ -33,7 +33,7 @@ class TakingApart {
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
     bool turns_done = false;    ///< likewise turns
-    unsigned at_once = 0;       ///< depth to which parts were moved at once, each in its own way, in vain
+    unsigned at_once = 0;       ///< rounds in which parts were moved at once, each in its own way, in vain
     unsigned depth = 1;         ///< of searches by simulation; the effort of the search for slides grows with it
     bool slides_cut = false;    ///< it ended for want of effort
     bool no_slides = false;     ///< it saw all places, and nobody leaves

@@ -9,9 +9,9 @@ namespace dismantle::blocking {
 namespace {
 
 constexpr std::size_t kMostAtOnce = 3;   // parts
-constexpr std::size_t kCandidates = 12;  // that are moved a little, for one group as it stands
-constexpr std::size_t kSearched = 3;     // ... and of those in which several parts moved, so many are searched for more
-constexpr unsigned kDeepest = 4;         // depth of these searches
+constexpr std::size_t kCandidates = 12;  // sets that are moved a little, for one group as it stands
+constexpr std::size_t kSearched = 2;     // ... and of those in which several parts moved, so many are searched for more
+constexpr unsigned kDepths[] = {1, 4};   // of these two rounds
 constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
 constexpr double kMoved = 0.1;              // assembly units; less is play
 
@@ -58,7 +58,7 @@ std::optional<Attempt> TakingApart::question_at_once(const Group& group, const s
   for (const UnitId u : units)
     if (may_leave(group, {u})) attempt.leaving.push_back(units_[u].front());
   if (attempt.leaving.empty()) return std::nullopt;
-  attempt.max_depth = group.at_once;
+  attempt.max_depth = std::min(kDepths[group.at_once - 1], params_.max_depth);
   return attempt;
 }
 
@@ -70,7 +70,8 @@ bool TakingApart::worth_moving(const Group& group, const std::vector<UnitId>& un
   if (std::any_of(last.blocked_by.begin(), last.blocked_by.end(),
                   [&](PartId b) { return !in_group(group, unit_of_[b]); }))
     return true;
-  return last.outcome == Outcome::depth_limit && last.depth < group.at_once && moved_at_once_.contains(units);
+  return last.outcome == Outcome::depth_limit && last.depth < kDepths[group.at_once - 1] &&
+         moved_at_once_.contains(units);
 }
 
 bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
@@ -87,10 +88,12 @@ bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
   }
   const AttemptResult& answer = oracle_.attempt(*asked, context_);
   const PathResult& result = answer.result;
+  const auto count = result.counts.find("steps");
+  const auto steps = static_cast<std::uint64_t>(count == result.counts.end() ? 0 : count->second);
   context_.log(LogLevel::debug, "moving '" + name + "' and " + std::to_string(units.size() - 1) +
                                     " more at once to depth " + std::to_string(asked->max_depth) + ": " +
                                     std::string(to_string(result.outcome)) + ", " + std::to_string(answer.seconds) +
-                                    " s " + result.message);
+                                    " s, " + std::to_string(steps) + " steps " + result.message);
   if (is_success(result.outcome)) {
     const unsigned reached = group.depth;
     book(group, units, *asked, answer);
@@ -112,13 +115,13 @@ bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
   return false;
 }
 
-/// Every set a little; those in which more than one part moved deeper, as deep as single parts were searched for.
+/// Two rounds: every set a little; then those in which more than one part moved deeper, once single parts were searched
+/// for deeper, too.
 bool TakingApart::together(Group& group) {
-  const unsigned most = std::min(kDeepest, params_.max_depth);
-  const unsigned depth = group.searched_out ? most : group.depth > 1 ? std::min(group.depth, most) : 0;
-  if (none_at_once_ || group.at_once >= depth) return false;
+  const unsigned rounds = group.searched_out ? 2 : std::min(group.depth - 1, 2U);
+  if (none_at_once_ || group.at_once >= rounds) return false;
   const std::vector<std::vector<UnitId>> sets = interlocked(group);
-  while (group.at_once < depth) {
+  while (group.at_once < rounds) {
     ++group.at_once;
     std::vector<std::vector<UnitId>> list;
     for (const auto& set : sets)
@@ -129,7 +132,8 @@ bool TakingApart::together(Group& group) {
     }
   }
   if (!sets.empty())
-    group.at_once_said = std::to_string(sets.size()) + " sets of parts were moved at once, each part in its own way";
+    group.at_once_said =
+        std::to_string(sets.size()) + " sets of parts were moved at once, each part in its own way, in vain";
   return false;
 }
 

@@ -39,7 +39,9 @@ struct Tactics {
   double thinning = 1e-4;         ///< assembly units
   std::int64_t max_refusals = 8;
   /// motion auto under a depth limit: states searched from per level of depth.
-  std::int64_t translation_nodes = 24, rotation_nodes = 8;  ///< each part in its own way: rotation_nodes for both
+  std::int64_t translation_nodes = 24, rotation_nodes = 8;
+  /// The same where each part moves in its own way: simulated steps per level of depth, in each motion space.
+  std::int64_t steps_at_once = 2000;
   /// motion auto without one: rank to which translation is searched first, and by how much less rotation is after it.
   unsigned first_rank = 0, turning_lag = 0;
 };
