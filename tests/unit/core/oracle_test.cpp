@@ -231,6 +231,73 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
   EXPECT_TRUE(r.result.best_pose.empty());
 }
 
+/// Two parts of a row go up, each by its own way; part 0 always by 0.1.
+PathResult each_up(const PathQuery& q, double second) {
+  PathResult r;
+  r.path = fake::straight(q.cast, {0, 0, 0.1});
+  r.path[1][1].t.z() = second;
+  const Verdict verdict = q.judge(r.path);
+  r.outcome = verdict.accepted ? Outcome::solved : Outcome::exhausted;
+  r.message = verdict.reason;
+  return r;
+}
+
+TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
+  std::size_t asked = 0;
+  double second = 30;
+  Rig s(fake::row(4), fake::ingredients([&](const PathQuery& q, RunContext&) {
+          ++asked;
+          return each_up(q, second);
+        }));
+  Attempt both;
+  both.moving = {{0, Pose{}}, {1, Pose{}}};
+  both.still = {{2, Pose{}}, {3, Pose{}}};
+  both.leaving = {0, 1};
+  // In a row each block is apart from its neighbours as it stands: put a wide one around them.
+  both.still[0].pose = {Eigen::Vector3d(-4, 0.5, 0), Eigen::Quaterniond::Identity()};
+  const AttemptResult& r = s.ask(both);
+  EXPECT_EQ(r.result.outcome, Outcome::solved) << r.result.message;
+  EXPECT_EQ(r.out, PartId{1}) << "0 has not come far";
+  both.leaving = {1};
+  EXPECT_EQ(s.ask(both).out, PartId{1});
+  EXPECT_EQ(asked, 2u) << "another question: not answered from memory";
+  both.leaving = {1, 1};
+  EXPECT_EQ(s.ask(both).out, PartId{1});
+  both.leaving = {0};
+  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "1 is out, but it is 0 that was to leave";
+  EXPECT_FALSE(s.ask(both).out);
+  EXPECT_EQ(asked, 3u);
+  second = 0.2;
+  both.leaving = {0, 1};
+  both.max_depth = 2;
+  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "nobody is out";
+
+  both.leaving = {2};
+  EXPECT_THROW(s.ask(both), std::invalid_argument) << "it does not move";
+  both.leaving = {0};
+  both.part_way = true;
+  EXPECT_THROW(s.ask(both), std::invalid_argument);
+}
+
+TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
+  class Groups final : public PathPlanner {
+   public:
+    Capabilities needs() const noexcept override { return {}; }
+    PathResult plan(const PathQuery&, RunContext&) override { throw std::logic_error("not to be asked"); }
+  };
+  fake::Script none;
+  Ingredients ingredients = fake::ingredients(none);
+  ingredients.path_planner = [] { return std::make_shared<Groups>(); };
+  Rig s(fake::row(3), ingredients);
+  Attempt both;
+  both.moving = {{0, Pose{}}, {1, Pose{}}};
+  both.still = {{2, Pose{}}};
+  both.leaving = {0};
+  const AttemptResult& r = s.ask(both);
+  EXPECT_EQ(r.result.outcome, Outcome::unsupported);
+  EXPECT_NE(r.result.message.find("each in its own way"), std::string::npos);
+}
+
 TEST(Oracle, JudgesWaysThatItIsShown) {
   Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
   const auto up = [](const Attempt& a, double way) {
