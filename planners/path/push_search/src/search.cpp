@@ -86,32 +86,6 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   return id;
 }
 
-/// Has one come apart from all others, or where nobody is to leave the group, the group from the rest?
-bool Search::out(const State& state) {
-  if (query_.leaving.empty()) return world_->separated(state);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto& leaving = query_.leaving;
-    if (std::find(leaving.begin(), leaving.end(), query_.cast.moving[i].part) != leaving.end() &&
-        world_->leaves(state, i))
-      return true;
-  }
-  return false;
-}
-
-/// Of the centre that came furthest. Each in its own way: of the part that came second furthest, turns included; where
-/// that is nothing, one part has moved alone.
-double Search::way_from_start(const State& state) const {
-  std::vector<double> ways;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Pose& start = query_.cast.moving[i].pose;
-    const Pose& now = state.bodies[i].pose;
-    ways.push_back((now * bodies_[i].center - start * bodies_[i].center).norm());
-    if (!query_.leaving.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
-  }
-  std::sort(ways.begin(), ways.end());
-  return query_.leaving.empty() ? ways.back() : ways[ways.size() - 2];
-}
-
 unsigned Search::rank(const Node& node) const {
   unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
   // What one part does alone there are other means for.
@@ -167,10 +141,17 @@ bool Search::out_of_budget() const {
 
 /// The state of node `last` is out: is the way there valid?
 Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
-  const Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
+  Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
-  const Verdict verdict = query_.judge(path);
+  Verdict verdict = query_.judge(path);
+  if (!verdict.accepted && !query_.leaving.empty()) {
+    Path eased = with_room(path);
+    if (const Verdict again = query_.judge(eased); again.accepted) {
+      verdict = again;
+      path = std::move(eased);
+    }
+  }
   if (verdict.accepted) {
     note_contacts(start);
     result.outcome = Outcome::solved;
