@@ -259,9 +259,13 @@ TEST(Blocking, WhoMayNotLeaveOrMoveIsNotAskedForAtOnce) {
     run(barred_shaft(), fake::ingredients(AtOnce{&leaving}, std::make_shared<Blocking>(params)), options, context);
     return leaving;
   };
-  EXPECT_EQ(asked({.before = {{2, 1}}}), (std::vector<std::vector<PartId>>{{2}})) << "the bar leaves after the drawer";
-  EXPECT_TRUE(asked({.base = {1}}).empty());
-  EXPECT_TRUE(asked({.together = {{0, 1}}}).empty()) << "two are left, and move as one each";
+  Constraints before, base, together;
+  before.before = {{2, 1}};
+  EXPECT_EQ(asked(before), (std::vector<std::vector<PartId>>{{2}})) << "the bar leaves after the drawer";
+  base.base = {1};
+  EXPECT_TRUE(asked(base).empty());
+  together.together = {{0, 1}};
+  EXPECT_TRUE(asked(together).empty()) << "two are left, and move as one each";
 }
 
 TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {

@@ -231,7 +231,7 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
   EXPECT_TRUE(r.result.best_pose.empty());
 }
 
-/// Two parts of a row go up, each by its own way; part 0 always by 0.1.
+/// Two blocks in a tube go up, each by its own way: the first by 0.1.
 PathResult each_up(const PathQuery& q, double second) {
   PathResult r;
   r.path = fake::straight(q.cast, {0, 0, 0.1});
@@ -245,36 +245,36 @@ PathResult each_up(const PathQuery& q, double second) {
 TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   std::size_t asked = 0;
   double second = 30;
-  Rig s(fake::row(4), fake::ingredients([&](const PathQuery& q, RunContext&) {
+  Rig s(fake::tube_with_blocks(2), fake::ingredients([&](const PathQuery& q, RunContext&) {
           ++asked;
+          EXPECT_FALSE(q.leaving.empty());
           return each_up(q, second);
         }));
   Attempt both;
-  both.moving = {{0, Pose{}}, {1, Pose{}}};
-  both.still = {{2, Pose{}}, {3, Pose{}}};
-  both.leaving = {0, 1};
-  // In a row each block is apart from its neighbours as it stands: put a wide one around them.
-  both.still[0].pose = {Eigen::Vector3d(-4, 0.5, 0), Eigen::Quaterniond::Identity()};
+  both.moving = {{1, Pose{}}, {2, Pose{}}};
+  both.still = {{0, Pose{}}};
+  both.leaving = {2, 1};
   const AttemptResult& r = s.ask(both);
   EXPECT_EQ(r.result.outcome, Outcome::solved) << r.result.message;
-  EXPECT_EQ(r.out, PartId{1}) << "0 has not come far";
-  both.leaving = {1};
-  EXPECT_EQ(s.ask(both).out, PartId{1});
+  EXPECT_EQ(r.out, PartId{2}) << "1 is in the tube still";
+  both.leaving = {2};
+  EXPECT_EQ(s.ask(both).out, PartId{2});
   EXPECT_EQ(asked, 2u) << "another question: not answered from memory";
-  both.leaving = {1, 1};
-  EXPECT_EQ(s.ask(both).out, PartId{1});
-  both.leaving = {0};
-  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "1 is out, but it is 0 that was to leave";
+  both.leaving = {2, 2};
+  EXPECT_EQ(s.ask(both).out, PartId{2});
+  both.leaving = {1};
+  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "2 is out, but it is 1 that was to leave";
   EXPECT_FALSE(s.ask(both).out);
   EXPECT_EQ(asked, 3u);
   second = 0.2;
-  both.leaving = {0, 1};
+  both.leaving = {1, 2};
   both.max_depth = 2;
   EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "nobody is out";
+  EXPECT_EQ(asked, 4u);
 
-  both.leaving = {2};
-  EXPECT_THROW(s.ask(both), std::invalid_argument) << "it does not move";
   both.leaving = {0};
+  EXPECT_THROW(s.ask(both), std::invalid_argument) << "it does not move";
+  both.leaving = {1};
   both.part_way = true;
   EXPECT_THROW(s.ask(both), std::invalid_argument);
 }
