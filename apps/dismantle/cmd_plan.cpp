@@ -42,10 +42,17 @@ class Saver {
     save(plan);
     // Reported after it was saved: what the user has read is not lost.
     const PlanStep& step = plan.disassembly.back();
-    std::string names;
-    for (const auto& move : step.moves) names += (names.empty() ? "" : ", ") + move.part;
-    console_.line(fmt::format("step {}: {} {}, {} left ({:.2f} s)", step.step, names,
-                              step.separates.empty() ? "moved part-way" : "out", plan.remaining.size(), step.seconds));
+    std::string out, part_way;
+    for (const auto& move : step.moves) {
+      const bool leaves = std::any_of(step.separates.begin(), step.separates.end(), [&](const auto& group) {
+        return std::find(group.begin(), group.end(), move.part) != group.end();
+      });
+      std::string& names = leaves ? out : part_way;
+      names += (names.empty() ? "" : ", ") + move.part;
+    }
+    if (!out.empty()) out += " out";
+    if (!part_way.empty()) out += (out.empty() ? "" : ", ") + part_way + " moved part-way";
+    console_.line(fmt::format("step {}: {}, {} left ({:.2f} s)", step.step, out, plan.remaining.size(), step.seconds));
   }
 
  private:

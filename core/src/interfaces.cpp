@@ -1,5 +1,7 @@
 // Key functions of the interfaces: their type information lives here once, so that a plugin's object is
 // recognised across shared libraries.
+#include <stdexcept>
+
 #include "dismantle/importer.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/path_planner.h"
@@ -10,6 +12,11 @@
 namespace dismantle {
 
 World::~World() = default;
+bool World::leaves(const State& state, std::size_t body) {
+  if (cast().moving.size() != 1 || body != 0)
+    throw std::logic_error("a simulator that moves several parts at once has to override World::leaves");
+  return separated(state);
+}
 Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
 PathPlanner::~PathPlanner() = default;

@@ -87,4 +87,14 @@ bool MeshWorld::separated(const State& state) {
   return separate(moving_hull_, rest_hull_, kSeparationGap).has_value();
 }
 
+bool MeshWorld::leaves(const State& state, std::size_t body) {
+  place(state);
+  std::vector<Eigen::Vector3d> others = rest_hull_;
+  moving_hull_.clear();
+  for (std::size_t i = 0; i < moving_.size(); ++i)
+    for (const auto& corner : moving_[i].placed->body->hull)
+      (i == body ? moving_hull_ : others).push_back(moving_[i].pose * corner);
+  return others.empty() || separate(moving_hull_, others, kSeparationGap).has_value();
+}
+
 }  // namespace dismantle::mesh_collision

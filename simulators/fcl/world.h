@@ -65,6 +65,7 @@ class MeshWorld final : public World {
   double penetration(const State& state) override;
   [[noreturn]] void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
+  bool leaves(const State& state, std::size_t body) override;
   void learn(PartId, PartId, const Eigen::Vector3d&) override {}  // nothing is sampled that could be added to
 
  private:

@@ -80,6 +80,28 @@ class Plan(CliTest):
         self.assertEqual(self.result_of(verified)["status"], "partial")
         self.assertIn("did not come out", self.run_program("explain", result["plan"], status=0).stdout)
 
+    def test_an_interlock_is_solved_by_two_motions_at_once(self):
+        self.make("interlock3")
+        done = self.run_program("plan", "interlock3", *QUICK, "-o", "out", status=0)
+        self.assertIn("step 1: block out, spindle moved part-way, 2 left", done.stderr)
+        plan = json.loads(self.read("out", "plan.json"))
+        self.assertEqual((plan["status"], plan["assembly_status"], plan["remaining"]), ("complete", "complete", ["frame"]))
+        both, last = plan["disassembly"]
+        self.assertEqual(sorted(move["part"] for move in both["moves"]), ["block", "spindle"])
+        self.assertEqual((both["separates"], last["separates"], last["after"]), ([["block"]], [["spindle"]], [1]))
+        left_at = next(move["poses"][-1] for move in both["moves"] if move["part"] == "spindle")
+        self.assertLess(abs(left_at[3]), 0.5, "the spindle has turned by more than 120 degrees, and stays so")
+        begins = last["moves"][0]["poses"][0]
+        self.assertIn(left_at, (begins, begins[:3] + [-q for q in begins[3:]]))
+        # On the way back the spindle is there, and waits while the block comes from the layout.
+        back = plan["assembly_steps"][1]
+        self.assertGreater(back["transfer"], 0)
+        for move in back["moves"]:
+            waits = all(pose == move["poses"][0] for pose in move["poses"][:back["transfer"] + 1])
+            self.assertEqual(waits, move["part"] == "spindle")
+        verified = self.run_program("verify", "out/plan.json", "--format", "json", status=0)
+        self.assertEqual(self.result_of(verified)["status"], "complete")
+
     def test_a_tampered_plan_is_found_out(self):
         self.make("peg_in_hole")
         plan = json.loads(self.result("peg_in_hole"))

@@ -39,6 +39,7 @@ class CountingWorld final : public World {
   }
   void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
   bool separated(const State& state) override { return inner_->separated(state); }
+  bool leaves(const State& state, std::size_t body) override { return inner_->leaves(state, body); }
   void learn(PartId part, PartId other, const Vector3d& point) override { inner_->learn(part, other, point); }
   bool strict() const override { return inner_->strict(); }
   void relax() override { inner_->relax(); }

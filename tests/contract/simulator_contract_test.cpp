@@ -308,6 +308,37 @@ TEST_P(SimulatorContract, SeveralMoveAtOnce) {
   }
 }
 
+TEST_P(SimulatorContract, LeavesIsTheHullOfOneApartFromAllOthers) {
+  Rng rng(52);
+  const bool several = make()->capabilities().max_moving > 1;
+  for (const Made& m : all()) {
+    const auto world = m.world(m.small->cast_of(several ? std::vector<PartId>{0, 1} : std::vector<PartId>{0}));
+    const std::size_t bodies = world->cast().moving.size();
+    const auto points = [&](PartId part, const Pose& pose, std::vector<Vector3d>& out) {
+      for (const auto& v : m.small->assembly.parts[part].mesh->vertices) out.push_back(pose * v);
+    };
+    int out = 0, asked = 0;
+    for (int i = 0; i < 60; ++i) {
+      State s = world->initial_state();
+      for (auto& b : s.bodies) b.pose = random_pose(rng, MotionSpace::rigid, 2.0);
+      for (std::size_t body = 0; body < bodies; ++body) {
+        std::vector<Vector3d> alone, others;
+        for (std::size_t k = 0; k < bodies; ++k)
+          points(world->cast().moving[k].part, s.bodies[k].pose, k == body ? alone : others);
+        for (const auto& still : world->cast().still) points(still.part, still.pose, others);
+        const bool clearly = separate(alone, others, 0.01).has_value(), at_all = separate(alone, others).has_value();
+        const bool says = world->leaves(s, body);
+        EXPECT_TRUE(says || !clearly);
+        EXPECT_TRUE(at_all || !says);
+        out += says ? 1 : 0;
+        ++asked;
+      }
+    }
+    EXPECT_GT(out, 3);
+    EXPECT_LT(out, asked - 3);
+  }
+}
+
 TEST_P(SimulatorContract, StopsPreparingWhenTold) {
   const Small& small = small_assemblies().front();
   RunContext context;

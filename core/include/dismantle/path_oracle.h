@@ -23,6 +23,9 @@ struct Attempt {
   unsigned max_depth = 0;  ///< 0 = no limit
   /// For propose() only: the parts are shifted and stay in their group. The way has to be valid, not to lead out.
   bool part_way = false;
+  /// Not empty: the moving parts move at once, each in its own way, until one of these (they are among `moving`) is
+  /// out: apart from all others, moving and still. The others that moved stay in their group, where the way ends.
+  std::vector<PartId> leaving{};
 };
 
 /// What the user asks of the order. Parts by id, each list sorted by nothing in particular.
@@ -39,6 +42,7 @@ struct AttemptResult {
   PathResult result;
   double max_penetration = 0;  ///< certified upper bound over the path, above the initial overlap; assembly units
   double seconds = 0;
+  std::optional<PartId> out{};  ///< success of an attempt with Attempt::leaving: who of these is out
 };
 
 struct OracleCounts {
@@ -58,7 +62,8 @@ class DISMANTLE_API PathOracle {
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;
   /// Judges a way that the asker has found itself, in place of a search: `way` as PathResult::path, its first instant
-  /// where the attempt has the moving parts. `solved`: valid, and (unless part_way) it ends apart from what stays;
+  /// where the attempt has the moving parts. `solved`: valid, and (unless part_way) it ends apart from what stays,
+  /// with `leaving` one of these;
   /// else `exhausted`, with the part that is in the way and what is wrong.
   virtual const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) = 0;
   virtual OracleCounts counts() const = 0;

@@ -20,9 +20,9 @@ using Path = Trace;
 
 /// How hard to try. Counts come first: only they make results independent of the machine.
 struct Effort {
-  unsigned max_depth = 0;         ///< depth of the search tree, 0 = no limit (Algorithm 1: d_max)
-  std::uint64_t max_steps = 0;    ///< simulated time steps or, without dynamics, state checks; 0 = no limit
-  double timeout = 0;             ///< seconds, 0 = no limit beyond the context's deadline (t_max)
+  unsigned max_depth = 0;       ///< depth of the search tree, 0 = no limit (Algorithm 1: d_max)
+  std::uint64_t max_steps = 0;  ///< simulated time steps or, without dynamics, state checks; 0 = no limit
+  double timeout = 0;           ///< seconds, 0 = no limit beyond the context's deadline (t_max)
 };
 
 /// What the judge says of a path. A planner must not report `solved` with a path that was refused.
@@ -30,9 +30,9 @@ struct Verdict {
   bool accepted = false;
   // Filled when refused and the place is known:
   bool has_witness = false;
-  PartId part = 0, other = 0;       ///< `point` of `part` lies inside `other`
+  PartId part = 0, other = 0;                       ///< `point` of `part` lies inside `other`
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled frame of `part`
-  std::size_t instant = 0;          ///< path index at (or just after) which it happened
+  std::size_t instant = 0;                          ///< path index at (or just after) which it happened
   std::string reason;
 };
 
@@ -44,6 +44,9 @@ struct PathQuery {
   Effort effort;
   /// Judges a finished path. Never empty. Planners call it with every path that they would return.
   std::function<Verdict(const Path&)> judge;
+  /// Empty: the moving parts are to come apart from the still ones, as one group. Else as Attempt::leaving: each moves
+  /// in its own way, until one of these is apart from all other parts of the cast. World::separated does not tell that.
+  std::vector<PartId> leaving{};
 };
 
 struct PathResult {
@@ -63,6 +66,8 @@ class DISMANTLE_API PathPlanner {
   virtual ~PathPlanner();
   /// Capabilities without which plan() returns `unsupported`.
   virtual Capabilities needs() const noexcept = 0;
+  /// True: plan() answers queries with PathQuery::leaving. Others are never given one.
+  virtual bool moves_each_its_way() const noexcept { return false; }
   virtual PathResult plan(const PathQuery& query, RunContext& context) = 0;
 };
 

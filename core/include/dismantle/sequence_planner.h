@@ -10,9 +10,10 @@
 
 namespace dismantle {
 
-/// One step: a group of parts leaves the group that it was in, or (part_way) is shifted and stays in it.
+/// One step: a group of parts leaves the group that it was in, or (part_way) is shifted and stays in it. After an
+/// attempt with Attempt::leaving one part leaves (AttemptResult::out), the others that moved stay in the group.
 struct Removal {
-  std::vector<PartId> parts;  ///< as Path columns
+  std::vector<PartId> parts;  ///< that moved, as Path columns
   const AttemptResult* attempt = nullptr;
   bool part_way = false;  ///< as in the Attempt that was proposed
 };

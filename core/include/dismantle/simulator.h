@@ -23,10 +23,10 @@ enum class MotionSpace {
 
 /// Facts about a simulator that can be asked before anything is prepared.
 struct Capabilities {
-  bool dynamics = false;     ///< World::advance works
-  bool contacts = false;     ///< World::contacts works
-  bool distance = false;     ///< World::penetration tells free states from colliding ones without dynamics
-  unsigned max_moving = 1;   ///< largest number of parts that may move at once
+  bool dynamics = false;    ///< World::advance works
+  bool contacts = false;    ///< World::contacts works
+  bool distance = false;    ///< World::penetration tells free states from colliding ones without dynamics
+  unsigned max_moving = 1;  ///< largest number of parts that may move at once
 };
 
 struct PlacedPart {
@@ -71,7 +71,8 @@ struct Contact {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();   ///< world
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, pushes `moving` away from `other`
   double depth = 0;                                  ///< > 0 = penetrating beyond what was there when assembled
-  bool on_edge = false;  ///< at a convex edge or corner: the point is free as soon as it is outside one of the faces there
+  bool on_edge =
+      false;  ///< at a convex edge or corner: the point is free as soon as it is outside one of the faces there
 };
 
 /// Poses along an advance, dense enough that the motion between two of them is a screw motion to
@@ -79,10 +80,10 @@ struct Contact {
 using Trace = std::vector<std::vector<Pose>>;
 
 struct StepReport {
-  std::uint64_t steps = 0;       ///< time steps simulated
-  double travel = 0;             ///< largest way of any point of a moving part, from begin to end pose
-  bool stalled = false;          ///< stopped early: nothing moves any more under this action
-  bool finite = true;            ///< false: the state blew up and was put back to where it began
+  std::uint64_t steps = 0;  ///< time steps simulated
+  double travel = 0;        ///< largest way of any point of a moving part, from begin to end pose
+  bool stalled = false;     ///< stopped early: nothing moves any more under this action
+  bool finite = true;       ///< false: the state blew up and was put back to where it began
 };
 
 /// One scene: some parts move, others stand still. One world per thread; may be reused for many states.
@@ -117,6 +118,9 @@ class DISMANTLE_API World {
   /// True when the hulls of all moving parts together are apart from the hull of all still parts
   /// (section 3). True when nothing stands still.
   virtual bool separated(const State& state) = 0;
+  /// True when the hull of moving part `body` alone is apart from the hull of all others, moving and still. Worlds in
+  /// which several parts move override it; for one part it is separated(). Else throws std::logic_error.
+  virtual bool leaves(const State& state, std::size_t body);
   /// Tells the world of a place where the judge found it too permissive: `point` (assembled frame of
   /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
   virtual void learn(PartId part, PartId other, const Eigen::Vector3d& point) = 0;

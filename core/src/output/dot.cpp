@@ -30,7 +30,8 @@ std::string quoted(const std::string& text) {
 std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, std::string>>& precedence) {
   std::map<std::string, unsigned> left_in;
   for (const PlanStep& step : plan.disassembly)
-    for (const PlanMove& move : step.moves) left_in.emplace(move.part, step.step);
+    for (const auto& group : step.separates)
+      for (const std::string& name : group) left_in.emplace(name, step.step);
 
   std::string out =
       "// a -> b: a left before b, and got in b's way while it was there.\n"
@@ -41,7 +42,8 @@ std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, st
     const auto step = left_in.find(part.name);
     const bool leaves = step != left_in.end();
     const std::string label = leaves ? fmt::format("{}. {}", step->second, part.name) : part.name;
-    out += fmt::format("  {} [label={}{}];\n", quoted(part.name), quoted(label), leaves ? "" : ", style=\"rounded,filled\"");
+    out += fmt::format("  {} [label={}{}];\n", quoted(part.name), quoted(label),
+                       leaves ? "" : ", style=\"rounded,filled\"");
   }
   for (const auto& [before, after] : precedence) out += fmt::format("  {} -> {};\n", quoted(before), quoted(after));
   return out + "}\n";

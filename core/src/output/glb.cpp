@@ -86,8 +86,9 @@ std::vector<std::size_t> ranks_of(const Plan& plan, const Assembly& assembly, st
   std::map<std::string, std::size_t> rank;
   leavers = 0;
   for (const PlanStep& step : plan.disassembly)
-    for (const PlanMove& move : step.moves)
-      if (rank.emplace(move.part, leavers).second) ++leavers;
+    for (const auto& group : step.separates)
+      for (const std::string& name : group)
+        if (rank.emplace(name, leavers).second) ++leavers;
   std::vector<std::size_t> out;
   for (const Part& part : assembly.parts) {
     const auto it = rank.find(part.name);

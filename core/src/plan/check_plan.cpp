@@ -221,7 +221,7 @@ class Checker {
           state_.place[*id] = assembly_.normalization.pose_to_internal({first.t, first.q.normalized()});
           // What is only shifted back is there from the beginning, unless an earlier step brings it.
           present[*id] =
-              step->transfer > 0 || only_shifts(static_cast<std::size_t>(plan_.assembly_steps.rend() - step) - 1);
+              step->transfer > 0 || stays(static_cast<std::size_t>(plan_.assembly_steps.rend() - step) - 1, move.part);
         }
 
     const std::size_t count = plan_.assembly_steps.size();
@@ -274,6 +274,20 @@ class Checker {
   bool only_shifts(std::size_t index) const {
     const std::size_t count = plan_.disassembly.size();
     return plan_.assembly_steps.size() == count && plan_.disassembly[count - 1 - index].separates.empty();
+  }
+
+  /// ... or one that moved `part` and separated others that it moved, not this one.
+  bool stays(std::size_t index, const std::string& part) const {
+    if (only_shifts(index)) return true;
+    const std::size_t count = plan_.disassembly.size();
+    if (plan_.assembly_steps.size() != count) return false;
+    const PlanStep& there = plan_.disassembly[count - 1 - index];
+    const auto separated = [&](const std::string& name) {
+      return std::any_of(there.separates.begin(), there.separates.end(),
+                         [&](const auto& group) { return std::find(group.begin(), group.end(), name) != group.end(); });
+    };
+    return !separated(part) && std::any_of(there.moves.begin(), there.moves.end(),
+                                           [&](const PlanMove& move) { return separated(move.part); });
   }
 
   /// A plan that calls its assembly complete brings every part that was removed, from the layout.

@@ -68,7 +68,7 @@ struct Assembler::Scenery {
       groups.push_back(groups.back());
       for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
         poses.back()[steps[i].parts[k]] = steps[i].path->back()[k];
-        if (!steps[i].part_way) groups.back()[steps[i].parts[k]] = i + 1;
+        if (steps[i].leaves(steps[i].parts[k])) groups.back()[steps[i].parts[k]] = i + 1;
       }
     }
     place.resize(steps.size() + 1);
@@ -136,7 +136,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   for (std::size_t i = 0; i < n; ++i) {
     const BookedStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
-      if (!step.part_way) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
+      if (step.leaves(step.parts[k])) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
       Aabb swept;
       for (const auto& instant : *step.path)
         swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
@@ -207,6 +207,10 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   query.cast.still = scenery.others(i);
   for (const PartId id : step.parts) {
     const Pose& out = scenery.poses[i + 1][id];
+    if (!step.leaves(id)) {  // there, and waits
+      query.cast.still.push_back({id, scenery.place[step.from] * out});
+      continue;
+    }
     query.cast.moving.push_back({id, scenery.place[i + 1] * out});
     query.goal.push_back(scenery.place[step.from] * out);
   }
@@ -220,6 +224,8 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   own.on_progress = nullptr;
   own.on_log = [&](LogLevel level, std::string_view text) { log.emplace_back(level, text); };
 
+  std::vector<PartId> moving;
+  for (const PlacedPart& p : query.cast.moving) moving.push_back(p.part);
   Way accepted;
   query.judge = [&](const Path& path) {
     Verdict verdict;
@@ -233,7 +239,7 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
       }
       written.path.back()[k] = query.goal[k];
     }
-    const MotionCheck check = verifier_.check_motion(step.parts, query.cast.still, written.path, own);
+    const MotionCheck check = verifier_.check_motion(moving, query.cast.still, written.path, own);
     if (!check.valid) {
       const Violation v = check.violation.value_or(Violation{});
       verdict.has_witness = check.violation.has_value();
@@ -311,10 +317,13 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
   back.transfer = way.path.empty() ? 0 : way.path.size() - 1;
   // At its place in the base a step is the one of the disassembly backwards, number for number.
   const Path in = scenery.way_in(i);
+  std::size_t column = 0;  // of the way
   for (std::size_t k = 0; k < step.parts.size(); ++k) {
     std::vector<Pose> poses;
+    const bool waits = !step.leaves(step.parts[k]);
     for (std::size_t at = 0; at < back.transfer; ++at)
-      poses.push_back(assembly_.normalization.pose_to_input(way.path[at][k]));
+      poses.push_back(assembly_.normalization.pose_to_input(waits ? in.front()[k] : way.path[at][column]));
+    if (!waits) ++column;
     if (scenery.place[step.from].is_identity())
       poses.insert(poses.end(), back.moves[k].poses.begin(), back.moves[k].poses.end());
     else

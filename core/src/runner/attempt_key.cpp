@@ -64,6 +64,15 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   std::vector<bool> seen(part_count, false);
   canonicalise(result.moving, seen);
   canonicalise(result.still, seen);
+  if (result.leaving.empty()) return result;
+  if (result.part_way || result.moving.size() < 2)
+    throw std::invalid_argument(
+        "attempt in which a part leaves those that move with it, but none does or nobody leaves");
+  std::sort(result.leaving.begin(), result.leaving.end());
+  result.leaving.erase(std::unique(result.leaving.begin(), result.leaving.end()), result.leaving.end());
+  for (const PartId id : result.leaving)
+    if (std::none_of(result.moving.begin(), result.moving.end(), [id](const PlacedPart& p) { return p.part == id; }))
+      throw std::invalid_argument(fmt::format("attempt in which part {} is to leave, but does not move", id));
   return result;
 }
 
@@ -73,6 +82,10 @@ CastDigest digest_of(const Attempt& canonical_attempt) {
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.still);
   if (canonical_attempt.part_way) bytes.push_back('p');
+  if (!canonical_attempt.leaving.empty()) {
+    bytes.push_back('l');
+    for (const PartId id : canonical_attempt.leaving) append(bytes, id);
+  }
   return sha256(bytes);
 }
 

@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// SHA-256 of who moves and who stands still, and where, and whether part-way; without the depth.
+/// SHA-256 of who moves and who stands still, and where, and whether part-way, and who is leaving; without the depth.
 using CastDigest = std::array<unsigned char, 32>;
 
 struct AttemptKey {
@@ -20,8 +20,10 @@ struct AttemptKey {
   auto operator<=>(const AttemptKey&) const = default;
 };
 
-/// Moving and still parts by ascending id, quaternions with the sign that makes them unique, no negative zeros.
-/// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, or a pose is not finite.
+/// Moving and still parts by ascending id, leaving ones too, quaternions with the sign that makes them unique, no
+/// negative zeros.
+/// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, a pose is not
+/// finite, or someone is leaving who does not move or moves alone.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
 /// Digest of a canonical cast.

@@ -63,6 +63,7 @@ struct AttemptRunner::Judgement {
   NormalizedPath written;
   MotionCheck check;
   Verdict verdict;
+  std::optional<PartId> out;  ///< who of Attempt::leaving
 };
 
 AttemptRunner::AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
@@ -90,8 +91,22 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
                      fmt::join(missing, ", "));
 }
 
-/// A pair of one that moves and one that stands still, which no planner can part.
+/// A pair of one that moves and one that stands still, which no planner can part; of those that are leaving, when each
+/// is in such a pair.
 const Lock* AttemptRunner::locked(const Attempt& attempt) const {
+  if (!attempt.leaving.empty()) {
+    const Lock* found = nullptr;
+    for (const PartId id : attempt.leaving) {
+      const auto& locks = verifier_.locks();
+      const auto here = [&](PartId other) { return holds(attempt.moving, other) || holds(attempt.still, other); };
+      const auto lock = std::find_if(locks.begin(), locks.end(), [&](const Lock& l) {
+        return (l.inside == id && here(l.other)) || (l.other == id && here(l.inside));
+      });
+      if (lock == locks.end()) return nullptr;
+      if (found == nullptr) found = &*lock;
+    }
+    return found;
+  }
   for (const Lock& lock : verifier_.locks())
     if ((holds(attempt.moving, lock.inside) && holds(attempt.still, lock.other)) ||
         (holds(attempt.moving, lock.other) && holds(attempt.still, lock.inside)))
@@ -103,6 +118,17 @@ const Lock* AttemptRunner::locked(const Attempt& attempt) const {
 std::optional<Cage> AttemptRunner::caged(const Attempt& attempt) const {
   if (!worth_a_proof(attempt) || attempt.moving.size() != 1 || attempt.still.size() != 1) return std::nullopt;
   return verifier_.caged(attempt.moving.front().part, attempt.still.front().part);
+}
+
+/// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
+/// them.
+std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
+  for (const PartId id : attempt.leaving) {
+    std::vector<PlacedPart> alone, others = attempt.still;
+    for (const PlacedPart& p : group) (p.part == id ? alone : others).push_back(p);
+    if (verifier_.apart(alone, others)) return id;
+  }
+  return std::nullopt;
 }
 
 AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path& path,
@@ -142,6 +168,12 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
   }
   std::vector<PlacedPart> group = attempt.moving;
   for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = j.written.path.back()[i];
+  if (!attempt.leaving.empty()) {
+    j.out = first_out(attempt, group);
+    j.verdict.accepted = j.out.has_value();
+    if (!j.out) j.verdict.reason = "the path ends before any part that is to leave is apart from all others";
+    return j;
+  }
   if (!verifier_.apart(group, attempt.still)) {
     j.verdict.reason = "the path ends before the convex hulls are apart";
     return j;
@@ -171,6 +203,7 @@ ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way
     result.depth = 1;
     if (j.verdict.accepted) {
       computed.answer.max_penetration = j.check.max_penetration;
+      computed.answer.out = j.out;
       result.path = std::move(j.written.path);
     } else if (j.verdict.has_witness) {
       result.blocked_by = {holds(attempt.still, j.verdict.other) ? j.verdict.other : j.verdict.part};
@@ -187,13 +220,21 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                                const RunContext& run, Judgement& last) const {
   const std::string missing = lacking(planner.needs(), attempt.moving.size());
   if (!missing.empty()) return failure(Outcome::unsupported, missing);
+  if (!attempt.leaving.empty() && !planner.moves_each_its_way())
+    return failure(Outcome::unsupported,
+                   fmt::format("path planner '{}' does not move several parts each in its own way", planner_id_));
   RunContext own = context;
   const Effort effort{attempt.max_depth, path_steps_, path_timeout_};
-  const PathQuery query{
-      assembly_, simulator_, prepared_, {attempt.moving, attempt.still}, effort, [&](const Path& path) {
-        last = judge(attempt, path, run);
-        return last.verdict;
-      }};
+  const PathQuery query{assembly_,
+                        simulator_,
+                        prepared_,
+                        {attempt.moving, attempt.still},
+                        effort,
+                        [&](const Path& path) {
+                          last = judge(attempt, path, run);
+                          return last.verdict;
+                        },
+                        attempt.leaving};
   return planner.plan(query, own);
 }
 
@@ -208,13 +249,14 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
   Judgement last;
   try {
-    if (attempt.still.empty()) {
+    if (attempt.still.empty() && attempt.leaving.empty()) {
       result.outcome = Outcome::start_is_goal;  // nothing left to be apart from
     } else if (const Lock* lock = locked(attempt)) {
       result = failure(Outcome::exhausted, describe(*lock, assembly_));
       result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
-    } else if (const auto enclosure =
-                   worth_a_proof(attempt) ? verifier_.shut_in(attempt.moving, attempt.still) : std::nullopt) {
+    } else if (const auto enclosure = worth_a_proof(attempt) && attempt.leaving.empty()
+                                          ? verifier_.shut_in(attempt.moving, attempt.still)
+                                          : std::nullopt) {
       result = failure(Outcome::exhausted, describe(*enclosure, assembly_));
       result.blocked_by =
           holds(attempt.moving, enclosure->inside) ? enclosure->around : std::vector<PartId>{enclosure->inside};
@@ -228,6 +270,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       if (last.written.path.empty() || !same_path(last.given, result.path)) last = judge(attempt, result.path, context);
       if (last.verdict.accepted) {
         answer.max_penetration = last.check.max_penetration;
+        answer.out = last.out;
         result.path = std::move(last.written.path);
       } else if (last.check.interrupted) {
         result = failure(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout, last.verdict.reason);
@@ -241,7 +284,11 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       for (const auto& p : attempt.moving) start.push_back(p.pose);
       result.path = {start, start};
       result.depth = 0;
-      if (!attempt.still.empty() && !verifier_.apart(attempt.moving, attempt.still)) {
+      answer.out = first_out(attempt, attempt.moving);
+      const bool is_apart = attempt.leaving.empty()
+                                ? attempt.still.empty() || verifier_.apart(attempt.moving, attempt.still)
+                                : answer.out.has_value();
+      if (!is_apart) {
         result.outcome = Outcome::crashed;
         result.message = fmt::format(
             "path planner '{}' reports that there is nothing to do, but the convex hulls are not apart", planner_id_);

@@ -105,7 +105,7 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
   answers_.emplace(key, &result);
   const Outcome outcome = result.result.outcome;
   if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
-  asked_about_.emplace(&result, AskedAbout{key.cast, ids_of(attempt.moving)});
+  asked_about_.emplace(&result, AskedAbout{key.cast, ids_of(attempt.moving), attempt.leaving});
   return result;
 }
 
@@ -126,7 +126,8 @@ const AttemptResult& Oracle::reordered(const AttemptResult& result, const Attemp
   if (!copy.result.best_pose.empty()) permute(copy.result.best_pose);
   const AttemptResult& kept = keep(std::move(copy));
   reordered_.emplace(std::pair{&result, order}, &kept);
-  if (asked_about_.contains(&result)) asked_about_.emplace(&kept, AskedAbout{key.cast, order});
+  if (asked_about_.contains(&result))
+    asked_about_.emplace(&kept, AskedAbout{key.cast, order, asked_about_.at(&result).leaving});
   return kept;
 }
 
@@ -160,7 +161,7 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, Ru
   if (computed.interrupted) return result;
   ++proposed_;
   if (is_success(result.result.outcome))
-    asked_about_.emplace(&result, AskedAbout{cast, ids_of(attempt.moving)});
+    asked_about_.emplace(&result, AskedAbout{cast, ids_of(attempt.moving), attempt.leaving});
   else
     ++refused_;
   return result;

@@ -17,6 +17,7 @@ namespace dismantle {
 struct AskedAbout {
   CastDigest cast{};
   std::vector<PartId> moving;  ///< columns of the path
+  std::vector<PartId> leaving{};
 };
 
 class Oracle final : public PathOracle {

@@ -23,7 +23,7 @@ std::vector<Before> befores(const std::vector<BookedStep>& steps, std::size_t pa
     Before next = list.back();
     for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
       next.poses[steps[i].parts[k]] = steps[i].path->back()[k];
-      if (!steps[i].part_way) next.groups[steps[i].parts[k]] = i + 1;
+      if (steps[i].leaves(steps[i].parts[k])) next.groups[steps[i].parts[k]] = i + 1;
     }
     list.push_back(std::move(next));
   }
@@ -89,8 +89,8 @@ std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<BookedS
   // A part leaves with its last removal; shifts before that are part of it.
   std::map<PartId, std::size_t> leaves;
   for (std::size_t i = 0; i < steps.size(); ++i)
-    if (!steps[i].part_way)
-      for (const PartId id : steps[i].parts) leaves[id] = i;
+    for (const PartId id : steps[i].parts)
+      if (steps[i].leaves(id)) leaves[id] = i;
   std::vector<std::pair<PartId, PartId>> pairs;
   for (std::size_t b = 0; b < steps.size(); ++b)
     for (const std::size_t a : needed[b])

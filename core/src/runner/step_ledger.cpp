@@ -60,6 +60,7 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   const PathResult& result = removal.attempt->result;
   PlanStep step;
   step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
+  const std::optional<PartId>& alone = removal.attempt->out;
   if (!removal.part_way) step.separates.emplace_back();
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const std::string& name = assembly_.parts[removal.parts[i]].name;
@@ -67,7 +68,7 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
     move.poses.reserve(result.path.size());
     for (const auto& instant : result.path) move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
     step.moves.push_back(std::move(move));
-    if (!removal.part_way) step.separates.back().push_back(name);
+    if (!removal.part_way && (!alone || *alone == removal.parts[i])) step.separates.back().push_back(name);
   }
   step.max_penetration = removal.attempt->max_penetration;
   step.seconds = removal.attempt->seconds;
@@ -84,15 +85,19 @@ void StepLedger::book(const Removal& removal) {
     throw std::logic_error("a removal that is not a successful answer of the oracle");
   Attempt question;
   question.part_way = removal.part_way;
+  question.leaving = asked->leaving;
   for (const PartId id : removal.parts) question.moving.push_back({id, poses_[id]});
   std::vector<PartId> rest;
   for (const PartId id : group)
     if (std::find(removal.parts.begin(), removal.parts.end(), id) == removal.parts.end()) rest.push_back(id);
-  if (rest.empty()) throw std::logic_error("a removal that leaves nothing behind");
+  if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
   for (const PartId id : rest) question.still.push_back({id, poses_[id]});
   if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->cast)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
+  if (removal.attempt->out)
+    for (const PartId id : removal.parts)
+      if (id != *removal.attempt->out) rest.push_back(id);
   check_constraints(removal, rest);
 
   const auto from = static_cast<std::size_t>(&group - groups_.data());
@@ -104,9 +109,10 @@ void StepLedger::book(const Removal& removal) {
   plan_.disassembly.push_back(std::move(step));
   for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i)
     plan_.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
-  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), removal.part_way});
+  const std::optional<PartId> alone = removal.attempt->out;
+  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), removal.part_way, alone});
   if (!removal.part_way) groups_[from] = std::move(rest);
-  groups_.push_back(removal.part_way ? std::vector<PartId>{} : removal.parts);
+  groups_.push_back(removal.part_way ? std::vector<PartId>{} : alone ? std::vector<PartId>{*alone} : removal.parts);
   refresh_status();
 }
 
@@ -146,11 +152,12 @@ void StepLedger::check_constraints(const Removal& removal, const std::vector<Par
     if (holds(removal.parts, id)) throw std::logic_error("a removal that moves a part of the base");
   for (const auto& list : constraints_.together) {
     const auto moves = [&](PartId id) { return holds(removal.parts, id); };
-    if (std::any_of(list.begin(), list.end(), moves) && !std::all_of(list.begin(), list.end(), moves))
+    const bool any = std::any_of(list.begin(), list.end(), moves);
+    if (any && (!std::all_of(list.begin(), list.end(), moves) || (removal.attempt->out && list.size() > 1)))
       throw std::logic_error("a removal that parts what is to stay together");
   }
   for (const auto& [a, b] : constraints_.before)
-    if (!removal.part_way && holds(removal.parts, b) && holds(rest, a))
+    if (!removal.part_way && holds(removal.parts, b) && !holds(rest, b) && holds(rest, a))
       throw std::logic_error("a removal before another that is to come first");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct BookedStep {
   std::size_t from = 0;              ///< the group that they left
   std::shared_ptr<const Path> path;  ///< of the oracle's answer, or of several, one after the other
   bool part_way = false;             ///< the parts stay in `from`; no group is made
+  std::optional<PartId> alone{};     ///< this one leaves; the others that moved stay in `from`
+
+  /// Is `part`, which moved, out after the step?
+  bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
 };
 
 /// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they

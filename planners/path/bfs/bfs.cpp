@@ -10,6 +10,7 @@ class Bfs final : public PathPlanner {
   explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
 
   Capabilities needs() const noexcept override { return push::required(); }
+  bool moves_each_its_way() const noexcept override { return true; }
   PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
 
  private:

@@ -13,10 +13,12 @@ class Guided final : public PathPlanner {
   explicit Guided(const Parameters& parameters) : parameters_(parameters), tactics_(parameters.tactics()) {}
 
   Capabilities needs() const noexcept override { return push::required(); }
+  bool moves_each_its_way() const noexcept override { return true; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
+    // Walk and forest move a group as one.
     const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0) &&
-                        parameters_.motion == push::Motion::automatic && can_grow(query);
+                        parameters_.motion == push::Motion::automatic && can_grow(query) && query.leaving.empty();
     return others ? plan_with_others(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
   }
 

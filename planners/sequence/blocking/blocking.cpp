@@ -29,6 +29,10 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
   schema.add("turns", &BlockingParams::turns,
              {.doc = "Then turn parts about the axes of their round surfaces, and leave them turned where that frees "
                      "another part (latches)."});
+  schema.add(
+      "at_once", &BlockingParams::at_once,
+      {.doc = "Then move two or three parts at once, each in its own way, where nobody else is in the way of one of "
+              "them (interlocks). Needs a path planner that does so (bfs, guided)."});
   schema.add("max_depth", &BlockingParams::max_depth,
              {.unit = "1",
               .min = 1,

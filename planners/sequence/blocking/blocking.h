@@ -14,6 +14,7 @@ struct BlockingParams {
   std::int64_t slide_states = 60'000;
   bool cages = true;
   bool turns = true;
+  bool at_once = true;
   unsigned max_depth = 8;
   static void describe(Schema<BlockingParams>& schema);
 };

@@ -144,37 +144,36 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   return false;
 }
 
+/// The unit with the largest box.
+TakingApart::UnitId TakingApart::housing_of(const Group& group) const {
+  double largest = 0;
+  UnitId housing = group.units.front();
+  for (const UnitId u : group.units) {
+    Aabb box;
+    for (const PartId id : units_[u]) box.extend(assembly_.parts[id].mesh->box());
+    if (box.empty() || box.size().prod() <= largest) continue;
+    largest = box.size().prod();
+    housing = u;
+  }
+  return housing;
+}
+
 /// Those whose leaving would open ways for others come first, the housing of it all last: searches are expensive, and a
 /// success makes many of them needless. A unit's use is the sum of its shares in what holds others the least.
 void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
   if (!relations_) return;
   std::map<UnitId, double> use;
-  double largest = 0;
-  UnitId housing = units.empty() ? 0 : units.front();
+  const UnitId housing = housing_of(group);
   for (const UnitId u : group.units) {
     std::vector<UnitId> fewest;
     bool found = false;
     for (const std::size_t d : directions_.common) {
-      std::vector<Pair> pairs;
-      for (const UnitId other : group.units)
-        if (other != u)
-          for (const Pair& pair : pairs_of(u, other, d)) pairs.push_back(pair);
-      relations_->compute(pairs);
+      const std::vector<UnitId> in_way = in_way_of(group, u, d);
       if (stop()) return;
-      std::vector<UnitId> in_way;
-      for (const Pair& pair : pairs)
-        if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
-          in_way.push_back(unit_of_[pair.still]);
       if (!found || in_way.size() < fewest.size()) fewest = in_way;
       found = true;
     }
     for (const UnitId other : fewest) use[other] += 1.0 / static_cast<double>(fewest.size());
-    Aabb box;
-    for (const PartId id : units_[u]) box.extend(assembly_.parts[id].mesh->box());
-    if (!box.empty() && box.size().prod() > largest) {
-      largest = box.size().prod();
-      housing = u;
-    }
   }
   std::stable_sort(units.begin(), units.end(), [&](UnitId a, UnitId b) {
     if ((a == housing) != (b == housing)) return b == housing;

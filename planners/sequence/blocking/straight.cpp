@@ -28,6 +28,20 @@ std::vector<Pair> TakingApart::pairs_of(UnitId moving, UnitId still, std::size_t
   return pairs;
 }
 
+/// All that `unit` would run into.
+std::vector<TakingApart::UnitId> TakingApart::in_way_of(const Group& group, UnitId unit, std::size_t direction) {
+  std::vector<Pair> pairs;
+  for (const UnitId other : group.units)
+    if (other != unit)
+      for (const Pair& pair : pairs_of(unit, other, direction)) pairs.push_back(pair);
+  relations_->compute(pairs);
+  std::vector<UnitId> in_way;
+  for (const Pair& pair : pairs)
+    if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
+      in_way.push_back(unit_of_[pair.still]);
+  return in_way;
+}
+
 double TakingApart::way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const {
   const Eigen::Vector3d& d = directions_.all[direction];
   double ours = std::numeric_limits<double>::infinity(), theirs = -ours;
@@ -211,15 +225,7 @@ bool TakingApart::remove_for_target(Group& group) {
     std::vector<UnitId> fewest;
     bool found = false;
     for (const std::size_t d : directions_of(group, unit)) {
-      std::vector<Pair> pairs;
-      for (const UnitId other : group.units)
-        if (other != unit)
-          for (const Pair& pair : pairs_of(unit, other, d)) pairs.push_back(pair);
-      relations_->compute(pairs);
-      std::vector<UnitId> in_way;
-      for (const Pair& pair : pairs)
-        if (relations_->blocks(pair) && (in_way.empty() || in_way.back() != unit_of_[pair.still]))
-          in_way.push_back(unit_of_[pair.still]);
+      const std::vector<UnitId> in_way = in_way_of(group, unit, d);
       if (!found || in_way.size() < fewest.size()) fewest = in_way;
       found = true;
     }

@@ -103,6 +103,9 @@ void TakingApart::dismantle(Group group) {
       if (turn(group)) continue;
       group.turns_done = true;
     }
+    if (relations_ && params_.at_once && group.units.size() > 2) {
+      if (together(group)) continue;
+    }
     // Two that are left, with nobody to be fair to, are searched without limit at once.
     if (group.units.size() == 2 &&
         std::none_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() > 1; }))
@@ -163,7 +166,8 @@ Attempt TakingApart::question(const Group& group, const std::vector<UnitId>& uni
   return attempt;
 }
 
-/// Notes where the parts are now, and that they left the group unless they were only shifted.
+/// Notes where the parts are now, and who of them left the group: all, or the one that the answer names, or, when they
+/// were only shifted, nobody.
 void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Attempt& attempt,
                        const AttemptResult& answer) {
   Removal removal;
@@ -176,28 +180,35 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
   removal.attempt = &answer;
   removal.part_way = attempt.part_way;
   removals_.push_back(removal);
+  std::vector<UnitId> out = units;
+  if (answer.out) out = {unit_of_[*answer.out]};
   for (const UnitId u : units) watched_[u].clear();
   refused_.clear();
   group.slides_done = group.groups_done = group.turns_done = group.searched_out = false;
-  if (attempt.part_way) {
+  group.at_once = 0;
+  if (attempt.part_way || out.size() < units.size()) {
     for (auto& known : watched_) known.clear();  // what was in the way may not be any more
     for (const UnitId u : group.units)
       for (const PartId id : units_[u]) tried_.erase(id);
+    tried_at_once_.clear();
+    moved_at_once_.clear();
+  }
+  if (attempt.part_way) {
     observer_.removed(removals_.back(), assembly_.parts.size() - out_);
     return;
   }
-  std::erase_if(group.units, [&](UnitId u) { return std::find(units.begin(), units.end(), u) != units.end(); });
-  out_ += units.size();
-  if (units.size() > 1) {
+  std::erase_if(group.units, [&](UnitId u) { return std::find(out.begin(), out.end(), u) != out.end(); });
+  out_ += out.size();
+  if (out.size() > 1) {
     Group own;
-    own.units = units;
+    own.units = out;
     std::sort(own.units.begin(), own.units.end());  // units are numbered in the order of trying
     groups_.push_back(std::move(own));
     --out_;
   }
   const auto& target = oracle_.constraints().target;
-  if (target && (units.size() == 1 ? unit_of_[*target] == units[0]
-                                   : group.units.size() == 1 && group.units[0] == unit_of_[*target]))
+  if (target &&
+      (out.size() == 1 ? unit_of_[*target] == out[0] : group.units.size() == 1 && group.units[0] == unit_of_[*target]))
     target_out_ = true;
   observer_.removed(removals_.back(), assembly_.parts.size() - out_);
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[removal.parts.front()].name);
@@ -249,7 +260,8 @@ void TakingApart::give_up(const Group& group) {
       u.message =
           may_leave(group, {unit_of_[id]}) ? "no straight way, and no search was made" : "the constraints hold it back";
     }
-    if (!group.slides_said.empty()) u.message += (u.message.empty() ? "" : "; ") + group.slides_said;
+    for (const std::string& said_too : {group.slides_said, group.at_once_said})
+      if (!said_too.empty()) u.message += (u.message.empty() ? "" : "; ") + said_too;
     unsolved_.push_back(std::move(u));
   }
 }

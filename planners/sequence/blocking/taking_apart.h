@@ -34,13 +34,15 @@ class TakingApart {
     bool slides_done = false;   ///< the search for slides has nothing more to offer for these units at these places
     bool groups_done = false;   ///< likewise groups
     bool turns_done = false;    ///< likewise turns
+    unsigned at_once = 0;       ///< rounds in which parts were moved at once, each in its own way, in vain
     unsigned depth = 1;         ///< of searches by simulation; the effort of the search for slides grows with it
     bool slides_cut = false;    ///< it ended for want of effort
     bool no_slides = false;     ///< it saw all places, and nobody leaves
     bool searched_out = false;  ///< more depth does not help, or is not allowed
     unsigned pair_depth = 1;    ///< pairs only: doubled with every round
     bool pair_done = false;
-    std::string slides_said;  ///< why the search for slides found nothing
+    std::string slides_said;   ///< why the search for slides found nothing
+    std::string at_once_said;  ///< likewise that for motions at once
   };
   /// The last search for the way of a part.
   struct Tried {
@@ -75,6 +77,7 @@ class TakingApart {
   std::vector<Pair> open_questions(const Group& group, UnitId unit, std::size_t direction);
   std::vector<Pair> pairs_of(UnitId moving, UnitId still, std::size_t direction) const;
   std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
+  std::vector<UnitId> in_way_of(const Group& group, UnitId unit, std::size_t direction);
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
 
   // holding.cpp: pairs that are proved to hold each other
@@ -89,6 +92,13 @@ class TakingApart {
   std::optional<std::pair<UnitId, std::size_t>> freed_by(const Group& group, UnitId unit);
   bool turns_clear(const Group& group, UnitId unit, const Pose& from, const Pose& to);
 
+  // together.cpp: several parts at once, each in its own way
+  bool together(Group& group);
+  bool together(Group& group, const std::vector<UnitId>& units, const std::vector<std::vector<UnitId>>& next);
+  std::vector<std::vector<UnitId>> interlocked(const Group& group);
+  std::optional<Attempt> question_at_once(const Group& group, const std::vector<UnitId>& units) const;
+  bool worth_moving(const Group& group, const std::vector<UnitId>& units) const;
+
   // searching.cpp: where no straight motion exists
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
@@ -96,6 +106,7 @@ class TakingApart {
   bool search_pair(Group& group, bool without_end);
   bool make_up_for(Group& group);
   std::vector<UnitId> searchable(const Group& group);
+  UnitId housing_of(const Group& group) const;
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
@@ -132,7 +143,10 @@ class TakingApart {
   std::set<std::pair<std::vector<UnitId>, std::size_t>> vain_;  // turns that freed nobody after all: group, where to
   std::size_t turn_questions_ = 0;                              // to the judge, for the group as it is
   std::map<PartId, Tried> tried_;
-  std::map<PartId, Unsolved> said_;  // by part: the last that was said
+  std::map<std::vector<UnitId>, Tried> tried_at_once_;
+  std::set<std::vector<UnitId>> moved_at_once_;  // of those: more than one part moved
+  bool none_at_once_ = false;                    // the path planner or the simulator cannot
+  std::map<PartId, Unsolved> said_;              // by part: the last that was said
 };
 
 }  // namespace dismantle::blocking

@@ -345,6 +345,13 @@ bool BodyWorld::separated(const State& state) {
   return separate(moving, rest_hull_, kSeparationGap).has_value();
 }
 
+bool BodyWorld::leaves(const State& state, std::size_t body) {
+  std::vector<Eigen::Vector3d> alone, others = rest_hull_;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    for (const auto& corner : bodies_[i].hull) (i == body ? alone : others).push_back(state.bodies[i].pose * corner);
+  return others.empty() || separate(alone, others, kSeparationGap).has_value();
+}
+
 #define DISMANTLE_BODY_WORLD(DOF)                                                                      \
   template void BodyWorld::follow_contacts<DOF>(const State&, const StepSolver<DOF>::Vector&, double); \
   template double BodyWorld::displace<DOF>(State&, const StepSolver<DOF>::Vector&) const;              \

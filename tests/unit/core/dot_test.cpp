@@ -64,7 +64,8 @@ TEST(Dot, HoldsEveryPartAndEveryEdgeWhateverTheNames) {
   for (unsigned i = 0; i < names.size(); ++i) plan.assembly.parts.push_back({i, names[i], ""});
   PlanStep s;
   s.step = 1;
-  s.moves = {{"end\\", {}}};
+  s.moves = {{"end\\", {}}, {"plain", {}}};
+  s.separates = {{"end\\"}};
   plan.disassembly = {s};
   std::vector<std::pair<std::string, std::string>> precedence;
   for (std::size_t i = 1; i < names.size(); ++i) precedence.emplace_back(names[i - 1], names[i]);
@@ -78,6 +79,7 @@ TEST(Dot, HoldsEveryPartAndEveryEdgeWhateverTheNames) {
   EXPECT_TRUE(nodes.contains("end\\\\"));
   EXPECT_TRUE(nodes.contains("line break"));
   EXPECT_NE(dot.find("label=\"1. end\\\\\"]"), std::string::npos) << "the step is in the label";
+  EXPECT_EQ(dot.find("1. plain"), std::string::npos) << "that one moved, and is not out";
 }
 
 TEST(Dot, BytesThatAreNotUtf8AreReplaced) {

@@ -146,6 +146,7 @@ class Scripted final : public PathPlanner {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
   Capabilities needs() const noexcept override { return {.dynamics = true}; }
+  bool moves_each_its_way() const noexcept override { return true; }
   PathResult plan(const PathQuery& query, RunContext& context) override { return script_(query, context); }
 
  private:

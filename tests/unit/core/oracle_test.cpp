@@ -231,6 +231,73 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
   EXPECT_TRUE(r.result.best_pose.empty());
 }
 
+/// Two blocks in a tube go up, each by its own way: the first by 0.1.
+PathResult each_up(const PathQuery& q, double second) {
+  PathResult r;
+  r.path = fake::straight(q.cast, {0, 0, 0.1});
+  r.path[1][1].t.z() = second;
+  const Verdict verdict = q.judge(r.path);
+  r.outcome = verdict.accepted ? Outcome::solved : Outcome::exhausted;
+  r.message = verdict.reason;
+  return r;
+}
+
+TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
+  std::size_t asked = 0;
+  double second = 30;
+  Rig s(fake::tube_with_blocks(2), fake::ingredients([&](const PathQuery& q, RunContext&) {
+          ++asked;
+          EXPECT_FALSE(q.leaving.empty());
+          return each_up(q, second);
+        }));
+  Attempt both;
+  both.moving = {{1, Pose{}}, {2, Pose{}}};
+  both.still = {{0, Pose{}}};
+  both.leaving = {2, 1};
+  const AttemptResult& r = s.ask(both);
+  EXPECT_EQ(r.result.outcome, Outcome::solved) << r.result.message;
+  EXPECT_EQ(r.out, PartId{2}) << "1 is in the tube still";
+  both.leaving = {2};
+  EXPECT_EQ(s.ask(both).out, PartId{2});
+  EXPECT_EQ(asked, 2u) << "another question: not answered from memory";
+  both.leaving = {2, 2};
+  EXPECT_EQ(s.ask(both).out, PartId{2});
+  both.leaving = {1};
+  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "2 is out, but it is 1 that was to leave";
+  EXPECT_FALSE(s.ask(both).out);
+  EXPECT_EQ(asked, 3u);
+  second = 0.2;
+  both.leaving = {1, 2};
+  both.max_depth = 2;
+  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "nobody is out";
+  EXPECT_EQ(asked, 4u);
+
+  both.leaving = {0};
+  EXPECT_THROW(s.ask(both), std::invalid_argument) << "it does not move";
+  both.leaving = {1};
+  both.part_way = true;
+  EXPECT_THROW(s.ask(both), std::invalid_argument);
+}
+
+TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
+  class Groups final : public PathPlanner {
+   public:
+    Capabilities needs() const noexcept override { return {}; }
+    PathResult plan(const PathQuery&, RunContext&) override { throw std::logic_error("not to be asked"); }
+  };
+  fake::Script none;
+  Ingredients ingredients = fake::ingredients(none);
+  ingredients.path_planner = [] { return std::make_shared<Groups>(); };
+  Rig s(fake::row(3), ingredients);
+  Attempt both;
+  both.moving = {{0, Pose{}}, {1, Pose{}}};
+  both.still = {{2, Pose{}}};
+  both.leaving = {0};
+  const AttemptResult& r = s.ask(both);
+  EXPECT_EQ(r.result.outcome, Outcome::unsupported);
+  EXPECT_NE(r.result.message.find("each in its own way"), std::string::npos);
+}
+
 TEST(Oracle, JudgesWaysThatItIsShown) {
   Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
   const auto up = [](const Attempt& a, double way) {

@@ -112,6 +112,50 @@ TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
   EXPECT_EQ(first.back().t, second.front().t);  // rule (a)
 }
 
+TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
+  for (const bool honest : {true, false}) {
+    const auto at_once = [&](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext&) {
+      SequenceResult result;
+      Attempt both;
+      both.moving = {{2, Pose{}}, {1, Pose{}}};
+      both.still = {{0, Pose{}}};
+      both.leaving = {1, 2};
+      Path way = fake::straight({both.moving, both.still}, {0, 0, 30});
+      way[1][1].t.z() = 0.5;
+      RunContext c;
+      const AttemptResult& r = oracle.propose(both, way, c);
+      result.removals.push_back({{2, 1}, &r});
+      observer.removed(result.removals.back(), 2);
+      Attempt last;
+      last.moving = {{1, honest ? r.result.path.back()[1] : Pose{}}};
+      last.still = {{0, Pose{}}};
+      result.removals.push_back({{1}, &oracle.propose(last, fake::straight({last.moving, {}}, {0, 0, 30}), c)});
+      observer.removed(result.removals.back(), 1);
+      result.outcome = Outcome::solved;
+      result.remaining = {0};
+      return result;
+    };
+    RunContext context;
+    const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(at_once)),
+                            RunOptions{}, context);
+    ASSERT_EQ(r.plan.disassembly.size(), honest ? 2u : 1u) << "the other is not where it was";
+    const PlanStep& first = r.plan.disassembly[0];
+    EXPECT_EQ(first.moves.size(), 2u);
+    EXPECT_EQ(first.separates, (std::vector<std::vector<std::string>>{{"block2"}}));
+    if (!honest) continue;
+    EXPECT_EQ(r.outcome, Outcome::solved);
+    EXPECT_EQ(r.plan.status, PlanStatus::complete);
+    EXPECT_EQ(r.plan.disassembly[1].moves[0].poses.front().t.z(), 0.5);
+    EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
+    EXPECT_EQ(r.precedence, (std::vector<std::pair<std::string, std::string>>{{"block2", "block1"}}));
+    const PlanCheck check = check_plan(r.plan, fake::tube_with_blocks(2), VerifyOptions{}, context);
+    EXPECT_TRUE(check.valid && check.complete);
+    Plan lies = r.plan;
+    lies.disassembly[0].separates[0][0] = "block1";
+    EXPECT_FALSE(check_plan(lies, fake::tube_with_blocks(2), VerifyOptions{}, context).valid);
+  }
+}
+
 /// Lifts blocks by bits, in the order given; the last bit of a block brings it out.
 RunResult in_bits(const std::vector<PartId>& order) {
   const auto bits = [&](const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {

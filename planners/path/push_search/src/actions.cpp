@@ -63,6 +63,54 @@ std::vector<Action> screw_actions(const World& world, double force, const Eigen:
   return actions;
 }
 
+namespace {
+
+/// Body i alone is given a wrench: a force or a torque along `axis`.
+void drive(Action& action, const World& world, std::size_t i, bool turns, const Vec3& axis) {
+  Wrench& wrench = action.wrenches[i];
+  (turns ? wrench.torque : wrench.force) = turns ? Vec3(world.torque_arm(i) * axis) : axis;
+}
+
+Action at_rest(const World& world) {
+  Action action;
+  action.wrenches.resize(world.cast().moving.size());
+  return action;
+}
+
+}  // namespace
+
+std::vector<Action> one_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes) {
+  std::vector<Action> actions;
+  for (const bool torque : {false, true})
+    for (std::size_t i = 0; i < world.cast().moving.size() && (turns || !torque); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {1.0, -1.0}) {
+          actions.push_back(at_rest(world));
+          drive(actions.back(), world, i, torque, sign * force * axes.col(axis));
+        }
+  return actions;
+}
+
+std::vector<Action> two_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes, bool across) {
+  std::vector<Action> actions;
+  const std::size_t n = world.cast().moving.size();
+  const int kinds = turns ? 4 : 1;  // forces, or a force and a torque either way, or torques
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (int a = 0; a < 3; ++a)
+        for (int b = 0; b < 3; ++b) {
+          if ((a != b) != across) continue;
+          for (int kind = 0; kind < kinds; ++kind)
+            for (const double first : {1.0, -1.0})
+              for (const double second : {1.0, -1.0}) {
+                actions.push_back(at_rest(world));
+                drive(actions.back(), world, i, (kind & 1) != 0, first * force * axes.col(a));
+                drive(actions.back(), world, j, (kind & 2) != 0, second * force * axes.col(b));
+              }
+        }
+  return actions;
+}
+
 std::vector<Action> diagonal_actions(const World& world, double force, const Eigen::Matrix3d& axes) {
   std::vector<Action> actions;
   for (int weight = 3; weight >= 2; --weight)  // space diagonals first: they reach all three axes

@@ -33,6 +33,27 @@ PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned 
   return merged(first, rotation.run(limits));
 }
 
+/// Likewise where each part moves in its own way. A state has many more actions then, so it is simulated steps that are
+/// counted, and somebody mostly turns, so that is looked at from the first level on.
+PathResult each_its_way(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
+                        RunContext& context) {
+  const auto run = [&](MotionSpace space) {
+    const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
+    const std::uint64_t most = std::min(left, static_cast<std::uint64_t>(tactics.steps_at_once) * depth);
+    std::uint64_t own = most;
+    Search::Limits here = limits;
+    here.steps_left = &own;
+    here.rank = 1 + depth / 2;  // one driven, and two along one axis; from the second level on across, too
+    PathResult result = Search(query, space, tactics, context).run(here);
+    if (limits.steps_left != nullptr) *limits.steps_left -= most - own;
+    if (result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
+    return result;
+  };
+  const PathResult first = run(MotionSpace::translation);
+  if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
+  return merged(first, run(MotionSpace::rigid));
+}
+
 }  // namespace
 
 Capabilities required() { return {.dynamics = true, .contacts = true, .distance = false, .max_moving = 1}; }
@@ -83,6 +104,7 @@ PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& cont
     const auto space = tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid;
     return Search(query, space, tactics, context).run(limits);
   }
+  if (depth > 0 && !query.leaving.empty()) return each_its_way(query, tactics, depth, limits, context);
   return depth > 0 ? up_to_depth(query, tactics, depth, limits, context) : ByTurns(query, tactics, context).run(limits);
 }
 

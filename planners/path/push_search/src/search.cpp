@@ -1,8 +1,9 @@
-#include "dismantle/path/touched.h"
 #include "dismantle/push/search.h"
 
 #include <algorithm>
 #include <utility>
+
+#include "dismantle/path/touched.h"
 
 namespace dismantle::push {
 namespace {
@@ -15,6 +16,8 @@ constexpr double kPlaceShare = 5;
 constexpr unsigned kMostRank = 4;
 /// States in the middle of runs wait until the ends have been given all their actions.
 constexpr unsigned kMiddleRank = 2;
+/// So do states in which only one part has moved, where each moves in its own way.
+constexpr unsigned kAloneRank = 2;
 /// Turns that lean end there, in rad.
 constexpr double kOnceRound = 6.5;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
@@ -46,7 +49,9 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       bodies_(balls(*world_)),
       axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.cast, axes_),
-      stages_(space == MotionSpace::translation ? tactics.translating : tactics.turning),
+      stages_(!query.leaving.empty()              ? tactics.each_its_way
+              : space == MotionSpace::translation ? tactics.translating
+                                                  : tactics.turning),
       seen_(bodies_, tactics.similarity_translation, tactics.similarity_rotation),
       fine_(bodies_, kSameShare * tactics.similarity_translation, kSameShare * tactics.similarity_rotation),
       places_(bodies_, kPlaceShare * tactics.similarity_translation, tactics.similarity_rotation) {}
@@ -72,13 +77,8 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   const auto id = static_cast<std::int32_t>(nodes_.size());
   seen_.add(node.state, static_cast<std::uint32_t>(id));
   fine_.add(node.state, static_cast<std::uint32_t>(id));
-  double way_from_start = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    way_from_start =
-        std::max(way_from_start,
-                 (state.bodies[i].pose * bodies_[i].center - query_.cast.moving[i].pose * bodies_[i].center).norm());
-  if (way_from_start > farthest_) {
-    farthest_ = way_from_start;
+  if (const double from_start = way_from_start(state); from_start > farthest_) {
+    farthest_ = from_start;
     best_.clear();
     for (const auto& b : state.bodies) best_.push_back(b.pose);
   }
@@ -87,7 +87,10 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 }
 
 unsigned Search::rank(const Node& node) const {
-  const unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
+  unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
+  // What one part does alone there are other means for.
+  if (!query_.leaving.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
+    stage += kAloneRank;
   if (!tactics_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
   // A state is in its own place once it has been searched from.
@@ -138,10 +141,17 @@ bool Search::out_of_budget() const {
 
 /// The state of node `last` is out: is the way there valid?
 Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
-  const Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
+  Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
-  const Verdict verdict = query_.judge(path);
+  Verdict verdict = query_.judge(path);
+  if (!verdict.accepted && !query_.leaving.empty()) {
+    Path eased = with_room(path);
+    if (const Verdict again = query_.judge(eased); again.accepted) {
+      verdict = again;
+      path = std::move(eased);
+    }
+  }
   if (verdict.accepted) {
     note_contacts(start);
     result.outcome = Outcome::solved;
@@ -180,7 +190,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     steps_ += report.steps;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
-    if (way.size() > before && world_->separated(state))
+    if (way.size() > before && out(state))
       return judge(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
@@ -239,6 +249,11 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
       return diagonal_actions(*world_, tactics_.force, axes_);
     case Stage::screws:
       return screw_actions(*world_, tactics_.force, axes_);
+    case Stage::one_driven:
+      return one_driven(*world_, tactics_.force, turning(), axes_);
+    case Stage::two_along:
+    case Stage::two_across:
+      return two_driven(*world_, tactics_.force, turning(), axes_, stage == Stage::two_across);
     case Stage::twists:
     case Stage::free:
     case Stage::leaning:
@@ -312,7 +327,7 @@ PathResult Search::run(const Limits& limits) {
   PathResult result;
   if (nodes_.empty()) {
     reset();
-    if (world_->separated(nodes_.front().state)) {
+    if (out(nodes_.front().state)) {
       result.outcome = Outcome::start_is_goal;
       result.path = path_to(0);
       result.path.push_back(result.path.front());

@@ -23,6 +23,9 @@ struct Maze {
   std::vector<Aabb> free_after_learning{};  ///< empty: nothing to learn
   double speed = 2.5;                       ///< units / s
   std::uint64_t steps_per_advance = 10;
+  /// Points that hold each other: is shown where a step would bring them, and may move those that nothing pushes;
+  /// false: nobody moves.
+  std::function<bool(State&, const Action&)> link{};
   bool inside(const Vector3d& p, bool learned) const {
     for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
       if (box.contains(p)) return true;
@@ -60,11 +63,16 @@ class MazeWorld final : public World {
       ++report.steps;
       ++notes_.steps;
       bool moved = false;
+      const State was = state;
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
         const Vector3d& force = action.wrenches.at(i).force;
         if (force.norm() == 0) continue;
         const Vector3d way = maze_.speed * duration / static_cast<double>(maze_.steps_per_advance) * force.normalized();
         moved |= move(state.bodies[i].pose.t, way);
+      }
+      if (moved && maze_.link && !maze_.link(state, action)) {
+        state = was;
+        moved = false;
       }
       report.stalled = !moved;
       if (report.stalled) break;
@@ -93,6 +101,7 @@ class MazeWorld final : public World {
       if (maze_.exit.contains(b.pose.t)) return false;
     return true;
   }
+  bool leaves(const State& state, std::size_t body) override { return !maze_.exit.contains(state.bodies[body].pose.t); }
   void learn(PartId, PartId, const Vector3d&) override {
     ++notes_.learned;
     learned_ = true;
@@ -167,10 +176,11 @@ inline Verdict accept(const Path&) {
   return v;
 }
 
-/// `moving` points start at the origin; part 9 stands still.
+/// `moving` points start at the origin; part 9 stands still. With `leaving` each goes its own way.
 inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Effort& effort = {},
                    const Judge& judge = accept, RunContext context = {}, std::size_t moving = 1,
-                   Capabilities has = {true, true, true, 4}, const char* planner = "bfs") {
+                   Capabilities has = {true, true, true, 4}, const char* planner = "bfs",
+                   const std::vector<PartId>& leaving = {}) {
   MazeSimulator simulator(maze, run.notes);
   simulator.has = has;
   const Assembly assembly;
@@ -178,10 +188,16 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
   Cast cast;
   for (std::size_t i = 0; i < moving; ++i) cast.moving.push_back({static_cast<PartId>(i), Pose{}});
   cast.still.push_back({9, Pose{}});
-  const PathQuery query{assembly, simulator, *prepared, cast, effort, [&](const Path& path) {
+  const PathQuery query{assembly,
+                        simulator,
+                        *prepared,
+                        cast,
+                        effort,
+                        [&](const Path& path) {
                           run.judged.push_back(path);
                           return judge(path);
-                        }};
+                        },
+                        leaving};
   run.result = registry().create<PathPlanner>(planner, given)->plan(query, context);
 }
 

@@ -45,6 +45,7 @@ class BodyWorld : public World {
   void retreat(State& state, double clearance) override;
   void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
+  bool leaves(const State& state, std::size_t body) override;
   void learn(PartId part, PartId other, const Eigen::Vector3d& point) override;
   bool strict() const override { return scene_.strict(); }
   void relax() override;

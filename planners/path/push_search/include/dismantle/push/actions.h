@@ -19,6 +19,11 @@ std::vector<Action> diagonal_actions(const World& world, double force,
 /// A torque about each axis, both ways, together with a force along the same axis, both ways: turn and pull.
 std::vector<Action> screw_actions(const World& world, double force,
                                   const Eigen::Matrix3d& axes = Eigen::Matrix3d::Identity());
+/// For parts that move each in its own way: one is pushed along an axis or (`turns`) turned about it, both ways; the
+/// others are free, and go where they are pushed by contact.
+std::vector<Action> one_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes);
+/// Likewise two at once, along the same axis or (`across`) along different ones. The rest are free.
+std::vector<Action> two_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes, bool across);
 /// A force along `direction` (need not be unit) on every moving part.
 Action push(const World& world, double force, const Eigen::Vector3d& direction);
 

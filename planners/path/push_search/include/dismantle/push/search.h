@@ -68,6 +68,9 @@ class Search {
   };
 
   void reset();
+  bool out(const State& state);
+  double way_from_start(const State& state) const;
+  Path with_room(const Path& rubbing);
   unsigned rank(const Node& node) const;
   bool take_up_middles();
   RunEnd sweep(std::uint64_t expansions, PathResult& result);

@@ -16,6 +16,10 @@ enum class Stage {
   leaning,    ///< free directions while leaning on a wall beside
   diagonals,  ///< forces along the 20 diagonals
   screws,     ///< a torque and a force along its axis at once; in SE(3) only
+  // For queries in which each part moves in its own way (PathQuery::leaving):
+  one_driven,  ///< a force along one of three axes (in SE(3) also a torque about it) on one part; contact drags others
+  two_along,   ///< on two parts at once, along the same axis, in all combinations
+  two_across,  ///< on two parts at once, along different axes
 };
 
 struct Tactics {
@@ -25,6 +29,9 @@ struct Tactics {
   double similarity_translation = 0.05;  ///< assembly units
   double similarity_rotation = 0.5;      ///< rad
   std::vector<Stage> translating, turning;
+  /// Where each part moves in its own way, translating and turning. How many actions there are grows with the square of
+  /// the number of parts, not exponentially: who is given no wrench of its own follows.
+  std::vector<Stage> each_its_way{Stage::one_driven, Stage::two_along, Stage::two_across};
   /// Axes of the parts themselves (frame.h), so that nothing depends on how the assembly lies; else the world's.
   bool own_axes = false;
   bool novelty = false;
@@ -33,6 +40,8 @@ struct Tactics {
   std::int64_t max_refusals = 8;
   /// motion auto under a depth limit: states searched from per level of depth.
   std::int64_t translation_nodes = 24, rotation_nodes = 8;
+  /// The same where each part moves in its own way: simulated steps per level of depth, in each motion space.
+  std::int64_t steps_at_once = 2000;
   /// motion auto without one: rank to which translation is searched first, and by how much less rotation is after it.
   unsigned first_rank = 0, turning_lag = 0;
 };

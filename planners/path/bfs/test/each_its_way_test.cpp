@@ -1,0 +1,129 @@
+// Points in mazes that hold each other: searches in which each part moves in its own way.
+#include <cmath>
+
+#include "maze.h"
+
+namespace dismantle::bfs {
+namespace {
+
+using namespace push::test;
+
+constexpr double kTight = 1e-9;
+
+/// Point 0 lies in a tunnel along x, point 1 in one along y.
+Maze crossed() {
+  return {.free = {tunnel(Vector3d(-30, 0, 0), Vector3d(30, 0, 0), 1e-4),
+                   tunnel(Vector3d(0, -30, 0), Vector3d(0, 30, 0), 1e-4)}};
+}
+
+bool in_own_tunnel(const State& s) {
+  const Vector3d &a = s.bodies[0].pose.t, &b = s.bodies[1].pose.t;
+  return std::abs(a.y()) + std::abs(a.z()) + std::abs(b.x()) + std::abs(b.z()) < kTight;
+}
+
+bool is_pushed(const Action& action, std::size_t body) { return action.wrenches[body].force.norm() > 0; }
+
+/// As by a rack: y of point 1 is `ratio` times x of point 0, and whoever is not pushed is dragged along.
+Maze geared(double ratio) {
+  Maze maze = crossed();
+  maze.link = [ratio](State& s, const Action& action) {
+    double &x = s.bodies[0].pose.t.x(), &y = s.bodies[1].pose.t.y();
+    if (!is_pushed(action, 1))
+      y = ratio * x;
+    else if (!is_pushed(action, 0))
+      x = y / ratio;
+    return in_own_tunnel(s) && std::abs(y - ratio * x) < kTight;
+  };
+  return maze;
+}
+
+/// As two doors that open each other: neither moves unless both do, by the same way, and nobody is dragged.
+Maze hand_in_hand() {
+  Maze maze = crossed();
+  maze.link = [](State& s, const Action&) {
+    return in_own_tunnel(s) && std::abs(s.bodies[0].pose.t.x() - s.bodies[1].pose.t.y()) < kTight;
+  };
+  return maze;
+}
+
+void go(MazeRun& run, const Maze& maze, const std::vector<PartId>& leaving, const char* planner = "bfs",
+        const Effort& effort = {.max_depth = 1}) {
+  search(run, maze, {}, effort, accept, {}, 2, {true, true, true, 4}, planner, leaving);
+}
+
+TEST(EachItsWay, WhoeverIsDrivenTheOtherIsDraggedAlong) {
+  for (const char* planner : {"bfs", "guided"})
+    for (const double ratio : {0.5, 1.0, 2.0})
+      for (const PartId out : {PartId{0}, PartId{1}}) {
+        MazeRun run;
+        const Maze maze = geared(ratio);
+        go(run, maze, {out}, planner);
+        ASSERT_EQ(run.result.outcome, Outcome::solved) << planner << ratio;
+        EXPECT_EQ(run.result.depth, 1u);
+        const std::vector<Pose>& end = run.result.path.back();
+        EXPECT_NEAR(end[1].t.y(), ratio * end[0].t.x(), 1e-6);
+        EXPECT_FALSE(maze.exit.contains(end[out].t)) << "it is out";
+        if (ratio == 1.0) continue;
+        EXPECT_EQ(maze.exit.contains(end[1 - out].t), (ratio < 1) == (out == 0)) << "it ends as soon as that one is";
+      }
+}
+
+TEST(EachItsWay, AnyOfThoseThatMayLeaveWillDo) {
+  MazeRun run;
+  const Maze maze = geared(2.0);
+  go(run, maze, {0, 1});
+  ASSERT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_FALSE(maze.exit.contains(run.result.path.back()[1].t)) << "the faster one";
+  EXPECT_TRUE(maze.exit.contains(run.result.path.back()[0].t));
+}
+
+TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
+  for (const char* planner : {"bfs", "guided"}) {
+    MazeRun run;
+    go(run, hand_in_hand(), {0}, planner, {.max_depth = 2});
+    ASSERT_EQ(run.result.outcome, Outcome::solved) << planner;
+    const auto& end = run.result.path.back();
+    EXPECT_GT(std::abs(end[0].t.x()), 5);
+    EXPECT_NEAR(end[0].t.x(), end[1].t.y(), 1e-6);
+    ASSERT_EQ(run.judged.size(), 1u);
+  }
+  // As one group they go nowhere.
+  MazeRun group;
+  search(group, hand_in_hand(), {}, {.max_depth = 2}, accept, {}, 2);
+  EXPECT_NE(group.result.outcome, Outcome::solved);
+}
+
+TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
+  // Plenty of room, no way out, nobody dragged.
+  const Maze maze{.free = {Aabb{Vector3d::Constant(-3), Vector3d::Constant(3)}}};
+  for (const unsigned depth : {1U, 4U}) {
+    MazeRun run;
+    go(run, maze, {0, 1}, "guided", {.max_depth = depth});
+    EXPECT_EQ(run.result.outcome, Outcome::depth_limit);
+    EXPECT_EQ(run.result.counts.at("steps"), static_cast<double>(run.notes.steps));
+    EXPECT_LE(run.notes.steps, 2 * (2000 * depth + 10)) << "in both motion spaces, and an advance is not cut short";
+    MazeRun less;
+    go(less, maze, {0, 1}, "guided", {.max_depth = depth, .max_steps = 300});
+    EXPECT_EQ(less.result.outcome, Outcome::timeout) << "the asker's budget is used up, not that of the depth";
+    EXPECT_LE(less.notes.steps, 310u);
+  }
+}
+
+TEST(EachItsWay, SaysHowFarTheSecondHasCome) {
+  // Only point 0 can move, by 3.
+  Maze maze{.free = {Aabb{Vector3d::Constant(-3), Vector3d::Constant(3)}}};
+  maze.link = [](State& s, const Action&) { return s.bodies[1].pose.t.norm() < kTight; };
+  MazeRun alone, both;
+  go(alone, maze, {0, 1});
+  EXPECT_EQ(alone.result.outcome, Outcome::depth_limit);
+  EXPECT_EQ(alone.result.best_pose[1].t, Vector3d::Zero());
+  Maze rack = geared(1.0);
+  rack.free = {tunnel(Vector3d(-3, 0, 0), Vector3d(3, 0, 0), 1e-4),
+               tunnel(Vector3d(0, -3, 0), Vector3d(0, 3, 0), 1e-4)};
+  go(both, rack, {0, 1});
+  EXPECT_GT(both.result.best_pose[0].t.norm(), 2.5);
+  EXPECT_GT(both.result.best_pose[1].t.norm(), 2.5);
+}
+
+}  // namespace
+}  // namespace dismantle::bfs

@@ -1,0 +1,55 @@
+// Where each part moves in its own way, until one of them is out.
+#include <algorithm>
+
+#include "dismantle/push/search.h"
+
+namespace dismantle::push {
+namespace {
+
+/// Room that parts are given on their way out, where there is so much (assembly units).
+constexpr double kRoom = 0.02;
+/// How far the smoother path may be off what was simulated (assembly units).
+constexpr double kSmooth = 2e-3;
+
+}  // namespace
+
+/// Has one come apart from all others, or where nobody is to leave the group, the group from the rest?
+bool Search::out(const State& state) {
+  if (query_.leaving.empty()) return world_->separated(state);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto& leaving = query_.leaving;
+    if (std::find(leaving.begin(), leaving.end(), query_.cast.moving[i].part) != leaving.end() &&
+        world_->leaves(state, i))
+      return true;
+  }
+  return false;
+}
+
+/// Of the centre that came furthest. Each in its own way: of the part that came second furthest, turns included; where
+/// that is nothing, one part has moved alone.
+double Search::way_from_start(const State& state) const {
+  std::vector<double> ways;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Pose& start = query_.cast.moving[i].pose;
+    const Pose& now = state.bodies[i].pose;
+    ways.push_back((now * bodies_[i].center - start * bodies_[i].center).norm());
+    if (!query_.leaving.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
+  }
+  std::sort(ways.begin(), ways.end());
+  return query_.leaving.empty() ? ways.back() : ways[ways.size() - 2];
+}
+
+/// Parts that drive each other rub along their surfaces all the way, which is hard to prove harmless: the same path,
+/// smoother, with some room between them wherever there is any. Begin and end stay as they are.
+Path Search::with_room(const Path& rubbing) {
+  Path path = path::thin(rubbing, bodies_, kSmooth);
+  for (std::size_t k = 1; k + 1 < path.size() && !out_of_budget(); ++k) {
+    State state = world_->initial_state();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) state.bodies[i].pose = path[k][i];
+    world_->retreat(state, kRoom);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) path[k][i] = state.bodies[i].pose;
+  }
+  return path;
+}
+
+}  // namespace dismantle::push
