@@ -5,10 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <queue>
-#include <tuple>
 #include <utility>
 
 #include "verify/patch.h"
@@ -20,56 +17,24 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr double kSamples = 5'000;        // of the bar's surface
-constexpr std::size_t kMostNodes = 1200;  // of its middle
-constexpr double kJoined = 0.95;          // of what two nodes keep: so near each other they are joined
-constexpr std::size_t kDirections = 400;  // in which a bend's lines are looked for
-constexpr std::size_t kHoles = 4;         // holes tried
-constexpr std::size_t kNear = 40;         // nodes on each side of a hole where bends are looked for
-constexpr std::size_t kBends = 3;         // bends tried on each side
-constexpr int kStepsAlong = 14;           // of a bend's lines; each half of what the corner keeps
-constexpr int kFinest = 6;                // halvings of the faces of a cube of directions
-constexpr std::size_t kShortest = 8;      // ... and fewer are no line
-constexpr double kLeast = 50 * pi / 180;  // a bend is no less than that
+constexpr std::size_t kMostNodes = 1200;         // of its middle
+constexpr double kJoined = 0.95;                 // of what two nodes keep: so near each other they are joined
+constexpr std::size_t kDirections = 400;         // in which a bend's lines are looked for
+constexpr std::size_t kHoles = 4;                // holes tried
+constexpr std::size_t kNear = 40;                // nodes on each side of a hole where bends are looked for
+constexpr std::size_t kBends = 3;                // bends tried on each side
+constexpr int kStepsAlong = 14;                  // of a bend's lines; each half of what the corner keeps
+constexpr int kFinest = 6;                       // halvings of the faces of a cube of directions
+constexpr std::size_t kShortest = 8;             // ... and fewer are no line
+constexpr std::size_t kMostCaps = 8000;          // a third of all: with so many directions left there is no proof
+constexpr std::uint64_t kMostLooks = 6'000'000;  // at distances, for one bend
+constexpr double kLeast = 50 * pi / 180;         // a bend is no less than that
 
 /// A point in the middle of the bar and what it keeps.
 struct Node {
   Vec3 at;
   double keep;
 };
-
-double ball_at(const Solid& solid, const Vec3& p, const Vec3& inward, double most) {
-  double radius = most;
-  for (int k = 0; k < 30; ++k) {
-    const ClosestPoint seen = solid.bvh.closest(p + radius * inward, radius * (1 - 1e-9));
-    if (!(seen.distance < radius - 1e-7)) break;
-    const Vec3 to = seen.point - p;
-    const double along = to.dot(inward);
-    if (!(along > 0)) return 0;
-    const double next = to.squaredNorm() / (2 * along);
-    if (!(next < radius)) break;
-    radius = next;
-  }
-  return radius;
-}
-
-/// To where it is deeper, as far as that goes: a ball that touches a flat facet beside its middle is smaller than the
-/// one that fits in.
-Vec3 deeper(const Solid& bar, Vec3 p) {
-  Escape at = escape_at(p, bar);
-  double step = 0.3 * at.depth;
-  for (int k = 0; k < 40 && step > 0.01 * at.depth; ++k) {
-    const Vec3 next = p - step * at.out;
-    const Escape there = escape_at(next, bar);
-    if (there.depth > at.depth) {
-      p = next;
-      at = there;
-    } else {
-      step *= 0.5;
-    }
-  }
-  return p;
-}
 
 /// Nodes for a depth, thinned out: the deepest first, others only at some distance.
 std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth) {
@@ -193,40 +158,56 @@ Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double
   return best;
 }
 
-/// Two lines through the bar that meet at a place near the node, which may move a little to where they keep more.
-std::optional<std::pair<Bend, double>> bend_at(const Solid& bar, const Node& node, double depth) {
+/// Two lines through the bar from one place, and what both keep: what is bent the most keeps the most away.
+struct Corner {
+  Node node;
+  Vec3 at;
+  Line first, second;
+  double worth() const { return (first.worth + second.worth) * first.along.cross(second.along).norm(); }
+  std::size_t length() const { return std::min(first.keep.size(), second.keep.size()); }
+};
+
+bool is_bend(const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) < std::cos(kLeast); }
+
+std::optional<Corner> glance(const Solid& bar, const Node& node, double depth) {
   const double step = 0.5 * node.keep;
-  const auto any = [](const Vec3&) { return true; };
-  const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };
   std::vector<Line> lines;
   for (std::size_t k = 0; k < kDirections; ++k) {  // a spiral from pole to pole
     const double z = 1 - (2 * k + 1.0) / kDirections, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
     lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step, depth));
   }
-  Vec3 corner = node.at;
-  Line first = improved(bar, corner, *std::max_element(lines.begin(), lines.end(), better), 0.1, step, depth, any);
-  const auto bends = [&](const Vec3& along) { return std::abs(first.along.dot(along)) < std::cos(kLeast); };
-  std::erase_if(lines, [&](const Line& l) { return !bends(l.along); });
+  const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };
+  const Line first = *std::max_element(lines.begin(), lines.end(), better);
+  std::erase_if(lines, [&](const Line& l) { return !is_bend(first.along, l.along); });
   if (lines.empty()) return std::nullopt;
-  Line second = improved(bar, corner, *std::max_element(lines.begin(), lines.end(), better), 0.1, step, depth, bends);
-  if (std::min(first.keep.size(), second.keep.size()) < kShortest) return std::nullopt;
-  for (double by = 0.4 * node.keep; by > 0.02 * node.keep; by *= 0.5)
+  Corner corner{node, node.at, first, *std::max_element(lines.begin(), lines.end(), better)};
+  // At a glance lines are not straight along the bar; half of what is wanted will do.
+  return corner.length() >= kShortest / 2 ? std::optional(corner) : std::nullopt;
+}
+
+/// Moved and turned a little to where it keeps more.
+std::optional<Bend> refined(const Solid& bar, Corner corner, double depth) {
+  const double step = 0.5 * corner.node.keep;
+  const auto turned = [&](const Vec3& at, const Line& one, const Line& two, double by) {
+    const auto any = [](const Vec3&) { return true; };
+    Corner c{corner.node, at, improved(bar, at, line_along(bar, at, one.along, step, depth), by, step, depth, any), {}};
+    const auto bends = [&](const Vec3& along) { return is_bend(c.first.along, along); };
+    c.second = improved(bar, at, line_along(bar, at, two.along, step, depth), by, step, depth, bends);
+    return c;
+  };
+  corner = turned(corner.at, corner.first, corner.second, 0.15);
+  for (double by = 0.4 * corner.node.keep; by > 0.02 * corner.node.keep; by *= 0.5)
     for (int k = 0; k < 4; ++k) {
-      const Vec3 at = corner + (k % 2 == 0 ? by : -by) * (k < 2 ? first : second).along;
-      if ((at - node.at).norm() > kJoined * node.keep) continue;
-      Line one = improved(bar, at, line_along(bar, at, first.along, step, depth), 0.05, step, depth, any);
-      Line two = improved(bar, at, line_along(bar, at, second.along, step, depth), 0.05, step, depth, any);
-      if (!(one.worth + two.worth > first.worth + second.worth)) continue;
-      first = std::move(one);
-      second = std::move(two);
-      corner = at;
+      const Vec3 at = corner.at + (k % 2 == 0 ? by : -by) * (k < 2 ? corner.first : corner.second).along;
+      if ((at - corner.node.at).norm() > kJoined * corner.node.keep) continue;
+      Corner next = turned(at, corner.first, corner.second, 0.05);
+      if (next.worth() > corner.worth()) corner = std::move(next);
     }
-  const std::size_t n = std::min(first.keep.size(), second.keep.size());
-  if (n < kShortest) return std::nullopt;
-  Bend bend{corner, {first.along, second.along}, step, {}};
-  for (std::size_t k = 0; k < n; ++k) bend.keep.push_back(std::min(first.keep[k], second.keep[k]));
-  // What is bent the most keeps the most away.
-  return std::pair(bend, (first.worth + second.worth) * first.along.cross(second.along).norm());
+  if (corner.length() < kShortest || !is_bend(corner.first.along, corner.second.along)) return std::nullopt;
+  Bend bend{corner.at, {corner.first.along, corner.second.along}, step, {}};
+  for (std::size_t k = 0; k < corner.length(); ++k)
+    bend.keep.push_back(std::min(corner.first.keep[k], corner.second.keep[k]));
+  return bend;
 }
 
 /// A cell of directions: all unit vectors within `radius` (as a distance) of `center`.
@@ -258,6 +239,7 @@ class Ways {
     for (int face = 0; face < 6; ++face) cover(Cap(face, 0, 0, 0));
   }
   const std::vector<Cap>& directions() const { return found_; }
+  bool gave_up() const { return found_.size() > kMostCaps || looks_ > kMostLooks; }
 
  private:
   struct Places {
@@ -265,10 +247,13 @@ class Ways {
     std::vector<Vec3> centers;
   };
 
-  double room(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
+  double room(const Vec3& p, double limit) {
+    ++looks_;
+    return around_.bvh.closest(to_local_ * p, limit).distance;
+  }
 
   /// Squares of the disc in some of which the corner is.
-  Places places(double edge) const {
+  Places places(double edge) {
     Places result{edge, {}};
     const Vec3 e = loop_.plane.normal.unitOrthogonal(), f = loop_.plane.normal.cross(e);
     double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
@@ -308,7 +293,7 @@ class Ways {
   }
 
   void cover(const Cap& cap) {
-    if (!possible(cap)) return;
+    if (gave_up() || !possible(cap)) return;
     if (cap.level == kFinest) {
       found_.push_back(cap);
       return;
@@ -322,11 +307,13 @@ class Ways {
   Pose to_local_;
   std::vector<Places> places_;  ///< by level
   std::vector<Cap> found_;
+  std::uint64_t looks_ = 0;
 };
 
 /// Can the corner never be on the disc?
 bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend) {
   const Ways ways(loop, around, bend);
+  if (ways.gave_up()) return false;
   const double apart = (bend.along[0] - bend.along[1]).norm();
   for (const Cap& a : ways.directions())
     for (const Cap& b : ways.directions())
@@ -360,42 +347,6 @@ std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& node
 
 }  // namespace
 
-std::vector<InnerBall> middle_of(const Solid& bar, double least) {
-  std::vector<InnerBall> balls;
-  const double largest = 0.5 * bar.box.size().minCoeff();
-  if (!(largest > least)) return balls;
-  double area = 0;
-  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) {
-    const Vec3 a = bar.mesh.vertex(t, 0);
-    area += 0.5 * (bar.mesh.vertex(t, 1) - a).cross(bar.mesh.vertex(t, 2) - a).norm();
-  }
-  const double spacing = std::max(least, std::sqrt(area / kSamples));
-  std::map<std::array<long, 3>, Vec3> centers;  // one in each cell of a grid
-  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) {
-    const Vec3 a = bar.mesh.vertex(t, 0), u = bar.mesh.vertex(t, 1) - a, v = bar.mesh.vertex(t, 2) - a;
-    const auto along_u = static_cast<int>(std::ceil(u.norm() / spacing));
-    const auto along_v = static_cast<int>(std::ceil(v.norm() / spacing));
-    for (int i = 0; i < along_u; ++i)
-      for (int k = 0; k < along_v; ++k) {
-        const double x = (i + 0.5) / along_u, y = (k + 0.5) / along_v;
-        if (x + y > 1) continue;
-        const Vec3 p = a + x * u + y * v;
-        const double radius = ball_at(bar, p, -bar.normals[t], largest);
-        if (!(radius > 0.5 * least)) continue;
-        const Vec3 c = p - radius * bar.normals[t];
-        centers.try_emplace({std::lround(c.x() / least), std::lround(c.y() / least), std::lround(c.z() / least)}, c);
-      }
-  }
-  for (const auto& [cell, start] : centers) {
-    const Vec3 center = deeper(bar, start);
-    const double radius = escape_at(center, bar).depth;
-    if (radius > least) balls.push_back({bar.frame * center, radius});
-  }
-  std::stable_sort(balls.begin(), balls.end(),
-                   [](const InnerBall& a, const InnerBall& b) { return a.radius > b.radius; });
-  return balls;
-}
-
 std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
                                   double depth) {
   const std::vector<Node> nodes = nodes_of(middle, depth);
@@ -406,16 +357,18 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>
     HookCage cage{nodes[node].at, loop.diameter, {}};
     int bent = 0;
     for (const bool above : {false, true}) {
-      std::vector<std::pair<Bend, double>> bends;
+      std::vector<Corner> corners;
       std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
       near.resize(std::min(near.size(), kNear));
       for (const std::size_t n : near)
-        if (auto bend = bend_at(bar, nodes[n], depth)) bends.push_back(std::move(*bend));
-      std::stable_sort(bends.begin(), bends.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-      bends.resize(std::min(bends.size(), kBends));
-      for (const auto& [bend, worth] : bends) {
-        if (!cannot_pass(loop, around, bend)) continue;
-        cage.bends[above ? 1 : 0] = bend;
+        if (auto corner = glance(bar, nodes[n], depth)) corners.push_back(std::move(*corner));
+      std::stable_sort(corners.begin(), corners.end(),
+                       [](const Corner& a, const Corner& b) { return a.worth() > b.worth(); });
+      corners.resize(std::min(corners.size(), kBends), Corner{});
+      for (const Corner& corner : corners) {
+        const auto bend = refined(bar, corner, depth);
+        if (!bend || !cannot_pass(loop, around, *bend)) continue;
+        cage.bends[above ? 1 : 0] = *bend;
         ++bent;
         break;
       }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "verify/bar_middle.h"
 #include "verify/solid.h"
 
 namespace dismantle::verify {
@@ -24,15 +25,6 @@ struct HookCage {
   double width = 0;                                ///< diameter of the hole
   std::array<Bend, 2> bends;                       ///< on either side
 };
-
-/// A ball within a solid. Assembled frame.
-struct InnerBall {
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
-  double radius = 0;
-};
-
-/// Balls with radii above `least` (> 0) along the middle of the solid, the largest first.
-std::vector<InnerBall> middle_of(const Solid& solid, double least);
 
 /// Does `bar` with that middle, which is nowhere penetrated by more than `depth` (> 0), hang in a hole of `around`
 /// between two bends that cannot pass? Nothing: not found within the effort, a few seconds at most.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -18,9 +19,13 @@ using std::numbers::pi;
 
 constexpr int kHeights = 24, kRadii = 32;  // where rings are looked for
 constexpr int kGlance = 24;                // points at which a ring is looked at first
+constexpr int kWidenings = 8;              // of a ring about a hole
 constexpr int kHalvings = 12;              // of arcs, to prove that all of them is deep enough
 constexpr std::size_t kSections = 400;     // of the solid around it
 constexpr double kSlack = 1e-6;            // assembly units: an opening is smaller by more than that
+constexpr double kParallel = 0.999999;     // cosine of the angle between directions that are the same
+constexpr std::size_t kFaces = 300;        // directions of faces that are told apart
+constexpr double kDent = 1e-4;             // assembly units: rims are so near to convex curves
 
 Vec3 on(const InnerRing& ring, double angle) {
   const Vec3 e = ring.axis.unitOrthogonal(), f = ring.axis.cross(e);
@@ -43,23 +48,43 @@ bool looks_deep(const Solid& solid, const InnerRing& ring, double depth) {
   return true;
 }
 
-/// Axes of inertia of the surface, and its centre.
-std::pair<Vec3, Eigen::Matrix3d> axes_of(const Mesh& mesh) {
+/// Directions about which the solid may be round: its axes of inertia, and across its largest flat faces. Its frame.
+struct Axes {
+  Vec3 center = Vec3::Zero();  ///< of the surface
+  std::vector<Vec3> all;
+};
+
+Axes axes_of(const Solid& solid) {
+  const Mesh& mesh = solid.mesh;
   double area = 0;
-  Vec3 center = Vec3::Zero();
+  Axes axes;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  std::vector<std::pair<double, Vec3>> faces;  // by direction
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = mesh.vertex(t, 0), b = mesh.vertex(t, 1), c = mesh.vertex(t, 2);
     const double w = (b - a).cross(c - a).norm();
-    const Vec3 m = (a + b + c) / 3;
     area += w;
-    center += w * m;
+    axes.center += w * (a + b + c) / 3;
     for (const Vec3& p : {Vec3(0.5 * (a + b)), Vec3(0.5 * (b + c)), Vec3(0.5 * (c + a))})
       second += w / 3 * p * p.transpose();
+    const auto same = std::find_if(faces.begin(), faces.end(),
+                                   [&](const auto& f) { return std::abs(f.second.dot(solid.normals[t])) > kParallel; });
+    if (same != faces.end())
+      same->first += w;
+    else if (faces.size() < kFaces)
+      faces.emplace_back(w, solid.normals[t]);
   }
-  center /= area;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second / area - center * center.transpose());
-  return {center, axes.eigenvectors()};
+  axes.center /= area;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> inertia(second / area - axes.center * axes.center.transpose());
+  for (int k = 0; k < 3; ++k) axes.all.push_back(inertia.eigenvectors().col(k));
+  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [w, normal] : faces) {
+    if (axes.all.size() == 6 || w < 0.02 * area) break;
+    if (std::none_of(axes.all.begin(), axes.all.end(),
+                     [n = normal](const Vec3& known) { return std::abs(known.dot(n)) > kParallel; }))
+      axes.all.push_back(normal);
+  }
+  return axes;
 }
 
 }  // namespace
@@ -67,9 +92,8 @@ std::pair<Vec3, Eigen::Matrix3d> axes_of(const Mesh& mesh) {
 std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t most) {
   std::vector<InnerRing> candidates;
   if (!(0.5 * solid.box.size().minCoeff() > depth)) return candidates;
-  const auto [center, axes] = axes_of(solid.mesh);
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 axis = axes.col(k);
+  const auto [center, axes] = axes_of(solid);
+  for (const Vec3& axis : axes) {
     double lo = 0, hi = 0, reach = 0;
     for (const Vec3& v : solid.mesh.vertices) {
       const double h = axis.dot(v - center);
@@ -100,11 +124,8 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
 std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around) {
   const Surface surface(around);
   const double middle = ring.axis.dot(ring.center);
-  const std::vector<double> heights = surface.heights(ring.axis, 1e-6);
   std::array<std::optional<Loop>, 2> nearest;  // the smallest loop around the axis below and above the ring
-  const std::size_t step = 1 + heights.size() / kSections;
-  for (std::size_t k = 0; k + step < heights.size(); k += step) {
-    const double offset = 0.5 * (heights[k] + heights[k + 1]);
+  for (const double offset : surface.offsets(ring.axis, kSections)) {
     if (std::abs(offset - middle) < 1e-9) continue;
     auto& best = nearest[offset > middle ? 1 : 0];
     for (Loop& loop : surface.section({ring.axis, offset})) {
@@ -121,6 +142,122 @@ std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around) {
   RingCage cage{ring, 0};
   for (const Loop* loop : chamber->loops()) cage.opening = std::max(cage.opening, loop->diameter);
   return cage;
+}
+
+namespace {
+
+/// Distance of the point from the convex hull of the curve, if the two are nowhere further than kDent from each other;
+/// else 0.
+double reach_of(const Loop& loop, const Vec3& center) {
+  const Vec3 e = loop.plane.normal.unitOrthogonal(), f = loop.plane.normal.cross(e);
+  std::vector<Eigen::Vector2d> points;
+  for (const Vec3& p : loop.points) points.emplace_back(e.dot(p), f.dot(p));
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::vector<Eigen::Vector2d> hull;
+  for (const bool upper : {false, true}) {  // a monotone chain below, then one above
+    const std::size_t first = hull.size();
+    for (const auto& p : points) {
+      while (hull.size() > first + 1) {
+        const Eigen::Vector2d u = hull.back() - hull[hull.size() - 2], v = p - hull.back();
+        if (u.x() * v.y() - u.y() * v.x() > 0) break;
+        hull.pop_back();
+      }
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    if (!upper) std::reverse(points.begin(), points.end());
+  }
+  if (hull.size() < 3) return 0;
+  const auto distance = [&](const Eigen::Vector2d& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Eigen::Vector2d &a = hull[k], along = hull[(k + 1) % hull.size()] - a;
+      const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (a + t * along - p).norm());
+    }
+    return least;
+  };
+  for (const auto& p : points)
+    if (distance(p) > kDent) return 0;
+  return distance({e.dot(center), f.dot(center)});
+}
+
+Vec3 in_plane(const Plane& plane, const Vec3& p) { return p - plane.height(p) * plane.normal; }
+
+/// Circles about an axis, within the solid, from the smallest.
+std::vector<InnerRing> rings_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
+                                   const Solid& solid, double depth) {
+  std::vector<InnerRing> rings;
+  for (int z = 0; z < kHeights; ++z) {
+    InnerRing ring{foot + (lo + (hi - lo) * (z + 0.5) / kHeights) * axis, axis, 0};
+    for (int r = 1; r < 4 * kRadii; ++r) {
+      ring.radius = reach * r / (4 * kRadii);
+      if (!looks_deep(solid, ring, depth)) continue;
+      rings.push_back(ring);
+      break;
+    }
+  }
+  std::stable_sort(rings.begin(), rings.end(),
+                   [](const InnerRing& a, const InnerRing& b) { return a.radius < b.radius; });
+  return rings;
+}
+
+/// The widest convex loops around the axis below and above the ring, with half their widths.
+std::array<std::pair<double, Loop>, 2> rims(const Surface& surface, const InnerRing& ring) {
+  std::array<std::pair<double, Loop>, 2> widest;
+  const double middle = ring.axis.dot(ring.center);
+  for (const double offset : surface.offsets(ring.axis, kSections)) {
+    if (std::abs(offset - middle) < 1e-6) continue;
+    auto& best = widest[offset > middle ? 1 : 0];
+    for (Loop& loop : surface.section({ring.axis, offset})) {
+      if (!loop.around(ring.center)) continue;
+      const double reach = reach_of(loop, in_plane(loop.plane, ring.center));
+      if (reach > best.first) best = {reach, std::move(loop)};
+    }
+  }
+  return widest;
+}
+
+}  // namespace
+
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed) {
+  constexpr std::size_t kRings = 4;
+  const double depth = allowed + kDent;  // so that it also keeps out of the convex curve beside a rim
+  const auto [center, axes] = axes_of(spool);
+  const Vec3 foot = spool.frame * center;
+  std::optional<Surface> surface;
+  for (const Vec3& local : axes) {
+    const Vec3 axis = spool.frame.q * local;
+    double lo = 0, hi = 0, reach = 0;
+    for (const Vec3& v : spool.mesh.vertices) {
+      const Vec3 d = spool.frame * v - foot;
+      lo = std::min(lo, axis.dot(d));
+      hi = std::max(hi, axis.dot(d));
+      reach = std::max(reach, (d - axis.dot(d) * axis).norm());
+    }
+    std::size_t tried = 0;
+    for (InnerRing ring : rings_about(foot, axis, lo, hi, reach, around, depth)) {
+      if (tried++ == kRings) break;
+      bool deep = false;  // what looked so at a glance may have to be a little wider
+      for (int k = 0; k < kWidenings && !deep; ++k) {
+        deep = is_deep(around, ring, depth, 0, 2 * pi, kHalvings);
+        if (!deep) ring.radius += reach / (4 * kRadii);
+      }
+      if (!deep) continue;
+      if (!surface) surface.emplace(spool);
+      const auto [below, above] = rims(*surface, ring);
+      const double rim = std::min(below.first, above.first);
+      if (!(rim > ring.radius + kSlack)) continue;
+      for (const Loop& neck : surface->section({axis, axis.dot(ring.center)})) {
+        const auto within = [&](const Vec3& p) { return (p - ring.center).norm() < ring.radius; };
+        if (!std::all_of(neck.points.begin(), neck.points.end(), within)) continue;
+        if (surface->connects(neck, above.second, true) && surface->connects(neck, below.second, false))
+          return SpoolCage{ring, 2 * rim};
+      }
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace dismantle::verify

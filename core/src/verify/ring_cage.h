@@ -1,4 +1,5 @@
-/// A ring of one part in a chamber of another, all of whose openings are too small for it.
+/// A ring of one part in a chamber of another, all of whose openings are too small for it; or around the neck of a
+/// spool, whose rims are too wide for the ring.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,5 +34,22 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
 /// disc; it never grows to half of the ring. When the ring crosses no disc, all arcs are gone, and it is inside again.
 /// So a point of the ring is always in the chamber or on one of its discs.
 std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around);
+
+struct SpoolCage {
+  InnerRing ring;  ///< within the part around the spool
+  double rim = 0;  ///< diameter of the narrower of the two rims, through its middle; > 2 * ring.radius
+};
+
+/// Is the spool in a hole of the solid `around`, with a rim on either side that is too wide for a ring about the hole,
+/// which lies `depth` (> 0) below the surface and more? Nothing: not found.
+///
+/// Why it stays. The surface of the spool keeps out of the ring, so its rims and a line on it from rim to rim do. As
+/// with ring_cage(), a rim, which is convex (or so near to a convex curve that the ring keeps out of that), is crossed
+/// by the ring's disc in two points or none, and the arc of the rim that the disc cuts off is always the shorter one,
+/// for the chord does not reach the middle of the rim. How often the line crosses the disc, even or odd, changes when
+/// an end of it does, which then changes sides between the long arc of its rim and the short one. At first the line
+/// crosses once. If the parts were apart, nothing would cross the disc: both ends on long arcs as at first, and yet an
+/// even number.
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth);
 
 }  // namespace dismantle::verify

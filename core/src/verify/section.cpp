@@ -75,14 +75,38 @@ Surface::Surface(const Solid& solid) : triangles_(solid.mesh.triangles) {
     }
 }
 
-std::vector<double> Surface::heights(const Vec3& direction, double apart) const {
+std::vector<double> Surface::offsets(const Vec3& direction, std::size_t most) const {
   std::vector<double> all;
   for (const Vec3& v : vertices_) all.push_back(direction.dot(v));
   std::sort(all.begin(), all.end());
-  std::vector<double> different;
+  std::vector<double> heights;
   for (const double h : all)
-    if (different.empty() || h > different.back() + apart) different.push_back(h);
-  return different;
+    if (heights.empty() || h > heights.back() + 1e-6) heights.push_back(h);
+  std::vector<double> offsets;
+  const std::size_t step = 1 + 3 * heights.size() / most;
+  for (std::size_t k = 0; k + 1 < heights.size(); k += step)
+    for (const double share : {0.001, 0.5, 0.999})
+      offsets.push_back(heights[k] + share * (heights[k + 1] - heights[k]));
+  return offsets;
+}
+
+bool Surface::connects(const Loop& from, const Loop& to, bool above) const {
+  std::vector<char> seen(triangles_.size(), 0);
+  std::vector<std::uint32_t> open = from.triangles;
+  for (const std::uint32_t t : open) seen[t] = 1;
+  const auto on_side = [&](std::uint32_t v) { return (from.plane.height(vertices_[v]) > 0) == above; };
+  while (!open.empty()) {
+    const std::uint32_t t = open.back();
+    open.pop_back();
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t next = neighbours_[t][k];
+      if (next == kNone || seen[next]) continue;
+      if (!on_side(triangles_[t][k]) && !on_side(triangles_[t][(k + 1) % 3])) continue;
+      seen[next] = 1;
+      open.push_back(next);
+    }
+  }
+  return std::any_of(to.triangles.begin(), to.triangles.end(), [&](std::uint32_t t) { return seen[t] != 0; });
 }
 
 std::vector<Loop> Surface::section(const Plane& plane) const {

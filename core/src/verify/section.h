@@ -34,8 +34,12 @@ class Surface {
   explicit Surface(const Solid& solid);
 
   std::vector<Loop> section(const Plane& plane) const;
-  /// Heights of the corners along a direction, ascending, all different by more than `apart`.
-  std::vector<double> heights(const Eigen::Vector3d& direction, double apart) const;
+  /// Offsets of planes across a direction, ascending: right above and below the heights of corners and half way between
+  /// them; at most about `most`.
+  std::vector<double> offsets(const Eigen::Vector3d& direction, std::size_t most) const;
+  /// Does the surface lead from one loop to the other on that side of the plane of the first where the normal points
+  /// (`above`), or on the other side?
+  bool connects(const Loop& from, const Loop& to, bool above) const;
 
   /// A closed surface: connected triangles, cut off where they cross some loops, and the flat discs inside of these.
   class Closed {

@@ -4,20 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "dismantle/geometry/hull.h"
 #include "parallel.h"
-#include "verify/hook_cage.h"
-#include "verify/lock.h"
 #include "verify/pair_check.h"
-#include "verify/ring_cage.h"
 #include "verify/sampling.h"
-#include "verify/shut_in.h"
+#include "verify/verifier_impl.h"
 
 namespace dismantle {
 namespace {
@@ -60,127 +54,36 @@ Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
 
 }  // namespace
 
-struct Verifier::Impl {
-  struct Body {
-    std::vector<verify::Solid> solids;
-    Aabb box;
-    std::vector<Vec3> corners;  // of the convex hull
-  };
-  /// One column of the question: a part and its poses, one or as many as there are instants.
-  struct Actor {
-    PartId part = 0;
-    std::vector<Pose> poses;
-    Aabb swept;  // world
-  };
-
-  Impl(const Assembly& a, VerifyOptions o, unsigned threads)
-      : assembly_overlaps(a.overlaps),
-        options(o),
-        rungs(rungs_up_to(o.max_penetration)),
-        bodies(a.parts.size()),
-        middles(a.parts.size()),
-        balls(a.parts.size()) {
-    const auto never = [] { return false; };
-    for (const auto& part : a.parts) meshes.push_back(part.mesh);
-    on_threads(
-        bodies.size(), threads,
-        [&](std::size_t i) {
-          const Mesh& mesh = *meshes[i];
-          Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
-          for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
-          bodies[i] = std::move(body);
-        },
-        never);
-    std::vector<std::optional<Lock>> found(assembly_overlaps.size());
-    on_threads(
-        found.size(), threads, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
-    for (const auto& lock : found)
-      if (lock) locks.push_back(*lock);
-  }
-
-  std::optional<Lock> locking_point(const InitialOverlap& o) const {
-    const double allowed = o.depth + options.max_penetration;
-    for (const auto& [inside, other] : {std::pair(o.a, o.b), std::pair(o.b, o.a)})
-      for (const auto& x : bodies[inside].solids)
-        for (const auto& y : bodies[other].solids)
-          if (const auto p = verify::deep_common_point(x, x.frame, y, y.frame, allowed * (1 + 1e-9)))
-            return Lock{inside, other, p->point, p->depth, allowed};
-    return std::nullopt;
-  }
-
-  double overlap(PartId a, PartId b) const {
-    if (a > b) std::swap(a, b);
-    for (const auto& o : assembly_overlaps)
-      if (o.a == a && o.b == b) return o.depth;
-    return 0;
-  }
-
-  verify::Ball ball_of(PartId part) const;
-  std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
-
-  const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part) const;
-  std::optional<Cage> caged(PartId a, PartId b) const;
-  using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
-  void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
-  bool near(const Actor& a, const Actor& b) const;
-  bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
-  bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
-             const RunContext& context, std::size_t& rung, MotionCheck& result) const;
-
-  std::vector<InitialOverlap> assembly_overlaps;
-  VerifyOptions options;
-  std::vector<double> rungs;
-  std::vector<Lock> locks;
-  std::vector<Body> bodies;
-  std::vector<std::shared_ptr<const Mesh>> meshes;
-  mutable std::mutex cages_guard, middles_guard;
-  mutable std::map<std::pair<PartId, PartId>, std::optional<Cage>> cages;  // of pairs that were asked for
-  mutable std::vector<std::optional<std::vector<std::vector<verify::InnerBall>>>> middles;  // by part, by solid
-  mutable std::mutex balls_guard;
-  mutable std::vector<std::optional<verify::Ball>> balls;  // by part, found when first asked for
-};
-
-/// A large ball within a part, in the part's assembled frame.
-verify::Ball Verifier::Impl::ball_of(PartId part) const {
-  const std::scoped_lock guard(balls_guard);
-  std::optional<verify::Ball>& known = balls.at(part);
-  if (known) return *known;
-  known.emplace();
-  for (const auto& solid : bodies.at(part).solids)
-    if (const verify::Ball b = verify::large_ball(solid); b.radius > known->radius)
-      known = verify::Ball{solid.frame * b.center, b.radius};
-  return *known;
+Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, unsigned threads)
+    : assembly_overlaps(a.overlaps),
+      options(o),
+      rungs(rungs_up_to(o.max_penetration)),
+      bodies(a.parts.size()),
+      middles(a.parts.size()),
+      balls(a.parts.size()) {
+  const auto never = [] { return false; };
+  for (const auto& part : a.parts) meshes.push_back(part.mesh);
+  on_threads(
+      bodies.size(), threads,
+      [&](std::size_t i) {
+        const Mesh& mesh = *meshes[i];
+        Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
+        for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
+        bodies[i] = std::move(body);
+      },
+      never);
+  std::vector<std::optional<Lock>> found(assembly_overlaps.size());
+  on_threads(
+      found.size(), threads, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
+  for (const auto& lock : found)
+    if (lock) locks.push_back(*lock);
 }
 
-/// The largest ball of the inner parts against the surfaces of the outer ones. A surface point of those that is inside
-/// the ball is so deep in the inner part as it is below the ball's surface, at least.
-std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& inner,
-                                                 const std::vector<PlacedPart>& outer) const {
-  verify::Ball ball;
-  Pose at;
-  PartId part = 0;
-  for (const auto& p : inner)
-    if (const verify::Ball b = ball_of(p.part); b.radius > ball.radius) {
-      ball = b;
-      at = p.pose;
-      part = p.part;
-    }
-  std::vector<verify::Wall> walls;
-  std::vector<PartId> of;
-  for (const auto& p : outer) {
-    const double distance = ball.radius - overlap(part, p.part) - options.max_penetration;
-    if (!(distance > 0)) continue;
-    for (const auto& solid : bodies.at(p.part).solids) {
-      walls.push_back({&solid, p.pose * solid.frame, distance});
-      of.push_back(p.part);
-    }
-  }
-  const verify::Room room = verify::room_of(at * ball.center, walls);
-  if (!room.closed) return std::nullopt;
-  Enclosure found{part, at * ball.center, ball.radius, {}};
-  for (const std::size_t w : room.bounds)
-    if (std::find(found.around.begin(), found.around.end(), of[w]) == found.around.end()) found.around.push_back(of[w]);
-  return found;
+double Verifier::Impl::overlap(PartId a, PartId b) const {
+  if (a > b) std::swap(a, b);
+  for (const auto& o : assembly_overlaps)
+    if (o.a == a && o.b == b) return o.depth;
+  return 0;
 }
 
 bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
@@ -362,56 +265,6 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
       if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
   return true;
-}
-
-std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving,
-                                           const std::vector<PlacedPart>& still) const {
-  if (moving.empty() || still.empty()) return std::nullopt;
-  if (auto found = impl_->shut_in(moving, still)) return found;
-  // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
-  return moving.size() == 1 ? impl_->shut_in(still, moving) : std::nullopt;
-}
-
-const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part) const {
-  const std::scoped_lock guard(middles_guard);
-  auto& known = middles.at(part);
-  if (!known) {
-    known.emplace();
-    for (const auto& solid : bodies.at(part).solids)
-      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration));
-  }
-  return *known;
-}
-
-std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
-  const double depth = (overlap(a, b) + options.max_penetration) * (1 + 1e-6);
-  constexpr std::size_t kRings = 4;
-  Aabb near = bodies.at(a).box;
-  near.inflate(options.max_penetration);
-  if (!near.overlaps(bodies.at(b).box)) return std::nullopt;
-  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
-    for (const auto& x : bodies[inside].solids)
-      for (const verify::InnerRing& ring : verify::rings_in(x, depth, kRings))
-        for (const auto& y : bodies[other].solids)
-          if (const auto cage = verify::ring_cage(ring, y))
-            return Cage{Cage::Kind::ring, inside, other, ring.center, 2 * ring.radius, cage->opening};
-  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
-    for (std::size_t i = 0; i < bodies[inside].solids.size(); ++i)
-      for (const auto& y : bodies[other].solids)
-        if (const auto cage = verify::hook_cage(bodies[inside].solids[i], middles_of(inside)[i], y, depth))
-          return Cage{Cage::Kind::hook, inside, other, cage->hole, 0, cage->width};
-  return std::nullopt;
-}
-
-std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
-  if (a > b) std::swap(a, b);
-  {
-    const std::scoped_lock guard(impl_->cages_guard);
-    if (const auto known = impl_->cages.find({a, b}); known != impl_->cages.end()) return known->second;
-  }
-  const auto found = impl_->caged(a, b);
-  const std::scoped_lock guard(impl_->cages_guard);
-  return impl_->cages.try_emplace({a, b}, found).first->second;
 }
 
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {

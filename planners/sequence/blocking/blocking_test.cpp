@@ -8,6 +8,7 @@
 
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
+#include "held_shapes.h"
 #include "one_by_one/fake_oracle.h"
 
 namespace dismantle {
@@ -127,14 +128,16 @@ TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
 TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
   for (const Assembly& assembly : {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube()}) {
     std::set<std::string> plans;
-    std::set<double> shifts;
+    std::set<double> relations;
     for (const unsigned threads : {1U, 2U, 3U}) {
       RunResult r = take_apart(assembly, threads);
       for (auto* steps : {&r.plan.disassembly, &r.plan.assembly_steps})
         for (PlanStep& step : *steps) step.seconds = 0;
       plans.insert(to_json(r.plan));
+      relations.insert(r.sequence_counts.at("relations"));
     }
     EXPECT_EQ(plans.size(), 1u);
+    EXPECT_EQ(relations.size(), 1u) << "what was looked at ahead is not counted";
   }
 }
 
@@ -347,6 +350,43 @@ TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
     }
     EXPECT_EQ(told, locked);
     EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
+  }
+}
+
+TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
+  using shapes::box;
+  Mesh tray = box({-3, -3, -2}, {3, 3, -1});
+  for (const double s : {-1.0, 1.0}) {
+    shapes::append(tray, box({std::min(2 * s, 3 * s), -3, -0.99}, {std::max(2 * s, 3 * s), 3, 2}));
+    shapes::append(tray, box({-1.99, std::min(2 * s, 3 * s), -0.99}, {1.99, std::max(2 * s, 3 * s), 2}));
+  }
+  for (const double opening : {0.3, 0.95}) {
+    const Assembly assembly =
+        shapes::assembly_of({tray, shapes::can(1, 0.6, 0.2, opening), shapes::tube(0.4, 0.8, -0.1, 0.1, 48),
+                             box({-0.5, -0.5, 0.7}, {0.5, 0.5, 1})});
+    RunOptions options;
+    options.constraints.base = {0};  // else it is the tray that leaves the two
+    RunResult r = take_apart(assembly, 1, options);
+    if (opening > 0.8) {
+      EXPECT_EQ(r.outcome, Outcome::solved) << "the ring fits through";
+      EXPECT_EQ(r.sequence_counts["held"], 0);
+      continue;
+    }
+    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.sequence_counts["held"], 1);
+    ASSERT_EQ(r.plan.disassembly.size(), 2u);
+    EXPECT_EQ(r.plan.disassembly[1].separates[0].size(), 2u);
+    ASSERT_EQ(r.plan.unsolved.size(), 2u);
+    for (const auto& u : r.plan.unsolved) {
+      EXPECT_NE(u.message.find("hold each other"), std::string::npos) << u.message;
+      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part1" ? "part2" : "part1"});
+    }
+    BlockingParams without;
+    without.cages = false;
+    RunContext context;
+    const RunResult searched =
+        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), options, context);
+    EXPECT_GT(searched.counts.attempts, r.counts.attempts) << "searched instead";
   }
 }
 

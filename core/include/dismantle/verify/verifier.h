@@ -59,14 +59,15 @@ struct Enclosure {
 /// Two parts that hold each other though nothing of them overlaps: no motion within the limits parts them.
 struct Cage {
   enum class Kind {
-    ring,  ///< a circle within `inside` is in a chamber of `other`, all of whose openings are narrower
-    hook,  ///< `inside` goes through a hole in `other`, between two bends that cannot follow
+    ring,   ///< a circle within `inside` is in a chamber of `other`, all of whose openings are narrower
+    spool,  ///< `inside` goes through a hole in `other`, between two rims that are wider than a circle about the hole
+    hook,   ///< `inside` goes through a hole in `other`, between two bends that cannot follow
   };
   Kind kind = Kind::ring;
   PartId inside = 0, other = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the circle's centre; a point of `inside` in the hole; assembled
-  double size = 0;                                  ///< diameter of the circle, assembly units; 0 for a hook
-  double opening = 0;                               ///< diameter of the widest opening, or of the hole
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the circle's centre, or a point in the hole; assembled
+  double size = 0;     ///< diameter of the circle, width of the narrower rim; assembly units; 0 for a hook
+  double opening = 0;  ///< diameter of the widest opening, of the circle about the hole, of the hole
 };
 
 /// Rule (b) on the original triangles, proved for every instant, not sampled.

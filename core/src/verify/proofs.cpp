@@ -1,0 +1,119 @@
+// That parts cannot leave: what the verifier proves of pairs and of what is around them.
+#include <algorithm>
+
+#include "verify/hook_cage.h"
+#include "verify/lock.h"
+#include "verify/ring_cage.h"
+#include "verify/verifier_impl.h"
+
+namespace dismantle {
+
+std::optional<Lock> Verifier::Impl::locking_point(const InitialOverlap& o) const {
+  const double allowed = o.depth + options.max_penetration;
+  for (const auto& [inside, other] : {std::pair(o.a, o.b), std::pair(o.b, o.a)})
+    for (const auto& x : bodies[inside].solids)
+      for (const auto& y : bodies[other].solids)
+        if (const auto p = verify::deep_common_point(x, x.frame, y, y.frame, allowed * (1 + 1e-9)))
+          return Lock{inside, other, p->point, p->depth, allowed};
+  return std::nullopt;
+}
+
+/// A large ball within a part, in the part's assembled frame.
+verify::Ball Verifier::Impl::ball_of(PartId part) const {
+  const std::scoped_lock guard(balls_guard);
+  std::optional<verify::Ball>& known = balls.at(part);
+  if (known) return *known;
+  known.emplace();
+  for (const auto& solid : bodies.at(part).solids)
+    if (const verify::Ball b = verify::large_ball(solid); b.radius > known->radius)
+      known = verify::Ball{solid.frame * b.center, b.radius};
+  return *known;
+}
+
+/// The largest ball of the inner parts against the surfaces of the outer ones. A surface point of those that is inside
+/// the ball is so deep in the inner part as it is below the ball's surface, at least.
+std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& inner,
+                                                 const std::vector<PlacedPart>& outer) const {
+  verify::Ball ball;
+  Pose at;
+  PartId part = 0;
+  for (const auto& p : inner)
+    if (const verify::Ball b = ball_of(p.part); b.radius > ball.radius) {
+      ball = b;
+      at = p.pose;
+      part = p.part;
+    }
+  std::vector<verify::Wall> walls;
+  std::vector<PartId> of;
+  for (const auto& p : outer) {
+    const double distance = ball.radius - overlap(part, p.part) - options.max_penetration;
+    if (!(distance > 0)) continue;
+    for (const auto& solid : bodies.at(p.part).solids) {
+      walls.push_back({&solid, p.pose * solid.frame, distance});
+      of.push_back(p.part);
+    }
+  }
+  const verify::Room room = verify::room_of(at * ball.center, walls);
+  if (!room.closed) return std::nullopt;
+  Enclosure found{part, at * ball.center, ball.radius, {}};
+  for (const std::size_t w : room.bounds)
+    if (std::find(found.around.begin(), found.around.end(), of[w]) == found.around.end()) found.around.push_back(of[w]);
+  return found;
+}
+
+const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part) const {
+  const std::scoped_lock guard(middles_guard);
+  auto& known = middles.at(part);
+  if (!known) {
+    known.emplace();
+    for (const auto& solid : bodies.at(part).solids)
+      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration));
+  }
+  return *known;
+}
+
+std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
+  const double depth = (overlap(a, b) + options.max_penetration) * (1 + 1e-6);
+  constexpr std::size_t kRings = 4;
+  Aabb near = bodies.at(a).box;
+  near.inflate(options.max_penetration);
+  if (!near.overlaps(bodies.at(b).box)) return std::nullopt;
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+    for (const auto& x : bodies[inside].solids)
+      for (const verify::InnerRing& ring : verify::rings_in(x, depth, kRings))
+        for (const auto& y : bodies[other].solids)
+          if (const auto cage = verify::ring_cage(ring, y))
+            return Cage{Cage::Kind::ring, inside, other, ring.center, 2 * ring.radius, cage->opening};
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+    for (const auto& x : bodies[inside].solids)
+      for (const auto& y : bodies[other].solids)
+        if (const auto cage = verify::spool_cage(x, y, depth))
+          return Cage{Cage::Kind::spool, inside, other, cage->ring.center, cage->rim, 2 * cage->ring.radius};
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+    for (std::size_t i = 0; i < bodies[inside].solids.size(); ++i)
+      for (const auto& y : bodies[other].solids)
+        if (const auto cage = verify::hook_cage(bodies[inside].solids[i], middles_of(inside)[i], y, depth))
+          return Cage{Cage::Kind::hook, inside, other, cage->hole, 0, cage->width};
+  return std::nullopt;
+}
+
+std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
+  if (a > b) std::swap(a, b);
+  {
+    const std::scoped_lock guard(impl_->cages_guard);
+    if (const auto known = impl_->cages.find({a, b}); known != impl_->cages.end()) return known->second;
+  }
+  const auto found = impl_->caged(a, b);
+  const std::scoped_lock guard(impl_->cages_guard);
+  return impl_->cages.try_emplace({a, b}, found).first->second;
+}
+
+std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving,
+                                           const std::vector<PlacedPart>& still) const {
+  if (moving.empty() || still.empty()) return std::nullopt;
+  if (auto found = impl_->shut_in(moving, still)) return found;
+  // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
+  return moving.size() == 1 ? impl_->shut_in(still, moving) : std::nullopt;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,96 @@
+/// Pairs that hold each other without overlap, and some that only look so.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "test_shapes.h"
+
+namespace dismantle::shapes {
+
+/// Solid of revolution about z of a closed outline of (radius > 0, height), counter-clockwise in the (r, z) half-plane;
+/// over `share` of a turn, with flat ends where that is less than 1.
+inline Mesh lathe(const std::vector<std::pair<double, double>>& outline, int around, double share = 1,
+                  const std::vector<Triangle>& end = {}) {
+  Mesh m;
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  const auto rows = static_cast<std::uint32_t>(share < 1 ? around + 1 : around);
+  for (std::uint32_t i = 0; i < rows; ++i) {
+    const double a = share * 2 * std::numbers::pi * i / around;
+    for (const auto& [r, z] : outline) m.vertices.emplace_back(r * std::cos(a), r * std::sin(a), z);
+  }
+  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(around); ++i)
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint32_t j = (i + 1) % rows, l = (k + 1) % n;
+      m.triangles.push_back({i * n + k, j * n + k, j * n + l});
+      m.triangles.push_back({i * n + k, j * n + l, i * n + l});
+    }
+  if (share < 1)
+    for (const Triangle& t : end) {
+      m.triangles.push_back(t);
+      const std::uint32_t last = (rows - 1) * n;
+      m.triangles.push_back({last + t[0], last + t[2], last + t[1]});
+    }
+  if (volume(m) < 0)
+    for (auto& t : m.triangles) std::swap(t[1], t[2]);
+  return m;
+}
+
+/// A can about z with a cavity of that radius and height about the origin, walls 0.3 thick, and round openings below
+/// and above. Over a share of a turn: open at the side.
+inline Mesh can(double cavity, double height, double below, double above, double share = 1) {
+  const double h = 0.5 * height, r = cavity + 0.3;
+  return lathe({{below, -h - 0.3},
+                {r, -h - 0.3},
+                {r, h + 0.3},
+                {above, h + 0.3},
+                {above, h},
+                {cavity, h},
+                {cavity, -h},
+                {below, -h}},
+               48, share, {{0, 1, 7}, {1, 6, 7}, {1, 2, 6}, {2, 5, 6}, {2, 3, 5}, {3, 4, 5}});
+}
+
+/// Bar of square section (edge 2 * half) along a line in the plane y = 0, mitred at its bends.
+inline Mesh bent_bar(const std::vector<Vec3>& line, double half) {
+  Mesh m;
+  const std::size_t n = line.size();
+  const auto across = [](const Vec3& d) { return Vec3(-d.z(), 0, d.x()); };
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec3 in = (line[k == 0 ? 1 : k] - line[k == 0 ? 0 : k - 1]).normalized();
+    const Vec3 out = k + 1 < n ? Vec3((line[k + 1] - line[k]).normalized()) : in;
+    const Vec3 middle = (across(in) + across(out)).normalized();
+    const Vec3 side = half / middle.dot(across(in)) * middle, y(0, half, 0);
+    for (const Vec3& p : {Vec3(side + y), Vec3(-side + y), Vec3(-side - y), Vec3(side - y)})
+      m.vertices.push_back(line[k] + p);
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    m.triangles.push_back({a, b, c});
+    m.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t k = 0; k + 1 < n; ++k)
+    for (std::uint32_t i = 0; i < 4; ++i) quad(4 * k + i, 4 * k + (i + 1) % 4, 4 * k + 4 + (i + 1) % 4, 4 * k + 4 + i);
+  const auto last = static_cast<std::uint32_t>(4 * n - 4);
+  quad(3, 2, 1, 0);
+  quad(last, last + 1, last + 2, last + 3);
+  if (volume(m) < 0)
+    for (auto& t : m.triangles) std::swap(t[1], t[2]);
+  return m;
+}
+
+/// Through a hole in the plane z = 0: up from `below` to `above`, at either end bent aside by `bend` (rad; 0 = not).
+inline std::vector<Vec3> crank(double below, double above, double bend_below, double bend_above, double legs) {
+  std::vector<Vec3> line;
+  if (bend_below > 0) line.push_back(Vec3(0, 0, below) - legs * Vec3(std::sin(bend_below), 0, std::cos(bend_below)));
+  line.emplace_back(0, 0, below);
+  line.emplace_back(0, 0, above);
+  if (bend_above > 0) line.push_back(Vec3(0, 0, above) + legs * Vec3(std::sin(bend_above), 0, std::cos(bend_above)));
+  return line;
+}
+
+/// Round plate about the origin with a round hole.
+inline Mesh plate(double hole, double thickness) { return tube(hole, 2, -0.5 * thickness, 0.5 * thickness, 40); }
+
+}  // namespace dismantle::shapes
