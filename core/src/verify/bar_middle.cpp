@@ -12,7 +12,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kSamples = 5'000;  // of the bar's surface
+constexpr double kSamples = 2'000;  // of the bar's surface
 
 double ball_at(const Solid& solid, const Vec3& p, const Vec3& inward, double most) {
   double radius = most;
@@ -30,14 +30,14 @@ double ball_at(const Solid& solid, const Vec3& p, const Vec3& inward, double mos
 }
 
 /// To where it is deeper, as far as that goes: a ball that touches a flat facet beside its middle is smaller than the
-/// one that fits in.
+/// one that fits in. No step leads out of the solid: it is shorter than the distance from the surface.
 Vec3 deeper(const Solid& bar, Vec3 p) {
-  Escape at = escape_at(p, bar);
-  double step = 0.3 * at.depth;
-  for (int k = 0; k < 40 && step > 0.01 * at.depth; ++k) {
-    const Vec3 next = p - step * at.out;
-    const Escape there = escape_at(next, bar);
-    if (there.depth > at.depth) {
+  ClosestPoint at = bar.bvh.closest(p);
+  double step = 0.3 * at.distance;
+  for (int k = 0; k < 40 && step > 0.01 * at.distance; ++k) {
+    const Vec3 next = p + step * (p - at.point).normalized();
+    const ClosestPoint there = bar.bvh.closest(next);
+    if (there.distance > at.distance) {
       p = next;
       at = there;
     } else {

@@ -74,7 +74,7 @@ const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(Pa
 
 std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
   const double depth = (overlap(a, b) + options.max_penetration) * (1 + 1e-6);
-  constexpr std::size_t kRings = 4;
+  constexpr std::size_t kRings = 2;
   Aabb near = bodies.at(a).box;
   near.inflate(options.max_penetration);
   if (!near.overlaps(bodies.at(b).box)) return std::nullopt;

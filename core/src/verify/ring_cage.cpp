@@ -21,7 +21,7 @@ constexpr int kHeights = 24, kRadii = 32;  // where rings are looked for
 constexpr int kGlance = 24;                // points at which a ring is looked at first
 constexpr int kWidenings = 8;              // of a ring about a hole
 constexpr int kHalvings = 12;              // of arcs, to prove that all of them is deep enough
-constexpr std::size_t kSections = 400;     // of the solid around it
+constexpr std::size_t kSections = 150;     // of the solid around it
 constexpr double kSlack = 1e-6;            // assembly units: an opening is smaller by more than that
 constexpr double kParallel = 0.999999;     // cosine of the angle between directions that are the same
 constexpr std::size_t kFaces = 300;        // directions of faces that are told apart
@@ -122,6 +122,7 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
 }
 
 std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around) {
+  if (!around.box.contains(around.frame.inverse() * ring.center)) return std::nullopt;  // a chamber is in the hull
   const Surface surface(around);
   const double middle = ring.axis.dot(ring.center);
   std::array<std::optional<Loop>, 2> nearest;  // the smallest loop around the axis below and above the ring

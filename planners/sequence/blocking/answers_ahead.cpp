@@ -50,6 +50,7 @@ void AnswersAhead::settle(const PassQuestion& question, std::unique_lock<std::mu
   lock.lock();
   states_[question.key] = state;
   answered_.notify_all();
+  if (!lines_.empty()) work_there_.notify_one();  // the next of its line can be asked now
 }
 
 const PassQuestion* AnswersAhead::next_wanted() {
@@ -61,6 +62,23 @@ const PassQuestion* AnswersAhead::next_wanted() {
   return nullptr;
 }
 
+/// The next question of the first line on which nobody works.
+std::optional<PassQuestion> AnswersAhead::next_hinted() {
+  for (Line& line : lines_) {
+    while (!line.empty()) {
+      const auto known = states_.find(line.front().key);
+      if (known == states_.end()) return line.front();
+      if (known->second == State::running) break;
+      if (known->second == State::blocked)
+        line.clear();
+      else
+        line.pop_front();
+    }
+  }
+  std::erase_if(lines_, [](const Line& line) { return line.empty(); });
+  return std::nullopt;
+}
+
 std::vector<char> AnswersAhead::answer(std::span<const PassQuestion> questions) {
   std::unique_lock lock(mutex_);
   std::vector<char> blocked;
@@ -69,12 +87,18 @@ std::vector<char> AnswersAhead::answer(std::span<const PassQuestion> questions) 
   try {
     while (const PassQuestion* question = next_wanted()) settle(*question, lock);
     for (const auto& q : questions) {
-      const auto decided = [&] {
+      while (true) {
         const auto known = states_.find(q.key);
-        return known == states_.end() || known->second != State::running;
-      };
-      answered_.wait(lock, decided);
-      if (!states_.contains(q.key)) settle(q, lock);  // a worker failed at it
+        if (known == states_.end()) {
+          settle(q, lock);  // a worker failed at it
+        } else if (known->second != State::running) {
+          break;
+        } else if (const auto next = next_hinted()) {  // rather than wait
+          settle(*next, lock);
+        } else {
+          answered_.wait(lock);
+        }
+      }
       blocked.push_back(states_.at(q.key) == State::blocked);
     }
   } catch (...) {
@@ -84,31 +108,21 @@ std::vector<char> AnswersAhead::answer(std::span<const PassQuestion> questions) 
   return blocked;
 }
 
-void AnswersAhead::work_on(const Line& line, std::unique_lock<std::mutex>& lock) {
-  for (const auto& q : line) {
-    if (stop_ || !wanted_.empty()) return;  // what the caller waits for comes first; it hints again
-    const auto known = states_.find(q.key);
-    if (known == states_.end()) settle(q, lock);
-    if (states_.at(q.key) != State::free) return;
-  }
-}
-
 void AnswersAhead::work() {
   std::unique_lock lock(mutex_);
-  while (true) {
-    work_there_.wait(lock, [&] { return stop_ || !wanted_.empty() || !lines_.empty(); });
-    if (stop_) return;
+  while (!stop_) {
     try {
       if (const PassQuestion* question = next_wanted()) {
         const PassQuestion own = *question;  // outlives a caller that fails elsewhere
         settle(own, lock);
-      } else if (!lines_.empty()) {
-        const Line line = std::move(lines_.front());
-        lines_.pop_front();
-        work_on(line, lock);
+      } else if (const auto next = next_hinted()) {
+        settle(*next, lock);
+      } else {
+        work_there_.wait(lock);  // notified under the lock: nothing is missed
       }
     } catch (...) {
       // The caller comes to the same question, if it matters, and meets the same exception.
+      work_there_.wait(lock);
     }
   }
 }

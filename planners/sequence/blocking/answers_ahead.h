@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <tuple>
@@ -32,7 +33,7 @@ struct PassQuestion {
 class AnswersAhead {
  public:
   /// Questions in the order in which they would be asked, of which those after the first "blocked" are not asked.
-  using Line = std::vector<PassQuestion>;
+  using Line = std::deque<PassQuestion>;
 
   /// `judge` must outlive this.
   AnswersAhead(const Verifier& judge, unsigned threads);
@@ -42,7 +43,7 @@ class AnswersAhead {
   AnswersAhead& operator=(const AnswersAhead&) = delete;
 
   bool works_ahead() const { return !workers_.empty(); }
-  /// Lines that nobody has begun.
+  /// Lines that are not answered.
   std::size_t waiting() const;
   /// Replaces those.
   void hint(std::deque<Line> lines);
@@ -53,9 +54,9 @@ class AnswersAhead {
   enum class State : char { running, free, blocked };
   State ask(const PassQuestion& question) const;
   void work();
-  void work_on(const Line& line, std::unique_lock<std::mutex>& lock);
   void settle(const PassQuestion& question, std::unique_lock<std::mutex>& lock);
   const PassQuestion* next_wanted();
+  std::optional<PassQuestion> next_hinted();
 
   const Verifier& judge_;
   mutable std::mutex mutex_;

@@ -56,7 +56,7 @@ class Relations {
     double lo[3], hi[3];  // along the direction and two across it
   };
   using Key = RelationKey;
-  static constexpr std::size_t kEnoughHints = 16;
+  static constexpr std::size_t kEnoughHints = 8;
   static Pair canonical(Pair pair);
   static Key key_of(const Pair& pair);
   PassQuestion question(const Pair& pair) const;

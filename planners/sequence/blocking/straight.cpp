@@ -9,7 +9,7 @@ namespace dismantle::blocking {
 namespace {
 
 constexpr std::size_t kWave = 4;       // directions of one part that are looked at together, nearest way out first
-constexpr std::size_t kHints = 24;     // directions about which other threads are told ahead
+constexpr std::size_t kHints = 12;     // directions about which other threads are told ahead
 constexpr double kBeyond = 1e-3;       // assembly units: how far past the last part a way leads at most
 constexpr int kHalvings = 12;          // of the way, to find where the hulls come apart
 constexpr double kClear = 0.01;        // assembly units: further than that, so that rounding when written does no harm
