@@ -19,13 +19,13 @@ using std::numbers::pi;
 
 constexpr std::size_t kMostNodes = 1200;         // of its middle
 constexpr double kJoined = 0.95;                 // of what two nodes keep: so near each other they are joined
-constexpr std::size_t kDirections = 400;         // in which a bend's lines are looked for
+constexpr std::size_t kDirections = 150;         // in which a bend's lines are looked for
 constexpr std::size_t kHoles = 4;                // holes tried
 constexpr std::size_t kNear = 40;                // nodes on each side of a hole where bends are looked for
 constexpr std::size_t kBends = 3;                // bends tried on each side
 constexpr int kStepsAlong = 14;                  // of a bend's lines; each half of what the corner keeps
-constexpr int kFinest = 6;                       // halvings of the faces of a cube of directions
 constexpr std::size_t kShortest = 8;             // ... and fewer are no line
+constexpr int kFinest = 6;                       // halvings of the faces of a cube of directions
 constexpr std::size_t kMostCaps = 8000;          // a third of all: with so many directions left there is no proof
 constexpr std::uint64_t kMostLooks = 6'000'000;  // at distances, for one bend
 constexpr double kLeast = 50 * pi / 180;         // a bend is no less than that
@@ -321,13 +321,15 @@ bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend) {
   return true;
 }
 
-/// Nodes that can be reached from `start` without crossing the disc, nearest first.
+/// Does the segment go through the disc?
+bool crosses(const Loop& loop, const Vec3& a, const Vec3& b) {
+  const double ha = loop.plane.height(a), hb = loop.plane.height(b);
+  return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
+}
+
+/// Nodes that can be reached from `from`, which is on the disc, without crossing that, nearest first.
 std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& nodes, const Joined& joined,
                                  std::size_t from, bool above) {
-  const auto crosses = [&](const Vec3& a, const Vec3& b) {
-    const double ha = loop.plane.height(a), hb = loop.plane.height(b);
-    return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
-  };
   std::vector<std::size_t> list;
   std::vector<char> seen(nodes.size(), 0);
   seen[from] = 1;
@@ -338,7 +340,7 @@ std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& node
     }
   for (std::size_t k = 0; k < list.size(); ++k)
     for (const std::size_t n : joined[list[k]])
-      if (!seen[n] && !crosses(nodes[list[k]].at, nodes[n].at)) {
+      if (!seen[n] && !crosses(loop, nodes[list[k]].at, nodes[n].at)) {
         seen[n] = 1;
         list.push_back(n);
       }
@@ -367,7 +369,8 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>
       corners.resize(std::min(corners.size(), kBends), Corner{});
       for (const Corner& corner : corners) {
         const auto bend = refined(bar, corner, depth);
-        if (!bend || !cannot_pass(loop, around, *bend)) continue;
+        // Refining must not have taken the corner to the other side: the line would cross the disc twice.
+        if (!bend || crosses(loop, corner.node.at, bend->corner) || !cannot_pass(loop, around, *bend)) continue;
         cage.bends[above ? 1 : 0] = *bend;
         ++bent;
         break;

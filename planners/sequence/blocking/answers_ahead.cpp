@@ -118,11 +118,11 @@ void AnswersAhead::work() {
       } else if (const auto next = next_hinted()) {
         settle(*next, lock);
       } else {
-        work_there_.wait(lock);  // notified under the lock: nothing is missed
+        work_there_.wait(lock);  // what there is was looked for under the lock: nothing is missed
       }
     } catch (...) {
-      // The caller comes to the same question, if it matters, and meets the same exception.
-      work_there_.wait(lock);
+      // The caller comes to the same question, if it matters, and meets the same exception. Nobody else is to try it.
+      lines_.clear();
     }
   }
 }

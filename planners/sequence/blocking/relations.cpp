@@ -121,15 +121,16 @@ bool Relations::blocks(const Pair& pair) {
 }
 
 void Relations::compute(std::span<const Pair> pairs) {
-  std::vector<PassQuestion> todo;
+  std::vector<PassQuestion> unknown;
   for (const Pair& pair : pairs)
-    if (!known(pair)) todo.push_back(question(pair));
+    if (!known(pair)) unknown.push_back(question(pair));
   const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
-  std::sort(todo.begin(), todo.end(), by_key);
-  todo.erase(std::unique(todo.begin(), todo.end(), [](const auto& a, const auto& b) { return a.key == b.key; }),
-             todo.end());
-  const std::vector<char> answers = answers_.answer(todo);
-  for (std::size_t k = 0; k < todo.size(); ++k) blocks_.emplace(todo[k].key, answers[k] != 0);
+  std::sort(unknown.begin(), unknown.end(), by_key);
+  unknown.erase(
+      std::unique(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.key == b.key; }),
+      unknown.end());
+  const std::vector<char> answers = answers_.answer(unknown);
+  for (std::size_t k = 0; k < unknown.size(); ++k) blocks_.emplace(unknown[k].key, answers[k] != 0);
 }
 
 void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
