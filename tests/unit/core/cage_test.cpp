@@ -77,6 +77,16 @@ TEST(Caged, NotInACanThatIsOpenAtItsSide) {
   EXPECT_TRUE(comes_out(shapes::tube(0.3, 0.6, -0.1, 0.1, 48), can(1, 0.6, 0.2, 0.2, 0.5), {0, -3, 0}));
 }
 
+TEST(Caged, NotInACanWithAWindowInItsSideHoweverSmallTheOtherOpenings) {
+  Rng rng(11);
+  for (int i = 0; i < 4; ++i) {
+    const double radius = rng.uniform(0.5, 0.8);
+    const Mesh can = shapes::can_with_window(1, 0.6, 0.3 * radius, 0.3 * radius, 24);
+    EXPECT_FALSE(look(ring(radius, rng), can, rng)) << radius;
+    EXPECT_TRUE(comes_out(shapes::tube(0.5 * radius, radius, -0.1, 0.1, 48), can, {0, 3, 0})) << radius;
+  }
+}
+
 TEST(Caged, NotBesideACanOrAroundIt) {
   Rng rng(4);
   const Mesh small = can(1, 0.6, 0.2, 0.2);

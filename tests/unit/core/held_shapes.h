@@ -1,6 +1,7 @@
 /// Pairs that hold each other without overlap, and some that only look so.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -51,6 +52,38 @@ inline Mesh can(double cavity, double height, double below, double above, double
                 {cavity, -h},
                 {below, -h}},
                48, share, {{0, 1, 7}, {1, 6, 7}, {1, 2, 6}, {2, 5, 6}, {2, 3, 5}, {3, 4, 5}});
+}
+
+/// The same, closed above and below but for the openings, with a window in its side over `sectors` of 48, as high as
+/// the cavity.
+inline Mesh can_with_window(double cavity, double height, double below, double above, std::uint32_t sectors) {
+  Mesh m = can(cavity, height, below, above);
+  const auto at = [](std::uint32_t sector, std::uint32_t corner) { return 8 * (sector % 48) + corner; };
+  const auto wall =
+      [&](const Triangle& t) {  // of the outer wall (corners 1, 2) or the cavity's (5, 6), in those sectors
+        const auto in = [&](std::uint32_t v) { return v / 8 <= sectors; };
+        const auto of = [&](std::uint32_t a, std::uint32_t b) {
+          return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v % 8 == a || v % 8 == b; });
+        };
+        return (of(1, 2) || of(5, 6)) && std::all_of(t.begin(), t.end(), in);
+      };
+  // The hole left by the first triangle of the outer wall says which way round the mesh is wound.
+  const auto first = std::find_if(m.triangles.begin(), m.triangles.end(), wall);
+  const bool flipped = (*first)[1] != at(1, (*first)[0] % 8) && (*first)[2] == at(1, (*first)[0] % 8);
+  std::erase_if(m.triangles, wall);
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    for (Triangle t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
+      if (flipped) std::swap(t[1], t[2]);
+      m.triangles.push_back(t);
+    }
+  };
+  for (std::uint32_t i = 0; i < sectors; ++i) {
+    quad(at(i + 1, 2), at(i, 2), at(i, 5), at(i + 1, 5));
+    quad(at(i, 1), at(i + 1, 1), at(i + 1, 6), at(i, 6));
+  }
+  quad(at(0, 2), at(0, 1), at(0, 6), at(0, 5));
+  quad(at(sectors, 1), at(sectors, 2), at(sectors, 5), at(sectors, 6));
+  return m;
 }
 
 /// Bar of square section (edge 2 * half) along a line in the plane y = 0, mitred at its bends.
