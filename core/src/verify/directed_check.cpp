@@ -262,14 +262,23 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     by_shrunken_copy_ = false;
     return true;
   }
+  // What lies on one side of a ridge leaves together, the way its deepest corner does.
+  const auto deepest = static_cast<std::size_t>(seen.deepest);
+  const Corners by_deepest = moved_along(patch, seen.out[deepest], e);
+  if (seen.depth[deepest] > 0 && clear(i, margin, by_deepest, far) && (far || outside(i.at0, by_deepest))) {
+    by_shrunken_copy_ = false;
+    return true;
+  }
   if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  if (i.s1 - i.s0 > 1 || travel + 2 * margin > 0.3 * patch.longest_edge()) {
+  // A ridge often lies along the motion: cut there before the interval is.
+  const auto ridge = ridge_on(patch, seen);
+  if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
     later.push_back(id);
     return true;
   }
   if (budget_.patches_left < 4) return fail(Answer::exhausted, patch.center(), depth, patch.triangle, s);
   budget_.patches_left -= 4;
-  if (const auto ridge = ridge_on(patch, seen)) {
+  if (ridge) {
     for (const Patch& half : patch.halves(ridge->edge, ridge->t)) same.push_back(add(half));
   } else {
     for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));

@@ -31,6 +31,9 @@ constexpr double kRoom = 0.8;
 constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
 constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
+/// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
+/// more patches.
+constexpr std::uint64_t kForBuried = 5;
 
 std::vector<double> rungs_up_to(double most) {
   std::vector<double> rungs;
@@ -153,8 +156,9 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const std::size_t last = rungs.size() - 1;
   for (bool first_try = true;; first_try = false) {
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
+    const std::uint64_t patches = decides ? kFullPatches : kTryPatches;
     verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
-                          decides ? kFullPatches : kTryPatches, 0, &context};
+                          allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
     Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
