@@ -6,6 +6,7 @@
 #include <numbers>
 #include <set>
 
+#include "barred_shaft.h"
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
 #include "held_shapes.h"
@@ -24,25 +25,6 @@ RunResult take_apart(const Assembly& assembly, unsigned threads = 1, RunOptions 
   const PlanCheck check = check_plan(r.plan, assembly, options.verify, context);
   EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
   return r;
-}
-
-/// A drawer in a shaft below a bar, which is captive in a guide with room to slide off the shaft by 2.
-Assembly barred_shaft() {
-  return fake::assembly_of({{"frame",
-                             {{{-3, -2, -1}, {6, 2, 0}},
-                              {{-3, -2, 0}, {-1, 2, 2}},
-                              {{1, -2, 0}, {6, 2, 1}},
-                              {{-1, -2, 0}, {1, -1, 1}},
-                              {{-1, 1, 0}, {1, 2, 1}},
-                              {{-1, -2, 1}, {6, -1, 2}},
-                              {{-1, 1, 1}, {6, 2, 2}},
-                              {{5, -1, 1}, {6, 1, 2}},
-                              {{-3, -2, 2}, {-1, 2, 3}},
-                              {{1, -2, 2}, {6, 2, 3}},
-                              {{-1, -2, 2}, {1, -1, 3}},
-                              {{-1, 1, 2}, {1, 2, 3}}}},
-                            {"bar", {{{-0.9, -0.9, 1.1}, {2.9, 0.9, 1.9}}}},
-                            {"drawer", {{{-0.9, -0.9, 0.1}, {0.9, 0.9, 0.9}}}}});
 }
 
 /// Two combs that hold each other, in a tube that is open at the top: only together do they come out of it.
@@ -199,122 +181,6 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
       EXPECT_TRUE(check_plan(r.plan, assembly, RunOptions{}.verify, context).valid);
     }
   }
-}
-
-/// Moves nothing unless asked to move parts at once: then the bar aside and the drawer up, as barred_shaft() has them.
-/// Notes the questions.
-struct AtOnce {
-  std::vector<std::vector<PartId>>* leaving = nullptr;
-  PathResult operator()(const PathQuery& q, RunContext&) const {
-    if (q.leaving.empty()) return fake::outcome(Outcome::depth_limit);
-    leaving->push_back(q.leaving);
-    PathResult r = fake::outcome(Outcome::depth_limit);
-    if (q.cast.moving.size() != 2 || q.cast.moving[0].part != 1) return r;
-    r.path.resize(3, {Pose{}, Pose{}});
-    r.path[1][0].t.x() = r.path[2][0].t.x() = 2;
-    r.path[2][1].t.z() = 8;
-    if (q.judge(r.path).accepted) r.outcome = Outcome::solved;
-    return r;
-  }
-};
-
-TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
-  BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
-  for (const bool at_once : {true, false}) {
-    params.at_once = at_once;
-    std::set<std::string> plans;
-    for (const unsigned threads : {1U, 3U}) {
-      std::vector<std::vector<PartId>> leaving;
-      RunContext context;
-      context.threads = threads;
-      RunResult r = run(barred_shaft(), fake::ingredients(AtOnce{&leaving}, std::make_shared<Blocking>(params)),
-                        RunOptions{}, context);
-      ASSERT_EQ(r.plan.disassembly.size(), at_once ? 1u : 0u);
-      if (!at_once) {
-        EXPECT_TRUE(leaving.empty());
-        continue;
-      }
-      EXPECT_EQ(leaving, (std::vector<std::vector<PartId>>{{1, 2}})) << "the housing stands still";
-      const PlanStep& step = r.plan.disassembly[0];
-      EXPECT_EQ(step.moves.size(), 2u);
-      EXPECT_EQ(step.separates, (std::vector<std::vector<std::string>>{{"drawer"}}));
-      EXPECT_EQ(r.plan.unsolved.size(), 2u) << "the bar never leaves";
-      EXPECT_TRUE(check_plan(r.plan, barred_shaft(), RunOptions{}.verify, context).valid);
-      for (auto* steps : {&r.plan.disassembly, &r.plan.assembly_steps})
-        for (PlanStep& s : *steps) s.seconds = 0;
-      plans.insert(to_json(r.plan));
-    }
-    EXPECT_LE(plans.size(), 1u);
-  }
-}
-
-TEST(Blocking, WhoMayNotLeaveOrMoveIsNotAskedForAtOnce) {
-  BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
-  const auto asked = [&](const Constraints& constraints) {
-    std::vector<std::vector<PartId>> leaving;
-    RunOptions options;
-    options.constraints = constraints;
-    RunContext context;
-    run(barred_shaft(), fake::ingredients(AtOnce{&leaving}, std::make_shared<Blocking>(params)), options, context);
-    return leaving;
-  };
-  Constraints before, base, together;
-  before.before = {{2, 1}};
-  EXPECT_EQ(asked(before), (std::vector<std::vector<PartId>>{{2}})) << "the bar leaves after the drawer";
-  base.base = {1};
-  EXPECT_TRUE(asked(base).empty());
-  together.together = {{0, 1}};
-  EXPECT_TRUE(asked(together).empty()) << "two are left, and move as one each";
-}
-
-TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
-  Assembly many = barred_shaft();
-  constexpr unsigned kShafts = 16;
-  std::vector<Mesh> frames(1, *many.parts[0].mesh);
-  for (unsigned k = 1; k < kShafts; ++k)
-    for (PartId id = 0; id < 3; ++id) {
-      Mesh mesh = *many.parts[id].mesh;
-      for (auto& v : mesh.vertices) v.y() += 4.5 * k;
-      if (id == 0) {
-        frames.push_back(std::move(mesh));
-        continue;
-      }
-      Part part = many.parts[id];
-      part.id = static_cast<PartId>(many.parts.size());
-      part.name += std::to_string(k);
-      part.mesh = part.surface = std::make_shared<const Mesh>(std::move(mesh));
-      many.parts.push_back(std::move(part));
-    }
-  Mesh frame;
-  for (const Mesh& mesh : frames) {
-    const auto base = static_cast<std::uint32_t>(frame.vertices.size());
-    frame.vertices.insert(frame.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (const Triangle& t : mesh.triangles) frame.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  many.parts[0].mesh = many.parts[0].surface = std::make_shared<const Mesh>(std::move(frame));
-  std::size_t asked = 0;
-  const auto in_vain = [&](const PathQuery& q, RunContext&) {
-    PathResult r = fake::outcome(Outcome::depth_limit);
-    if (q.leaving.empty()) return r;
-    ++asked;  // on one thread
-    EXPECT_LE(q.cast.moving.size(), 3u);
-    for (const PlacedPart& p : q.cast.moving) {
-      EXPECT_NE(p.part, PartId{0});
-      r.best_pose.push_back({p.pose.t + Eigen::Vector3d(0.5, 0, 0), p.pose.q});
-    }
-    return r;
-  };
-  BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
-  RunContext context;
-  const RunResult r = run(many, fake::ingredients(in_vain, std::make_shared<Blocking>(params)), RunOptions{}, context);
-  EXPECT_TRUE(r.plan.disassembly.empty());
-  EXPECT_EQ(asked, 14u) << "twelve of sixteen a little, two of them more";
 }
 
 TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
