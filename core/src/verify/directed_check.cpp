@@ -232,22 +232,19 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     by_shrunken_copy_ = false;
     return true;
   }
-  const Corners by_normal = moved_along(patch, -a_.normals[patch.triangle], e);
-  if (clear(i, margin, by_normal, far) && (far || outside(i.at0, by_normal))) {
+  const auto leaves = [&](const Corners& moved) {
+    if (!clear(i, margin, moved, far) || !(far || outside(i.at0, moved))) return false;
     by_shrunken_copy_ = false;
     return true;
-  }
+  };
+  if (leaves(moved_along(patch, -a_.normals[patch.triangle], e))) return true;
   // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
     const auto deepest = static_cast<std::size_t>(seen.deepest);
     if (seen.depth[deepest] > most)
       return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
-    const Corners by_probe = moved_by_probe(patch, seen, e);
-    if (clear(i, margin, by_probe, far) && (far || outside(i.at0, by_probe))) {
-      by_shrunken_copy_ = false;
-      return true;
-    }
+    if (leaves(moved_by_probe(patch, seen, e))) return true;
     if (attempt > 0) break;
     for (const auto& [place, time] : {std::pair(i.at0, i.s0), std::pair(i.at1, i.s1)}) {
       const Probe at_end = probe(patch, place, b_);
@@ -257,18 +254,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
       seen.deepen(at_end);
     }
   }
-  const Corners by_center = moved_along(patch, mid.r.transpose() * center.out, e);
-  if (depth > 0 && clear(i, margin, by_center, far) && (far || outside(i.at0, by_center))) {
-    by_shrunken_copy_ = false;
-    return true;
-  }
+  if (depth > 0 && leaves(moved_along(patch, mid.r.transpose() * center.out, e))) return true;
   // What lies on one side of a ridge leaves together, the way its deepest corner does.
   const auto deepest = static_cast<std::size_t>(seen.deepest);
-  const Corners by_deepest = moved_along(patch, seen.out[deepest], e);
-  if (seen.depth[deepest] > 0 && clear(i, margin, by_deepest, far) && (far || outside(i.at0, by_deepest))) {
-    by_shrunken_copy_ = false;
-    return true;
-  }
+  if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
   if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
   // A ridge often lies along the motion: cut there before the interval is.
   const auto ridge = ridge_on(patch, seen);
