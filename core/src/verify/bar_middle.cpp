@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "dismantle/geometry/inner_ball.h"
 #include "verify/patch.h"
 
 namespace dismantle::verify {
@@ -13,21 +14,6 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kSamples = 2'000;  // of the bar's surface
-
-double ball_at(const Solid& solid, const Vec3& p, const Vec3& inward, double most) {
-  double radius = most;
-  for (int k = 0; k < 30; ++k) {
-    const ClosestPoint seen = solid.bvh.closest(p + radius * inward, radius * (1 - 1e-9));
-    if (!(seen.distance < radius - 1e-7)) break;
-    const Vec3 to = seen.point - p;
-    const double along = to.dot(inward);
-    if (!(along > 0)) return 0;
-    const double next = to.squaredNorm() / (2 * along);
-    if (!(next < radius)) break;
-    radius = next;
-  }
-  return radius;
-}
 
 /// To where it is deeper, as far as that goes: a ball that touches a flat facet beside its middle is smaller than the
 /// one that fits in. No step leads out of the solid: it is shorter than the distance from the surface.
@@ -69,7 +55,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least) {
         const double x = (i + 0.5) / along_u, y = (k + 0.5) / along_v;
         if (x + y > 1) continue;
         const Vec3 p = a + x * u + y * v;
-        const double radius = ball_at(bar, p, -bar.normals[t], largest);
+        const double radius = inner_ball_radius(bar.bvh, p, -bar.normals[t], largest);
         if (!(radius > 0.5 * least)) continue;
         const Vec3 c = p - radius * bar.normals[t];
         centers.try_emplace({std::lround(c.x() / least), std::lround(c.y() / least), std::lround(c.z() / least)}, c);

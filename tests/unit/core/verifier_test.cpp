@@ -171,9 +171,9 @@ TEST(Verifier, InitialOverlapIsAllowedButNotMore) {
 TEST(Verifier, BuriedPlateSlidesOutAlongItsWalls) {
   Rng rng(3);
   const double width = rng.uniform(0.10, 0.12), gap = rng.uniform(0.12, 0.2), thick = rng.uniform(0.02, 0.04);
-  const double left = -0.5 * gap, right = 3 * (width + gap) + left;
+  const double left = -0.5 * gap, right = 5 * (width + gap) + left;
   Mesh walls;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 5; ++k)
     shapes::append(walls, shapes::box({k * (width + gap), 0, -0.2}, {k * (width + gap) + width, 1.2, 0.3}));
   Mesh plate = shapes::box({left, 0.05, -0.5 * thick}, {right, 1.25, 0.5 * thick});
   shapes::append(plate, shapes::box({left, 0.02, -0.5 * thick}, {right, 0.049, 0.5 * thick + 0.01}));
@@ -182,6 +182,7 @@ TEST(Verifier, BuriedPlateSlidesOutAlongItsWalls) {
   const MotionCheck c = check(plate, walls, {Pose{}, shift({0.003, 2, 0.002})}, 0.01, depth);
   EXPECT_TRUE(c.valid);
   EXPECT_LE(c.max_penetration, 0.002);
+  EXPECT_LT(c.tests, 900'000u) << "pieces beside a ridge are judged whole: without that it takes 1.2 million";
 }
 
 TEST(Verifier, BuriedPlateDoesNotGoIntoAThickerWall) {

@@ -7,37 +7,20 @@
 #include <map>
 #include <tuple>
 
+#include "dismantle/geometry/inner_ball.h"
+
 namespace dismantle::tolerant_walk {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
 constexpr std::uint32_t kLeaf = 4;                    // probes
-constexpr int kShrinkings = 30;                       // of a ball
-constexpr double kTouching = 1e-7;                    // assembly units: two surfaces that a ball touches
 constexpr double kOfThickness = 0.25;                 // what the judge lets a wall be penetrated
 constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
 constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
 constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
 constexpr double kFlat = 0.9986;                      // cosine between neighbouring faces (3 degrees): more is no edge
 constexpr double kCells = 0.7;  // of the spacing of samples: edge of the cells that hold one ball each
-
-/// Radius of the largest ball within the part that touches its surface at `p`: one that is too large is shrunk until it
-/// only touches what it met (Ma, Bae and Choi 2012).
-double ball_at(const TriangleBvh& bvh, const Vec3& p, const Vec3& inward) {
-  double radius = kThin;
-  for (int k = 0; k < kShrinkings; ++k) {
-    const ClosestPoint seen = bvh.closest(p + radius * inward, radius * (1 - 1e-9));
-    if (!(seen.distance < radius - kTouching)) break;
-    const Vec3 to = seen.point - p;
-    const double along = to.dot(inward);
-    if (!(along > 0)) return 0;
-    const double next = to.squaredNorm() / (2 * along);
-    if (!(next < radius)) break;
-    radius = next;
-  }
-  return radius;
-}
 
 /// How far it is from a point of the surface to the opposite side, by steps of what the field says is free; `most` if
 /// that is further.
@@ -106,7 +89,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
   };
   const auto sample_ball = [&](const Vec3& p, const Vec3& inward) {
     if (!region.contains(p) || !wanted(p)) return;
-    const double radius = ball_at(bvh, p, inward);
+    const double radius = inner_ball_radius(bvh, p, inward, kThin);
     if (!(radius > allowed) || !(radius < kThin)) return;  // what is thicker is seen by the edges of the other
     const Probe ball{p + radius * inward, radius - allowed};
     Probe& best = balls[key_of(ball.center)];
