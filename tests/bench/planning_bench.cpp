@@ -3,7 +3,7 @@
 
 #include "bench_models.h"
 #include "dismantle/registry.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verify/verdict.h"
 
 namespace dismantle::bench {
 namespace {
@@ -41,15 +41,7 @@ struct Task {
     RunContext context;
     const PathQuery query{assembly, *simulator, *prepared, cast, {}, [&](const Path& path) {
                             const auto begin = Deadline::Clock::now();
-                            Verdict v;
-                            const MotionCheck check = verifier->check_motion(moving, cast.still, path);
-                            v.accepted = check.valid;
-                            if (check.violation) {
-                              v.has_witness = true;
-                              v.part = check.violation->part;
-                              v.other = check.violation->other;
-                              v.point = check.violation->point;
-                            }
+                            const Verdict v = verdict_of(verifier->check_motion(moving, cast.still, path));
                             judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
                             return v;
                           }};

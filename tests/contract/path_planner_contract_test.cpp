@@ -75,7 +75,6 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
   }
 
   static Verdict verify(const Small& small, const Cast& cast, const Path& path) {
-    Verdict v;
     std::vector<PartId> moving;
     std::vector<PlacedPart> group = cast.moving;
     for (std::size_t i = 0; i < group.size(); ++i) {
@@ -83,15 +82,9 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       group[i].pose = path.back()[i];
     }
     const MotionCheck check = small.verifier->check_motion(moving, cast.still, path);
-    v.accepted = check.valid && small.verifier->apart(group, cast.still);
-    if (check.violation) {
-      v.has_witness = true;
-      v.part = check.violation->part;
-      v.other = check.violation->other;
-      v.point = check.violation->point;
-      v.instant = check.violation->segment;
-      v.reason = "it cuts";
-    }
+    Verdict v = verdict_of(check);
+    v.accepted = v.accepted && small.verifier->apart(group, cast.still);
+    if (v.has_witness) v.reason = "it cuts";
     return v;
   }
 

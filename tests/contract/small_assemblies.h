@@ -11,7 +11,7 @@
 #include "dismantle/prepare/prepare.h"
 #include "dismantle/registry.h"
 #include "dismantle/samples.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verify/verdict.h"
 
 namespace dismantle::contract {
 

@@ -4,28 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+
+#include "disjoint_sets.h"
 
 namespace dismantle {
 namespace {
-
-/// Disjoint sets of triangle corners. The root of a set is its smallest member: no order of joining matters.
-class CornerSets {
- public:
-  explicit CornerSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct HalfEdge {
   std::uint32_t lo, hi;        // vertices
@@ -62,7 +45,7 @@ ShadedMesh shade(const Mesh& mesh, double crease_angle) {
     }
   std::ranges::sort(edges, {}, [](const HalfEdge& e) { return std::array{e.lo, e.hi, e.at_lo}; });
 
-  CornerSets sets(3 * kept.size());
+  DisjointSets sets(3 * kept.size());
   const double smooth = std::cos(crease_angle);
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "disjoint_sets.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "parallel.h"
-#include "prepare/mesh/edges.h"
 
 namespace dismantle {
 namespace {
@@ -150,17 +150,17 @@ std::vector<std::vector<std::size_t>> connected_groups(const std::vector<Candida
   parallel_for(
       candidates.size(), context, "hulls", [&](std::size_t i) { hulls[i] = hull_corners(candidates[i].mesh.vertices); },
       [&](std::size_t i) { return candidates[i].name; });
-  mesh_detail::DisjointSets sets(candidates.size());
+  DisjointSets sets(candidates.size());
   for (std::uint32_t i = 0; i < candidates.size(); ++i) {
     stop_if_asked(context, "looking for connected parts");
     Aabb reach = candidates[i].box;
     reach.inflate(gap);
     for (std::uint32_t j = 0; j < i; ++j)
-      if (sets.find(i) != sets.find(j) && reach.overlaps(candidates[j].box) && !separate(hulls[i], hulls[j], gap))
+      if (sets.root(i) != sets.root(j) && reach.overlaps(candidates[j].box) && !separate(hulls[i], hulls[j], gap))
         sets.join(i, j);
   }
   std::vector<std::vector<std::size_t>> by_root(candidates.size()), groups;
-  for (std::uint32_t i = 0; i < candidates.size(); ++i) by_root[sets.find(i)].push_back(i);
+  for (std::uint32_t i = 0; i < candidates.size(); ++i) by_root[sets.root(i)].push_back(i);
   for (auto& group : by_root)
     if (!group.empty()) groups.push_back(std::move(group));
   std::stable_sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dismantle/verify/explanations.h"
+#include "dismantle/verify/verdict.h"
 #include "runner/stopwatch.h"
 
 namespace dismantle {
@@ -142,14 +143,11 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
   }
   j.check = verifier_.check_motion(ids_of(attempt.moving), attempt.still, j.written.path, context);
   if (!j.check.valid) {
+    j.verdict = verdict_of(j.check);
     j.verdict.reason =
         j.check.interrupted ? "the run was stopped before the path was judged" : "the path cuts into another part";
     if (j.check.violation) {
       const Violation& v = *j.check.violation;
-      j.verdict.has_witness = true;
-      j.verdict.part = v.part;
-      j.verdict.other = v.other;
-      j.verdict.point = v.point;
       j.verdict.instant = j.written.given_instant(v.segment, v.u);
       const auto name = [&](PartId id) {
         return id < assembly_.parts.size() ? assembly_.parts[id].name : fmt::format("part {}", id);

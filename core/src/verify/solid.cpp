@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <utility>
 
+#include "disjoint_sets.h"
 #include "verify/ray.h"
 
 namespace dismantle::verify {
@@ -18,24 +18,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLeastSine = 0.05;
 /// Triangles lower than this have no normal to speak of.
 constexpr double kSliverHeight = 1e-7;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  /// The smaller index stays the root, so that numbering follows the input.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// By triangle: number of its shell, counted in order of first appearance.
 std::vector<std::uint32_t> number_shells(const Mesh& mesh, std::uint32_t& shells) {
@@ -51,7 +33,7 @@ std::vector<std::uint32_t> number_shells(const Mesh& mesh, std::uint32_t& shells
       edges.push_back({a, b, t});
     }
   std::sort(edges.begin(), edges.end());
-  UnionFind sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());
   for (std::size_t i = 1; i < edges.size(); ++i)
     if (edges[i].a == edges[i - 1].a && edges[i].b == edges[i - 1].b)
       sets.join(edges[i].triangle, edges[i - 1].triangle);

@@ -47,29 +47,6 @@ void for_each_edge(const std::vector<EdgeRef>& edges, F&& f) {
   }
 }
 
-/// Disjoint sets; the representative of a set is its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    for (std::size_t i = 0; i < n; ++i) parent_[i] = static_cast<std::uint32_t>(i);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    if (a < b)
-      parent_[b] = a;
-    else
-      parent_[a] = b;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 /// Twice the area, along the normal.
 inline Eigen::Vector3d area_vector(const Mesh& mesh, std::size_t t) {
   const Eigen::Vector3d& a = mesh.vertex(t, 0);

@@ -1,5 +1,6 @@
 #include <map>
 
+#include "disjoint_sets.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "prepare/mesh/edges.h"
 
@@ -48,7 +49,7 @@ EdgeUse edge_use(const Mesh& mesh) {
 }
 
 std::vector<std::uint32_t> shells_of(const Mesh& mesh, std::size_t& count) {
-  mesh_detail::DisjointSets sets(mesh.triangles.size());
+  DisjointSets sets(mesh.triangles.size());
   mesh_detail::for_each_edge(mesh_detail::sorted_edges(mesh),
                              [&](const mesh_detail::EdgeRef* first, const mesh_detail::EdgeRef* last) {
                                for (const auto* e = first + 1; e < last; ++e) sets.join(first->triangle, e->triangle);
@@ -56,7 +57,7 @@ std::vector<std::uint32_t> shells_of(const Mesh& mesh, std::size_t& count) {
   std::vector<std::uint32_t> shell(mesh.triangles.size());
   std::uint32_t next = 0;
   for (std::uint32_t t = 0; t < shell.size(); ++t) {
-    const std::uint32_t root = sets.find(t);  // root <= t: numbered already unless it is t
+    const std::uint32_t root = sets.root(t);  // root <= t: numbered already unless it is t
     shell[t] = root == t ? next++ : shell[root];
   }
   count = next;

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 
+#include "disjoint_sets.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
 #include "dismantle/geometry/triangle_bvh.h"
@@ -22,7 +23,7 @@ std::uint32_t ahead(const EdgeRef& e) { return e.forward ? front(e.triangle) : b
 std::uint32_t behind(const EdgeRef& e) { return e.forward ? back(e.triangle) : front(e.triangle); }
 
 /// Connects the sides that see each other around one edge.
-void join_around(const Mesh& mesh, const EdgeRef* first, const EdgeRef* last, mesh_detail::DisjointSets& sides) {
+void join_around(const Mesh& mesh, const EdgeRef* first, const EdgeRef* last, DisjointSets& sides) {
   const auto n = static_cast<std::size_t>(last - first);
   if (n < 2) return;
   std::vector<std::pair<double, const EdgeRef*>> fan;
@@ -85,7 +86,7 @@ void flip(Triangle& t) { std::swap(t[1], t[2]); }
 OrientResult orient_outward(Mesh& mesh) {
   OrientResult result;
   const auto edges = mesh_detail::sorted_edges(mesh);
-  mesh_detail::DisjointSets sides(2 * mesh.triangles.size());
+  DisjointSets sides(2 * mesh.triangles.size());
   mesh_detail::for_each_edge(edges, [&](const EdgeRef* f, const EdgeRef* l) { join_around(mesh, f, l, sides); });
   std::size_t count = 0;
   const auto shell = shells_of(mesh, count);
@@ -98,9 +99,9 @@ OrientResult orient_outward(Mesh& mesh) {
 
   std::vector<char> drop(mesh.triangles.size(), 0);
   for (std::size_t s = 0; s < count; ++s) {
-    const std::uint32_t outside = sides.find(outer_side(mesh, members[s]));
+    const std::uint32_t outside = sides.root(outer_side(mesh, members[s]));
     for (const auto t : members[s]) {
-      const bool f = sides.find(front(t)) == outside, b = sides.find(back(t)) == outside;
+      const bool f = sides.root(front(t)) == outside, b = sides.root(back(t)) == outside;
       if (f && b && !crowded[s]) {
         result.one_sided = true;
         break;

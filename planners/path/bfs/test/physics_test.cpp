@@ -1,40 +1,14 @@
 // bfs over sdf_penalty, judged by the verifier, on small solids.
-#include "dismantle/verify/verifier.h"
-#include "maze.h"
+#include <gtest/gtest.h>
+
+#include "table.h"
 
 namespace dismantle::bfs {
 namespace {
 
-using namespace push::test;
-
-Mesh boxes(const std::vector<Aabb>& list) {
-  Mesh mesh;
-  for (const auto& b : list) {
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int i = 0; i < 8; ++i)
-      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
-                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
-    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
-                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
-                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
-      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  return mesh;
-}
-
-Assembly assembly_of(std::vector<Mesh> meshes) {
-  Assembly a;
-  for (auto& mesh : meshes) {
-    Part part;
-    part.id = static_cast<PartId>(a.parts.size());
-    part.name = "part" + std::to_string(part.id);
-    part.mesh = part.surface = std::make_shared<const Mesh>(std::move(mesh));
-    a.parts.push_back(std::move(part));
-  }
-  return a;
-}
-
-Aabb block(double x0, double y0, double z0, double x1, double y1, double z1) { return {{x0, y0, z0}, {x1, y1, z1}}; }
+using path::test::assembly_of;
+using path::test::block;
+using path::test::boxes;
 
 /// A slider in a slot that is closed above it: 1.5 along +x, then up through a hole in the roof.
 Assembly l_slot() {
@@ -48,35 +22,10 @@ Assembly l_slot() {
                                                     block(-c, -c, 0.6 + c, 1.5 - c, 0.8 + c, 1)})});  // roof
 }
 
-struct Bench {
-  Assembly assembly;
-  std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
-  std::shared_ptr<const Prepared> prepared;
-  Verifier verifier;
-
-  explicit Bench(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
-    RunContext context;
-    prepared = simulator->prepare(assembly, context);
-  }
+struct Bench : path::test::Table {
+  using Table::Table;
   PathResult plan(const std::vector<PartId>& moving, const ParamSet& given, const Effort& effort = {}) {
-    Cast cast;
-    for (const auto& part : assembly.parts)
-      (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? cast.moving : cast.still)
-          .push_back({part.id, Pose{}});
-    RunContext context;
-    const PathQuery query{assembly, *simulator, *prepared, cast, effort, [&](const Path& path) {
-                            Verdict v;
-                            const MotionCheck check = verifier.check_motion(moving, cast.still, path);
-                            v.accepted = check.valid;
-                            if (check.violation) {
-                              v.has_witness = true;
-                              v.part = check.violation->part;
-                              v.other = check.violation->other;
-                              v.point = check.violation->point;
-                            }
-                            return v;
-                          }};
-    return registry().create<PathPlanner>("bfs", given)->plan(query, context);
+    return Table::plan("bfs", given, 0, effort, moving);
   }
 };
 

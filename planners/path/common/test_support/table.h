@@ -1,13 +1,14 @@
 /// A small assembly with the simulator sdf_penalty and the verifier as its judge.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "dismantle/path_planner.h"
 #include "dismantle/registry.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verify/verdict.h"
 #include "solids.h"
 
 namespace dismantle::path::test {
@@ -36,25 +37,27 @@ struct Table {
   /// Part 0 leaves, by this path planner.
   PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, std::uint64_t max_steps,
                   unsigned max_depth = 0) {
+    return plan(planner, given, seed, {.max_depth = max_depth, .max_steps = max_steps}, {0});
+  }
+
+  /// These parts leave as one.
+  PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Effort& effort,
+                  const std::vector<PartId>& moving) {
     Cast cast;
-    for (const auto& part : assembly.parts) (part.id == 0 ? cast.moving : cast.still).push_back({part.id, Pose{}});
+    for (const auto& part : assembly.parts)
+      (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? cast.moving : cast.still)
+          .push_back({part.id, Pose{}});
     RunContext context;
     context.rng = Rng(seed);
-    const PathQuery query{
-        assembly, *simulator, *prepared, cast, {.max_depth = max_depth, .max_steps = max_steps}, [&](const Path& path) {
-          ++judged;
-          const MotionCheck check = verifier.check_motion({0}, cast.still, path);
-          Verdict v;
-          v.accepted = check.valid && verifier.apart({{0, path.back()[0]}}, cast.still);
-          if (check.violation) {
-            v.has_witness = true;
-            v.part = check.violation->part;
-            v.other = check.violation->other;
-            v.point = check.violation->point;
-            v.instant = check.violation->segment;
-          }
-          return v;
-        }};
+    const auto judge = [&](const Path& path) {
+      ++judged;
+      Verdict v = verdict_of(verifier.check_motion(moving, cast.still, path));
+      std::vector<PlacedPart> group = cast.moving;
+      for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = path.back()[i];
+      v.accepted = v.accepted && verifier.apart(group, cast.still);
+      return v;
+    };
+    const PathQuery query{assembly, *simulator, *prepared, cast, effort, judge};
     return registry().create<PathPlanner>(planner, given)->plan(query, context);
   }
 };
