@@ -17,7 +17,7 @@ class Guided final : public PathPlanner {
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     // Walk and forest move a group as one.
-    const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0) &&
+    const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0 || parameters_.lead_looks > 0) &&
                         parameters_.motion == push::Motion::automatic && can_grow(query) && query.leaving.empty();
     return others ? plan_with_others(query, parameters_, tactics_, context) : push::plan(query, tactics_, context);
   }
@@ -38,7 +38,7 @@ class Guided final : public PathPlanner {
 DISMANTLE_PLUGIN("dismantle.guided", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::guided::Guided, dismantle::guided::Parameters>(
       "guided",
-      "Search over pushes, turns and screws that the contacts propose, in a physics simulator; then a walk, and a "
+      "Search over pushes, turns and screws that the contacts propose, in a physics simulator; then walks, and a "
       "forest.",
       {.source = "Tian et al. 2022, Algorithm 1, with actions proposed by geometry",
        .needs = dismantle::push::required()});

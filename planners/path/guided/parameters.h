@@ -21,6 +21,8 @@ struct Parameters {
   std::int64_t max_refusals = 8;
   std::int64_t translation_nodes = 24;
   std::int64_t rotation_nodes = 8;
+  std::int64_t lead_looks = 4'000;
+  std::int64_t lead_cells = 500'000;
   std::int64_t squeeze_looks = 20'000;
   std::int64_t forest_after = 30'000;
   std::int64_t forest_steps = 1'500'000;
@@ -38,6 +40,19 @@ struct Parameters {
         {.doc =
              "Search first from states in places that were not searched from before; off: first come, first served."});
     push::describe_effort(s);
+    s.add("lead_looks", &Parameters::lead_looks,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .doc = "Under `motion: auto`: where pushes are in vain and free space leads out, a walk along it, given up "
+                  "after so many looks at poses without progress, and some detours; one look takes 1000 distances, "
+                  "cheaper ones count as a part of one, a quarter at least. Under a depth limit of 2 or 3 a half of it "
+                  "for each level below 4, and none for what is larger than half of what stays. 0: none."});
+    s.add("lead_cells", &Parameters::lead_cells,
+          {.unit = "1",
+           .min = 1000,
+           .max = 1e8,
+           .doc = "About so many cells are laid over the box of the still parts to find what is free."});
     s.add("squeeze_looks", &Parameters::squeeze_looks,
           {.unit = "1",
            .min = 0,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "dismantle/free_space/led_walk.h"
 #include "dismantle/push/plan.h"
 #include "dismantle/tolerant_walk/walk.h"
 #include "growth.h"
@@ -14,6 +15,24 @@ namespace {
 
 /// A walk is not worth its while in searches that are less deep.
 constexpr unsigned kLeastDepth = 3;
+/// Likewise one that is led, of which it takes fewer looks to see that it gets nowhere.
+constexpr unsigned kLeastDepthOfLead = 2;
+/// What is so large is dear to lead, and there is little room for it to be led through: diagonals of boxes, of what
+/// moves to what stays, and the least depth.
+constexpr double kLarge = 0.5;
+constexpr unsigned kLeastDepthOfLarge = 4;
+
+Aabb box_of(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
+  Aabb box;
+  for (const auto& p : parts)
+    for (const auto& v : assembly.parts[p.part].mesh->vertices) box.extend(p.pose * v);
+  return box;
+}
+
+bool is_large(const PathQuery& query) {
+  const Aabb moving = box_of(query.assembly, query.cast.moving), still = box_of(query.assembly, query.cast.still);
+  return moving.empty() || still.empty() || moving.size().norm() > kLarge * still.size().norm();
+}
 
 /// Nothing was found and nobody stopped it: it may go on, or has nothing left.
 bool undecided(const PathResult& r) { return r.outcome == Outcome::depth_limit || r.outcome == Outcome::exhausted; }
@@ -34,9 +53,14 @@ class Others {
   PathResult under_depth_limit() {
     pushes_ = push::plan(query_, tactics_, context_);
     spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
+    if (!undecided(pushes_)) return pushes_;
+    if (query_.effort.max_depth >= (is_large(query_) ? kLeastDepthOfLarge : kLeastDepthOfLead)) {
+      lead(kDeepLead - std::min(query_.effort.max_depth, kDeepLead));
+      if (!undecided(led_)) return together(led_);
+    }
     // Ways that the judge refused lead out, and only cut a little too deep.
     const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
-    if (!undecided(pushes_) || (!nearly && query_.effort.max_depth < kLeastDepth)) return pushes_;
+    if (!nearly && query_.effort.max_depth < kLeastDepth) return together(pushes_);
     const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(query_.effort.max_depth, kDeepSearch);
     walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
     return together(undecided(squeezed_) ? pushes_ : squeezed_);
@@ -54,6 +78,8 @@ class Others {
         pushing_ends = !pushing.paused();
       }
       if (!walked) {
+        lead(0);
+        if (!undecided(led_)) return together(led_);
         walk(static_cast<double>(parameters_.squeeze_looks));
         walked = true;
         if (!undecided(squeezed_)) return together(squeezed_);
@@ -77,7 +103,9 @@ class Others {
 
  private:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-  static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
+  static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk ...
+  static constexpr unsigned kDeepLead = 4;    // ... and all the patience of one that is led
+  static constexpr unsigned kMostDetours = 8;
 
   void spend(std::uint64_t steps) {
     if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, steps);
@@ -95,13 +123,26 @@ class Others {
     if (undecided(squeezed_) && steps_left_ == 0) squeezed_.outcome = Outcome::timeout;
   }
 
+  /// Likewise. Patience and detours halved so many times.
+  void lead(unsigned halvings) {
+    const double patience = std::ldexp(static_cast<double>(parameters_.lead_looks), -static_cast<int>(halvings));
+    led_.outcome = Outcome::depth_limit;
+    if (patience > 0 && steps_left_ > 0) {
+      free_space::LedWalk walk(tolerant_walk_, query_, context_, static_cast<std::size_t>(parameters_.lead_cells));
+      if (walk.leads_out()) led_ = walk.run(steps_left_, patience, kMostDetours >> halvings);
+      spend(walk.looks());
+    }
+    if (undecided(led_) && steps_left_ == 0) led_.outcome = Outcome::timeout;
+  }
+
   /// What all have counted and touched, in the one that says how it ended.
   PathResult together(PathResult end) const {
     std::map<std::string, double> counts = pushes_.counts;
     for (const auto& [name, value] : squeezed_.counts) counts["squeeze_" + name] = value;
+    for (const auto& [name, value] : led_.counts) counts["led_" + name] = value;
     for (const auto& [name, value] : forest_.counts) counts["forest_" + name] = value;
     end.counts = std::move(counts);
-    for (const auto* other : {&pushes_, &squeezed_, &forest_})
+    for (const auto* other : {&pushes_, &led_, &squeezed_, &forest_})
       for (const PartId part : other->blocked_by)
         if (std::find(end.blocked_by.begin(), end.blocked_by.end(), part) == end.blocked_by.end())
           end.blocked_by.push_back(part);
@@ -115,7 +156,8 @@ class Others {
   RunContext& context_;
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
-  PathResult pushes_, squeezed_, forest_;
+  const tolerant_walk::Parameters tolerant_walk_{};
+  PathResult pushes_, led_, squeezed_, forest_;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-/// Pushes first; where they get nowhere, a walk that uses what the judge tolerates, and a forest of trees.
+/// Pushes first; where they get nowhere, a walk that is led out through free space, one that uses what the judge
+/// tolerates, and a forest of trees.
 #pragma once
 
 #include "dismantle/path_planner.h"
@@ -7,12 +8,13 @@
 
 namespace dismantle::guided {
 
-/// The search over pushes alone for `forest_after` steps. If they are in vain, one walk as in `squeeze`. Then the
-/// forest and the pushes go on in turns of the same length, each twice as long as the last. Ends when one of them has
-/// found a way, the effort is used up, or none has anything left to try (`exhausted`).
+/// The search over pushes alone for `forest_after` steps. If they are in vain, one led walk (if
+/// free space leads out) and one as in `squeeze`. Then the forest and the pushes go on in turns of the same length,
+/// each twice as long as the last. Ends when one of them has found a way, the effort is used up, or none has anything
+/// left to try (`exhausted`).
 ///
-/// Under a depth limit: the pushes, and then a walk in proportion to it, no forest. Counts of the walk and of the
-/// forest begin with "squeeze_" and "forest_".
+/// Under a depth limit: the pushes, and then the walks in proportion to it, no forest. Counts of the walks and of the
+/// forest begin with "led_", "squeeze_" and "forest_".
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
                             RunContext& context);
 

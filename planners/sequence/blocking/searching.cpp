@@ -13,7 +13,9 @@ constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
 // Pairs of edges that the first search for slides may look at (seconds), and how many times more each later one.
 constexpr double kFirstWork = 5e8, kMoreWork = 4;
 constexpr unsigned kDepthWithoutSlides = 4;
-constexpr unsigned kDeepest = 64;  // of the searches for pairs while other pairs wait
+constexpr double kCostOctaves = 0.5;     // searches whose costs differ by less come in the order of use
+constexpr std::size_t kTouchedMost = 3;  // parts, without one of which a search of depth 2 or more is made again
+constexpr unsigned kDeepest = 64;        // of the searches for pairs while other pairs wait
 
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -100,14 +102,15 @@ bool TakingApart::slide(Group& group) {
   return false;
 }
 
-/// A search that failed is not repeated as deep as it was while those that it touched are all still there: it would
-/// most likely fail again. Most likely, not certainly (the hulls of what stays count too), so before anything is given
-/// up all searches are made once more for the group as it is then.
+/// A search that failed is not repeated as deep as it was while those that it touched are all still there, or, where
+/// it was dear, those that it touched most: it would most likely fail again. Most likely, not certainly (the hulls of
+/// what stays count too), so before anything is given up all searches are made once more for the group as it is then.
 bool TakingApart::worth_trying(const Group& group, UnitId unit, unsigned depth) const {
   const auto known = tried_.find(units_[unit].front());
   if (known == tried_.end()) return true;
   const Tried& last = known->second;
-  const bool room = std::any_of(last.blocked_by.begin(), last.blocked_by.end(),
+  const std::size_t count = last.blocked_by.size(), asked = last.depth > 1 ? std::min(count, kTouchedMost) : count;
+  const bool room = std::any_of(last.blocked_by.begin(), last.blocked_by.begin() + static_cast<std::ptrdiff_t>(asked),
                                 [&](PartId b) { return !in_group(group, unit_of_[b]); });
   if (room) return true;
   return last.outcome == Outcome::depth_limit && last.depth < depth;
@@ -141,6 +144,7 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   if (!stop() || !said_.contains(part))
     said_[part] = Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message};
   tried_[part] = {depth, result.outcome, result.blocked_by, group.units.size()};
+  cost_[part] = cost_of(part, result);
   return false;
 }
 
@@ -181,6 +185,31 @@ void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
   });
 }
 
+/// Steps of simulation, and looks at poses, take the longer the more triangles there are to touch. Counts, not seconds:
+/// these are the same everywhere.
+int TakingApart::cost_of(PartId part, const PathResult& result) const {
+  double work = 1;
+  for (const auto& [name, count] : result.counts)
+    if (name.ends_with("steps") || name.ends_with("looks")) work += count;
+  work *= static_cast<double>(assembly_.parts[part].mesh->triangles.size());
+  return static_cast<int>(std::log2(std::max(1.0, work)) / kCostOctaves);
+}
+
+/// What was cheap to search a little is mostly cheap to search a little more, and whoever leaves makes room for those
+/// that are not. What was searched as deep before, in vain, comes last: more of what was in its way may be out by then.
+void TakingApart::cheap_first(std::vector<UnitId>& units, unsigned depth) const {
+  const auto cost = [&](UnitId u) {
+    const auto known = cost_.find(units_[u].front());
+    return known == cost_.end() ? 0 : known->second;
+  };
+  const auto again = [&](UnitId u) {
+    const auto known = tried_.find(units_[u].front());
+    return known != tried_.end() && known->second.depth >= depth;
+  };
+  std::stable_sort(units.begin(), units.end(),
+                   [&](UnitId a, UnitId b) { return again(a) != again(b) ? again(b) : cost(a) < cost(b); });
+}
+
 /// Single parts that may leave, most useful first.
 std::vector<TakingApart::UnitId> TakingApart::searchable(const Group& group) {
   std::vector<UnitId> single;
@@ -200,6 +229,7 @@ bool TakingApart::search(Group& group) {
     else
       ++counts_["postponed"];
   }
+  cheap_first(list, group.depth);
   for (std::size_t k = 0; k < list.size() && !stop(); ++k)
     if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
       return true;

@@ -108,6 +108,8 @@ class TakingApart {
   std::vector<UnitId> searchable(const Group& group);
   UnitId housing_of(const Group& group) const;
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
+  int cost_of(PartId part, const PathResult& result) const;
+  void cheap_first(std::vector<UnitId>& units, unsigned depth) const;
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
 
@@ -143,6 +145,7 @@ class TakingApart {
   std::set<std::pair<std::vector<UnitId>, std::size_t>> vain_;  // turns that freed nobody after all: group, where to
   std::size_t turn_questions_ = 0;                              // to the judge, for the group as it is
   std::map<PartId, Tried> tried_;
+  std::map<PartId, int> cost_;  ///< of the last search for a way of this part: about its logarithm
   std::map<std::vector<UnitId>, Tried> tried_at_once_;
   std::set<std::vector<UnitId>> moved_at_once_;  // of those: more than one part moved
   bool none_at_once_ = false;                    // the path planner or the simulator cannot

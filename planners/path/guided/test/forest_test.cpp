@@ -14,7 +14,10 @@ using path::test::Table;
 
 /// Without the walk, which sometimes takes the ring off, too.
 ParamSet forest(std::int64_t after, std::int64_t steps) {
-  return {{"forest_after", after}, {"forest_steps", steps}, {"squeeze_looks", std::int64_t{0}}};
+  return {{"forest_after", after},
+          {"forest_steps", steps},
+          {"squeeze_looks", std::int64_t{0}},
+          {"lead_looks", std::int64_t{0}}};
 }
 
 TEST(GuidedForest, TakesARingOffAnOpenOneThatPushesDoNot) {

@@ -1,9 +1,12 @@
 #include "dismantle/push/plan.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dismantle::push {
 namespace {
+
+constexpr std::uint64_t kStepsPerLevel = 2000;  // of a depth limit: simulated, translating as well as turning
 
 /// The result of the later search, with what the earlier one has counted and touched.
 PathResult merged(const PathResult& earlier, PathResult later) {
@@ -15,39 +18,44 @@ PathResult merged(const PathResult& earlier, PathResult later) {
   return later;
 }
 
-/// Under a depth limit somebody asks for all parts in turn: most of them are blocked, and have to be found so soon.
+/// With a part of the steps that are left. What ends because it has had that part may go on another time.
+PathResult with_share(Search&& search, Search::Limits limits, std::uint64_t share) {
+  const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
+  const std::uint64_t most = std::min(left, share);
+  std::uint64_t own = most;
+  std::uint64_t* const all = std::exchange(limits.steps_left, &own);
+  PathResult result = search.run(limits);
+  if (all != nullptr) *all -= most - own;
+  if (result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
+  return result;
+}
+
+/// Under a depth limit somebody asks for all parts in turn: most of them are blocked, and have to be found so soon. A
+/// part that slides or turns in its play can do so for long, so simulated steps are limited, too.
 PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
                        RunContext& context) {
-  Search translation(query, MotionSpace::translation, tactics, context);
   const auto level = static_cast<std::uint64_t>(depth);
   limits.expansions = static_cast<std::uint64_t>(tactics.translation_nodes) * level;
   limits.rank = depth;  // the first level: what the contacts leave free, and the axes
-  PathResult first = translation.run(limits);
+  PathResult first =
+      with_share(Search(query, MotionSpace::translation, tactics, context), limits, kStepsPerLevel * level);
   if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
   if (depth == 1) {
     first.outcome = Outcome::depth_limit;  // what cannot move may still be turned
     return first;
   }
   limits.expansions = static_cast<std::uint64_t>(tactics.rotation_nodes) * level;
-  Search rotation(query, MotionSpace::rigid, tactics, context);
-  return merged(first, rotation.run(limits));
+  return merged(first, with_share(Search(query, MotionSpace::rigid, tactics, context), limits, kStepsPerLevel * level));
 }
 
 /// Likewise where each part moves in its own way. A state has many more actions then, so it is simulated steps that are
 /// counted, and somebody mostly turns, so that is looked at from the first level on.
 PathResult each_its_way(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
                         RunContext& context) {
+  limits.rank = 1 + depth / 2;  // one driven, and two along one axis; from the second level on across, too
   const auto run = [&](MotionSpace space) {
-    const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
-    const std::uint64_t most = std::min(left, static_cast<std::uint64_t>(tactics.steps_at_once) * depth);
-    std::uint64_t own = most;
-    Search::Limits here = limits;
-    here.steps_left = &own;
-    here.rank = 1 + depth / 2;  // one driven, and two along one axis; from the second level on across, too
-    PathResult result = Search(query, space, tactics, context).run(here);
-    if (limits.steps_left != nullptr) *limits.steps_left -= most - own;
-    if (result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
-    return result;
+    return with_share(Search(query, space, tactics, context), limits,
+                      static_cast<std::uint64_t>(tactics.steps_at_once) * depth);
   };
   const PathResult first = run(MotionSpace::translation);
   if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;

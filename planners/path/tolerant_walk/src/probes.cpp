@@ -20,6 +20,7 @@ constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
 constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
 constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
 constexpr double kFlat = 0.9986;                      // cosine between neighbouring faces (3 degrees): more is no edge
+constexpr int kTries = 4;       // samples that are measured for the one that is kept: fine meshes have many more
 constexpr double kCells = 0.7;  // of the spacing of samples: edge of the cells that hold one ball each
 
 /// How far it is from a point of the surface to the opposite side, by steps of what the field says is free; `most` if
@@ -69,6 +70,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
     return Key(std::lround(p.x() / cell), std::lround(p.y() / cell), std::lround(p.z() / cell));
   };
   std::map<Key, Probe> balls, points;
+  std::map<Key, int> ball_tries, point_tries;  // by where on the surface
   const auto normal_of = [&](std::uint32_t t) {
     const Vec3 n = twice(bvh.corners(t));
     return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
@@ -78,7 +80,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
     const int n = std::clamp(static_cast<int>(std::ceil((b - a).norm() / spacing)), 1, kFinest);
     for (int i = 0; i <= n; ++i) {
       const Vec3 p = a + static_cast<double>(i) / n * (b - a);
-      if (!region.contains(p) || !wanted(p)) continue;
+      if (!region.contains(p) || !wanted(p) || ++point_tries[key_of(p)] > kTries) continue;
       const double thick = allowance.beyond / kOfThickness;
       const double thin = std::min(thickness_at(part, p - kLeastStep * beside, -normal, thick),
                                    thickness_at(part, p - kLeastStep * normal, -beside, thick));
@@ -88,7 +90,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
     }
   };
   const auto sample_ball = [&](const Vec3& p, const Vec3& inward) {
-    if (!region.contains(p) || !wanted(p)) return;
+    if (!region.contains(p) || !wanted(p) || ++ball_tries[key_of(p)] > kTries) return;
     const double radius = inner_ball_radius(bvh, p, inward, kThin);
     if (!(radius > allowed) || !(radius < kThin)) return;  // what is thicker is seen by the edges of the other
     const Probe ball{p + radius * inward, radius - allowed};
@@ -160,9 +162,12 @@ void Probes::take(Probes other) {
   if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
 }
 
-bool Probes::any_violated(const Pose& place, SolidField& other) {
+bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& asked) {
   const Eigen::Matrix3d r = place.q.toRotationMatrix();
-  const auto violated = [&](const Probe& p) { return other.at(r * p.center + place.t) < p.keep; };
+  const auto violated = [&](const Probe& p) {
+    ++asked;
+    return other.at(r * p.center + place.t) < p.keep;
+  };
   if (std::any_of(added_.begin(), added_.end(), violated)) return true;
   if (nodes_.empty()) return false;
   if (violated(probes_[last_])) return true;  // it often is the same
@@ -172,6 +177,7 @@ bool Probes::any_violated(const Pose& place, SolidField& other) {
   };
   const auto look = [&](std::uint32_t id) {
     const Node& node = nodes_[id];
+    ++asked;
     return Waiting{id, node.keep + node.radius - other.at(r * node.center + place.t)};
   };
   std::array<Waiting, 64> open;

@@ -13,7 +13,9 @@ constexpr double kNear = 0.06;            // assembly units: where the parts are
 constexpr double kSpacing = 0.03;         // ... their samples are so far apart,
 constexpr std::size_t kSamples = 5'000;   // or so that there are no more of each part around the other,
 constexpr std::size_t kElsewhere = 1000;  // and so many all over
-constexpr double kLearned = 0.5;          // share of max_penetration at a place that the judge has named
+constexpr double kLearned = 0.5;          // share of what was too deep at a place that the judge has named
+constexpr double kBeside = 0.05;          // assembly units: what is so near such a place ...
+constexpr std::size_t kMostBeside = 100;  // ... counts as well, so many corners of triangles of it
 
 }  // namespace
 
@@ -60,8 +62,8 @@ Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& sti
 bool Tolerance::clear(const PlacedPart& moving, const Pose& at, const PlacedPart& still) {
   Pair& both = pair(moving, still);
   const Pose place = still.pose.inverse() * at;
-  return !both.of_moving.any_violated(place, field(still.part)) &&
-         !both.of_still.any_violated(place.inverse(), field(moving.part));
+  return !both.of_moving.any_violated(place, field(still.part), asked_) &&
+         !both.of_still.any_violated(place.inverse(), field(moving.part), asked_);
 }
 
 bool Tolerance::allows(const Pose& displacement) {
@@ -83,13 +85,34 @@ bool Tolerance::allows(const Pose& displacement) {
   return true;
 }
 
-void Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point) {
-  // Where the judge refuses less than that, it is because the wall is thin, or because it could not prove more.
-  const Probe probe{point, -allowed(part, other).overlap - kLearned * max_penetration_};
+/// `place` takes the frame of the one to that of the other.
+void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point, const Pose& place,
+                      Probes& probes) {
+  const Allowance most = allowed(of.part, other.part);
+  SolidField& solid = field(other.part);
+  // Where the judge refuses less than it tolerates elsewhere, it is because the wall is thin, or because it could not
+  // prove more. Half of what it refused, or else half of what it tolerates.
+  const Eigen::Vector3d there = place * point;
+  const double beyond = solid.at(there) < 0 ? solid.bvh().closest(there).distance - most.overlap : 0;
+  const double keep = -most.overlap - kLearned * (beyond > 0 ? std::min(beyond, most.beyond) : most.beyond);
+  const Pose at_first = other.pose.inverse() * of.pose;
+  const auto add = [&](const Eigen::Vector3d& p) { probes.add({p, std::min(keep, solid.at(at_first * p))}); };
+  add(point);
+  // What is as thin beside it would be refused next.
+  std::vector<Eigen::Vector3d> near;
+  for (const auto& v : assembly_.parts[of.part].mesh->vertices)
+    if ((v - point).squaredNorm() < kBeside * kBeside) near.push_back(v);
+  const std::size_t every = near.size() / kMostBeside + 1;
+  for (std::size_t k = 0; k < near.size(); k += every) add(near[k]);
+}
+
+void Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement) {
   for (const auto& moving : cast_.moving)
     for (const auto& still : cast_.still) {
-      if (moving.part == part && still.part == other) pair(moving, still).of_moving.add(probe);
-      if (moving.part == other && still.part == part) pair(moving, still).of_still.add(probe);
+      const Pose place = still.pose.inverse() * (displacement * moving.pose);
+      if (moving.part == part && still.part == other) learn(moving, still, point, place, pair(moving, still).of_moving);
+      if (moving.part == other && still.part == part)
+        learn(still, moving, point, place.inverse(), pair(moving, still).of_still);
     }
 }
 

@@ -101,9 +101,14 @@ TEST(Tolerance, LearnsAPlace) {
   Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01);
   const Pose sunk{Vector3d(0, 0, -0.007), Eigen::Quaterniond::Identity()};
   EXPECT_TRUE(tolerance.allows(sunk));
-  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0));
+  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), sunk);
   EXPECT_FALSE(tolerance.allows(sunk));
   EXPECT_TRUE(tolerance.allows({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
+  // By how deep it was: half of that.
+  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), {Vector3d(0, 0, -0.004), Eigen::Quaterniond::Identity()});
+  EXPECT_FALSE(tolerance.allows({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(tolerance.allows({Vector3d(0, 0, -0.001), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(tolerance.allows(Pose{}));
 }
 
 }  // namespace

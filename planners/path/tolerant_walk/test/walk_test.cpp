@@ -64,7 +64,8 @@ TEST(Squeeze, KeepsToItsBudget) {
 TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
   Table table(snapped(0.03, Pose{}));
   const auto plan = [&](unsigned depth) {
-    const ParamSet few{{"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}};
+    const ParamSet few{
+        {"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
     return table.plan("guided", few, 1, 0, depth);
   };
   EXPECT_FALSE(plan(2).counts.contains("squeeze_looks")) << "shallow searches are for many parts";
@@ -76,7 +77,8 @@ TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
 
 TEST(Squeeze, SharesTheBudgetOfGuidedUnderADepthLimit) {
   Table table(snapped(0.03, Pose{}));
-  const ParamSet whole{{"squeeze_looks", std::int64_t{100'000}}, {"forest_steps", std::int64_t{0}}};
+  const ParamSet whole{
+      {"squeeze_looks", std::int64_t{100'000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
   const PathResult free = table.plan("guided", whole, 1, 0, 3);
   const double pushes = free.counts.at("steps") + free.counts.at("looks");
   const auto budget = static_cast<std::uint64_t>(pushes) + 700;

@@ -34,8 +34,9 @@ class Probes {
   Probes(SolidField& part, const Allowance& allowance, const Aabb& region, std::size_t most, double least_spacing,
          const std::function<bool(const Eigen::Vector3d&)>& wanted);
 
-  /// Is one of them where it may not be? `place` takes the part's frame to that of the other.
-  bool any_violated(const Pose& place, SolidField& other);
+  /// Is one of them where it may not be? `place` takes the part's frame to that of the other. `asked` grows by the
+  /// number of distances that this took.
+  bool any_violated(const Pose& place, SolidField& other, std::uint64_t& asked);
   /// Joins those of another set of the same part.
   void take(Probes other);
   void add(const Probe& probe) { added_.push_back(probe); }

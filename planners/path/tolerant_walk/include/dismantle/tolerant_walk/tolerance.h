@@ -26,8 +26,11 @@ class Tolerance {
   bool allows(const Pose& displacement);
   /// The still part that forbade a displacement last.
   std::optional<PartId> in_way() const { return in_way_; }
-  /// A place where the judge found it too permissive: `point` (assembled frame of `part`) lay too deep in `other`.
-  void learn(PartId part, PartId other, const Eigen::Vector3d& point);
+  /// Distances that all answers so far have taken: what they cost, in a number that is the same everywhere.
+  std::uint64_t asked() const { return asked_; }
+  /// A place where the judge found it too permissive: `point` (assembled frame of `part`) lay too deep in `other` at
+  /// that displacement. From now on neither it nor what is near it may be as deep, unless it is at the start.
+  void learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
 
  private:
   struct Pair {
@@ -36,6 +39,8 @@ class Tolerance {
   SolidField& field(PartId part);
   Pair& pair(const PlacedPart& moving, const PlacedPart& still);
   Allowance allowed(PartId a, PartId b) const;
+  void learn(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point, const Pose& place,
+             Probes& probes);
   bool clear(const PlacedPart& moving, const Pose& at, const PlacedPart& still);
 
   const Assembly& assembly_;
@@ -51,6 +56,7 @@ class Tolerance {
   std::map<PartId, std::unique_ptr<SolidField>> fields_;
   std::map<std::pair<PartId, PartId>, Pair> pairs_;  // moving, still
   std::optional<PartId> in_way_;
+  std::uint64_t asked_ = 0;
   std::size_t first_ = 0;  // the still part that is asked first: the one that was in the way last
 };
 

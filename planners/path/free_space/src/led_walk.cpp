@@ -1,0 +1,250 @@
+#include "dismantle/free_space/led_walk.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace dismantle::free_space {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+constexpr std::size_t kPoints = 24;     // of all bodies together
+constexpr std::size_t kCorners = 3;     // of these tell where a body is and how it is turned
+constexpr double kPlace = 0.12;         // assembly units: edge of a place, at least ...
+constexpr double kPlaceOfBody = 0.15;   // ... and of the body's radius
+constexpr std::size_t kKept = 8;        // nodes of a place
+constexpr double kVisit = 0.02;         // assembly units: so much further off does each visit make a place look
+constexpr unsigned kInTheWall = 2;      // cells: a point that is deeper in what is not free has no way
+constexpr double kMostPoints = 0.5;     // share of the points that has to have a way
+constexpr double kDetour = 2;           // of the body's radius: how far ahead the way is closed where it got stuck ...
+constexpr double kNear = 0.2;           // ... and assembly units
+constexpr double kWorthIt = 0.15;       // share of the way, without which nothing more is tried
+constexpr double kDistances = 1000;     // of a look that counts as one ...
+constexpr double kLeast = 0.25;         // ... and what one counts at least
+constexpr double kMostOfPatience = 12;  // what a walk that gets on may take, by what it may without progress
+constexpr std::uint64_t kFirst = 100;   // looks, after which ...
+constexpr double kHeld = 0.02;          // ... what has not come so far (of the body's radius) is held where it is
+constexpr double kAskEvery = 0.03;      // assembly units of the way: whether it is out
+constexpr double kProgress = 0.05;      // likewise: less is none
+constexpr int kLongestFlight = 200;     // steps
+constexpr double kFaster = 1.25, kFastest = 10;  // as in tolerant_walk::Walk
+constexpr double kOctaves = 3;                   // between the largest and the smallest first steps
+constexpr double kDownhill = 0.7;                // share of flights that are led
+constexpr double kTogether = 0.4;                // ... in which all points lead alike, not those near one of them ...
+constexpr double kNearest = 0.2;                 // ... (so near at least, of the body's radius) ...
+constexpr double kOthers = 0.02;                 // ... and the others by so much
+constexpr int kLongestAside = 20;                // steps of a flight that is not led
+constexpr double kBest = 0.6;                    // share that begins where the place is least far
+
+double ball_of(const std::vector<BodyPoint>& points) {
+  std::vector<double> radii;
+  for (const auto& p : points) radii.push_back(p.radius);
+  if (radii.empty()) return 0;
+  const auto quarter = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 4);
+  std::nth_element(radii.begin(), quarter, radii.end());
+  return *quarter;
+}
+
+std::vector<BodyPoint> points_of(const PathQuery& query) {
+  std::vector<BodyPoint> all;
+  const std::size_t each = std::max<std::size_t>(4, kPoints / query.cast.moving.size());
+  for (const auto& m : query.cast.moving)
+    for (BodyPoint p : body_points(*query.assembly.parts[m.part].mesh, each)) {
+      p.center = m.pose * p.center;
+      all.push_back(p);
+    }
+  return all;
+}
+
+}  // namespace
+
+LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
+                 std::size_t most_cells)
+    : parameters_(parameters),
+      query_(query),
+      rng_(context.rng.fork(0x1ed0a1c)),
+      tree_(parameters_, query, context, rng_),
+      body_(points_of(query)),
+      ways_(query.assembly, query.cast.still, ball_of(body_), most_cells),
+      leads_out_(have_ways()) {
+  place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
+  begin_again();
+}
+
+bool LedWalk::have_ways() const {
+  const auto have = std::count_if(body_.begin(), body_.end(),
+                                  [&](const BodyPoint& p) { return ways_.depth(p.center) <= kInTheWall; });
+  return have > 0 && static_cast<double>(have) >= kMostPoints * static_cast<double>(body_.size());
+}
+
+/// With the nodes that there are, and the ways as they are now.
+void LedWalk::begin_again() {
+  place_of_.clear();
+  places_.clear();
+  by_score_.clear();
+  best_left_ = asked_at_ = left(Pose{});
+  best_ = 0;
+  for (std::uint32_t n = 0; n < tree_.size(); ++n) {
+    if (tree_[n].cut) continue;
+    const double to_go = left(tree_[n].pose);
+    put(n, to_go);
+    if (to_go < best_left_) best_left_ = to_go, best_ = n;
+  }
+  least_ = best_left_;
+  progress_at_ = work();
+}
+
+/// A ball may pass where the body does not: the narrowest place ahead of where it has come is taken for closed.
+bool LedWalk::detour() {
+  if (!ways_.close_narrowest(tree_[best_].pose * tree_.center(), kDetour * tree_.radius() + kNear)) return false;
+  leads_out_ = have_ways();
+  if (leads_out_) begin_again();
+  return leads_out_;
+}
+
+double LedWalk::left(const Pose& pose) const {
+  double sum = 0;
+  for (const BodyPoint& p : body_) sum += ways_.length(pose * p.center);
+  return sum / std::max(1.0, static_cast<double>(body_.size()));
+}
+
+/// A look at a large body among many walls costs a hundred times what one at a small body in a room does.
+double LedWalk::work() const {
+  return std::max(kLeast * static_cast<double>(tree_.looks()), static_cast<double>(tree_.distances()) / kDistances);
+}
+
+double LedWalk::score(const Place& place) const { return place.left + kVisit * static_cast<double>(place.visits); }
+
+/// Among the poses of its place.
+void LedWalk::put(std::uint32_t node, double left) {
+  Key key;
+  for (std::size_t c = 0; c < std::min(kCorners, body_.size()); ++c) {  // the first are far from each other
+    const Vec3 p = tree_[node].pose * body_[c].center / place_size_;
+    for (int k = 0; k < 3; ++k) key.push_back(static_cast<std::int32_t>(std::floor(p[k])));
+  }
+  const auto [entry, is_new] = place_of_.try_emplace(key, static_cast<std::uint32_t>(places_.size()));
+  const std::uint32_t id = entry->second;
+  if (is_new) {
+    places_.push_back({{node}, left, 1, 0});
+    by_score_.insert({score(places_[id]), id});
+    return;
+  }
+  Place& place = places_[id];
+  ++place.seen;
+  if (left < place.left) {
+    by_score_.erase({score(place), id});
+    place.left = left;
+    by_score_.insert({score(place), id});
+    std::swap(place.nodes[0], node);
+  }
+  if (place.nodes.size() < kKept)
+    place.nodes.push_back(node);
+  else if (const std::uint64_t at = 1 + rng_.below(place.seen); at < kKept)
+    place.nodes[at] = node;
+}
+
+std::uint32_t LedWalk::choose() {
+  const std::uint32_t id = by_score_.begin()->second;
+  by_score_.erase(by_score_.begin());
+  Place& place = places_[id];
+  ++place.visits;
+  by_score_.insert({score(place), id});
+  return rng_.uniform() < kBest ? place.nodes[0] : place.nodes[rng_.below(place.nodes.size())];
+}
+
+/// Who leads: all alike, or those near one of them.
+std::vector<double> LedWalk::leaders() {
+  std::vector<double> weights(body_.size(), 1);
+  if (rng_.uniform() < kTogether) return weights;
+  const Vec3 leader = body_[rng_.below(body_.size())].center;
+  const double reach = tree_.radius() * rng_.uniform(kNearest, 1);
+  for (std::size_t k = 0; k < body_.size(); ++k)
+    weights[k] = kOthers + std::exp(-(body_[k].center - leader).squaredNorm() / (reach * reach));
+  return weights;
+}
+
+/// Each point wants to go its way; the body goes as it can. Points move by about 1.
+LedWalk::PoseTree::Step LedWalk::downhill(std::uint32_t node, const std::vector<double>& weights) const {
+  std::vector<Vec3> at, wishes;
+  for (const BodyPoint& p : body_) {
+    at.push_back(tree_[node].pose * p.center);
+    wishes.push_back((ways_.ahead(at.back()) - at.back()).normalized());
+  }
+  const Twist twist = closest_twist(at, wishes, weights, tree_[node].center);
+  const double size = std::max(twist.way.norm() + tree_.radius() * twist.turn.norm(), 1e-12);
+  return {twist.way / size, twist.turn / size};
+}
+
+bool LedWalk::arrived(std::uint32_t node, double left) {
+  if (left < best_left_) best_ = node, best_left_ = left;
+  if (left < least_ - kProgress) progress_at_ = work(), least_ = left;
+  if (left > asked_at_ - kAskEvery) return false;
+  asked_at_ = left;
+  return tree_.separated(tree_[node].pose);
+}
+
+/// Steps downhill and a little aside, always the same; or only aside. Longer and longer while nothing is in the way.
+bool LedWalk::fly(PathResult& result) {
+  std::uint32_t at = choose();
+  if (tree_[at].cut) return false;
+  const auto in_cube = [&] { return Vec3(rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)); };
+  const bool led = rng_.uniform() < kDownhill;
+  const std::vector<double> weights = leaders();
+  const double size = parameters_.step * std::exp2(1 - kOctaves * rng_.uniform());
+  const double beside = led ? rng_.uniform() * rng_.uniform() : 1, turning = rng_.uniform();
+  const Vec3 way = beside * (1 - turning) * in_cube(), turn = beside * turning / tree_.radius() * in_cube();
+  const int longest = led ? kLongestFlight : 1 + static_cast<int>(rng_.below(kLongestAside));
+  const double fastest = kFastest * parameters_.step / size;
+  double faster = 1;
+  for (int k = 0; k < longest && !tree_.halted(); ++k) {
+    PoseTree::Step step{way, turn};
+    if (led) {
+      const PoseTree::Step down = downhill(at, weights);
+      step.way += down.way;
+      step.turn += down.turn;
+    }
+    const Pose next = tree_.after(at, step, faster * size);
+    if (!tree_.allowed(next)) {
+      if (k == 0 || faster <= 1) break;
+      faster = 1;
+      continue;
+    }
+    at = tree_.add(next, at);
+    const double to_go = left(next);
+    put(at, to_go);
+    if (arrived(at, to_go)) {
+      if (tree_.judged(at, result)) return true;
+      begin_again();
+      return false;
+    }
+    faster = std::min(fastest, kFaster * faster);
+  }
+  return false;
+}
+
+PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most_detours) {
+  PathResult result;
+  if (query_.effort.max_steps > 0) most_looks = std::min(most_looks, query_.effort.max_steps);
+  bool solved = false;
+  unsigned detours = 0;
+  progress_at_ = work();
+  const double at_first = left(Pose{});
+  while (!solved && leads_out_ && looks() < most_looks && work() < kMostOfPatience * patience && !tree_.halted() &&
+         !tree_.given_up()) {
+    solved = fly(result);
+    if (solved) break;
+    // What is held where it is has some play, too: it takes a good piece of the way to be worth more looks.
+    if (looks() >= kFirst && at_first - best_left_ < kHeld * tree_.radius()) break;
+    const double gone = 1 - best_left_ / std::max(at_first, 1e-9);
+    const bool in_vain = work() >= progress_at_ + patience;
+    if (gone < kWorthIt && (in_vain || work() >= 2 * patience)) break;
+    if (in_vain && (++detours > most_detours || !detour())) break;
+  }
+  tree_.finish(solved, best_, result);
+  result.counts["detours"] = detours;
+  result.counts["left"] = best_left_;
+  return result;
+}
+
+}  // namespace dismantle::free_space

@@ -1,0 +1,107 @@
+// A small plate in a box with walls across it: led along the way out it leaves, where pushes alone do not find it.
+#include "dismantle/free_space/led_walk.h"
+
+#include <gtest/gtest.h>
+
+#include "table.h"
+
+namespace dismantle::free_space {
+namespace {
+
+using path::test::assembly_of;
+using path::test::block;
+using path::test::boxes;
+using path::test::Table;
+
+constexpr double kWidth = 3, kHeight = 1;
+
+/// A box along x with inner width and height as above, closed at x = 0, open at x = `length`.
+std::vector<Aabb> box_of(double length) {
+  const double t = 0.5;
+  return {block(-t, -t, -t, 0, kWidth + t, kHeight + t), block(0, -t, -t, length, 0, kHeight + t),
+          block(0, kWidth, -t, length, kWidth + t, kHeight + t), block(0, 0, -t, length, kWidth, 0),
+          block(0, 0, kHeight, length, kWidth, kHeight + t)};
+}
+
+/// Walls with a gap at alternate corners; the plate lies in the corner that is furthest from outside.
+Assembly maze(double gap) {
+  std::vector<Aabb> walls = box_of(6);
+  const double t = 0.1;
+  for (int k = 0; k < 4; ++k) {
+    const double x = 1.2 * (k + 1);
+    const bool right = k % 2 == 0, upper = k / 2 % 2 == 0;
+    walls.push_back(right ? block(x, 0, 0, x + t, kWidth - gap, kHeight) : block(x, gap, 0, x + t, kWidth, kHeight));
+    if (gap > 0) {
+      const double y0 = right ? kWidth - gap : 0, y1 = right ? kWidth : gap;
+      walls.push_back(upper ? block(x, y0, 0, x + t, y1, kHeight - gap) : block(x, y0, gap, x + t, y1, kHeight));
+    }
+  }
+  return assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)},
+                     {Eigen::Vector3d(0.3, 0.2, 0.1), Eigen::Quaterniond(0.9, 0.3, -0.2, 0.25).normalized()});
+}
+
+ParamSet led(std::int64_t looks) {
+  return {{"lead_looks", looks}, {"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}};
+}
+
+TEST(LedWalk, TakesAPlateOutOfAMaze) {
+  Table table(maze(0.75));
+  const PathResult without = table.plan("guided", led(0), 1, 0, 2);
+  EXPECT_FALSE(is_success(without.outcome)) << "or it is no test";
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const PathResult with = table.plan("guided", led(4000), seed, 0, 2);
+    ASSERT_EQ(with.outcome, Outcome::solved) << with.message;
+    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}}, with.path).valid);
+    const PathResult again = table.plan("guided", led(4000), seed, 0, 2);
+    ASSERT_EQ(again.path.size(), with.path.size());
+    EXPECT_TRUE(again.path.back()[0].t == with.path.back()[0].t);
+  }
+}
+
+TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
+  Table table(maze(0));
+  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
+  EXPECT_FALSE(is_success(r.outcome));
+  EXPECT_FALSE(r.counts.contains("led_looks"));
+}
+
+/// A plate in a slot of a wall, with a little play: held where it is, however free the room around it.
+TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
+  const double play = 0.004;
+  std::vector<Aabb> walls = box_of(6);
+  walls.push_back(block(1, 0, 0, 2, kWidth, 0.4));
+  walls.push_back(block(1, 0, 0.5 + play, 2, kWidth, kHeight));
+  walls.push_back(block(1, 0, 0.4, 1.2, kWidth, 0.45));  // sills, over which it does not come
+  walls.push_back(block(1.8, 0, 0.4, 2, kWidth, 0.45));
+  Table table(assembly_of({boxes({block(1.2 + play, 1, 0.4 + play, 1.8 - play, 1.6, 0.5)}), boxes(walls)}));
+  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
+  EXPECT_FALSE(is_success(r.outcome));
+  if (!r.counts.contains("led_looks")) GTEST_SKIP() << "no way leads out of the slot";
+  EXPECT_LT(r.counts.at("led_looks"), 500);
+}
+
+TEST(LedWalk, GivesUpWhereTheBodyDoesNotFit) {
+  Table table(maze(0.3));
+  const PathResult r = table.plan("guided", led(1000), 1, 0, 2);
+  EXPECT_FALSE(is_success(r.outcome));
+  EXPECT_GT(r.counts.at("led_looks"), 0);
+}
+
+/// Two holes in one wall: the near one lets balls through, but no plate.
+TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
+  std::vector<Aabb> walls = box_of(4);
+  const double x = 1.4, t = 0.1, s = 0.3;
+  walls.push_back(block(x, 0, 0, x + t, 0.3, kHeight));
+  walls.push_back(block(x, 0.3, s, x + t, 0.3 + s, kHeight));
+  walls.push_back(block(x, 0.3 + s, 0, x + t, kWidth - 0.8, kHeight));
+  walls.push_back(block(x, kWidth - 0.8, 0.8, x + t, kWidth, kHeight));
+  walls.push_back(block(0.8, 1.2, 0, 0.9, kWidth, 0.5));  // makes the way to the other one longer
+  Table table(assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)}));
+  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
+  if (!r.counts.contains("led_detours")) GTEST_SKIP() << "pushes were enough";
+  EXPECT_EQ(r.outcome, Outcome::solved) << r.message;
+  EXPECT_GE(r.counts.at("led_detours"), 1);
+}
+
+}  // namespace
+}  // namespace dismantle::free_space

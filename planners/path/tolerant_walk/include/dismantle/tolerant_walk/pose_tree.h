@@ -1,0 +1,84 @@
+/// A tree of displacements that the judge tolerates, and what makes a path of a branch of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "dismantle/path/path_thinning.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/tolerant_walk/parameters.h"
+#include "dismantle/tolerant_walk/tolerance.h"
+
+namespace dismantle::tolerant_walk {
+
+/// Grown by a search, which chooses where to go on and how. Several moving parts move as one rigid body.
+class PoseTree {
+ public:
+  /// A displacement of all moving parts from where they start (node 0); assembly units, world frame.
+  struct Node {
+    Pose pose;
+    Eigen::Vector3d center;  ///< of the moving parts, there
+    std::uint32_t parent = 0;
+    bool cut = false;  ///< the judge has refused the way there
+  };
+  /// A small displacement about the centre of the moving parts: of the centre; rotation vector (rad).
+  struct Step {
+    Eigen::Vector3d way, turn;
+  };
+
+  /// All three outlive this.
+  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng);
+
+  const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  const Eigen::Vector3d& center() const { return center_; }  ///< of the moving parts at the start; world
+  double radius() const { return radius_; }                  ///< largest distance of their points from it
+  std::uint64_t looks() const { return looks_; }
+  /// Distances to parts that the looks have taken: one look takes hundreds or tens of thousands.
+  std::uint64_t distances() const { return tolerance_.asked(); }
+  bool halted() const;
+  /// The judge has refused as often as it may.
+  bool given_up() const { return refused_ >= static_cast<std::uint64_t>(parameters_.max_refusals); }
+
+  /// Counts as a look.
+  bool allowed(const Pose& displacement);
+  /// Where a step leads from a node, `scale` times as far.
+  Pose after(std::uint32_t node, const Step& step, double scale) const;
+  std::uint32_t add(const Pose& pose, std::uint32_t parent);
+  /// Are the hulls of what moves and of what stays apart there?
+  bool separated(const Pose& displacement) const;
+
+  /// True when the judge accepts a way to the node; then `result` holds it. Else some nodes of the way there are cut.
+  bool judged(std::uint32_t node, PathResult& result);
+  /// The search is over, after `most_looks` at the latest: how it ended if nothing was `solved`, `best` being the node
+  /// that came furthest, and counts.
+  void finish(bool solved, std::uint32_t best, PathResult& result) const;
+  std::vector<Pose> poses(const Pose& displacement) const;
+
+ private:
+  State state(const Pose& displacement) const;
+  double distance(const Pose& a, const Pose& b) const;
+  std::vector<std::uint32_t> chain_to(std::uint32_t node) const;
+  bool straight(const Pose& a, const Pose& b);
+  std::vector<Pose> shortened(std::vector<Pose> way);
+  Path path_of(const std::vector<Pose>& way) const;
+  void cut(const std::vector<std::uint32_t>& chain, const Pose& near);
+
+  const Parameters& parameters_;
+  const PathQuery& query_;
+  RunContext& context_;
+  Rng& rng_;
+  Deadline deadline_;
+  std::unique_ptr<World> world_;
+  Tolerance tolerance_;
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
+  double radius_ = 0;
+  std::vector<path::Ball> bodies_;
+  std::vector<Node> nodes_;
+  std::uint64_t looks_ = 0, refused_ = 0;
+  std::map<PartId, std::uint64_t> touched_;
+};
+
+}  // namespace dismantle::tolerant_walk

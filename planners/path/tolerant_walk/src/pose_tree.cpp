@@ -1,0 +1,190 @@
+#include "dismantle/tolerant_walk/pose_tree.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/path/touched.h"
+
+namespace dismantle::tolerant_walk {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr double kLookEvery = 0.02;  // assembly units, along a shortcut
+constexpr double kTurn = 0.2;        // rad between the instants of a path
+constexpr double kInstants = 0.25;   // assembly units, likewise
+constexpr int kRepairs = 4;          // tries to shorten the same way, after it has been learned where it cuts
+
+}  // namespace
+
+PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng)
+    : parameters_(parameters),
+      query_(query),
+      context_(context),
+      rng_(rng),
+      deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+                                         : context.deadline),
+      world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
+      tolerance_(query.assembly, query.cast, parameters.max_penetration) {
+  const std::size_t count = query.cast.moving.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    bodies_.push_back({world_->center(i), world_->radius(i)});
+    center_ += query.cast.moving[i].pose * bodies_[i].center / static_cast<double>(count);
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    radius_ = std::max(radius_, (query.cast.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
+  nodes_.push_back({Pose{}, center_});
+}
+
+bool PoseTree::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
+
+std::vector<Pose> PoseTree::poses(const Pose& displacement) const {
+  std::vector<Pose> list;
+  for (const auto& m : query_.cast.moving) {
+    Pose p = displacement * m.pose;
+    p.q.normalize();
+    list.push_back(p);
+  }
+  return list;
+}
+
+State PoseTree::state(const Pose& displacement) const {
+  State s = world_->initial_state();
+  const std::vector<Pose> list = poses(displacement);
+  for (std::size_t i = 0; i < list.size(); ++i) s.bodies[i].pose = list[i];
+  return s;
+}
+
+bool PoseTree::allowed(const Pose& displacement) {
+  ++looks_;
+  if (tolerance_.allows(displacement)) return true;
+  ++touched_[*tolerance_.in_way()];
+  return false;
+}
+
+/// Bound of the way of each point of the moving parts.
+double PoseTree::distance(const Pose& a, const Pose& b) const {
+  return (a * center_ - b * center_).norm() + radius_ * angle_between(a.q, b.q);
+}
+
+Pose PoseTree::after(std::uint32_t node, const Step& step, double scale) const {
+  const Eigen::Vector3d turn = scale * step.turn;
+  const Eigen::Quaterniond q = turn.isZero() ? Eigen::Quaterniond::Identity()
+                                             : Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  Pose next;
+  next.q = (q * nodes_[node].pose.q).normalized();
+  next.t = nodes_[node].center + scale * step.way - next.q * center_;
+  return next;
+}
+
+std::uint32_t PoseTree::add(const Pose& pose, std::uint32_t parent) {
+  nodes_.push_back({pose, pose * center_, parent});
+  return size() - 1;
+}
+
+bool PoseTree::separated(const Pose& displacement) const { return world_->separated(state(displacement)); }
+
+std::vector<std::uint32_t> PoseTree::chain_to(std::uint32_t node) const {
+  std::vector<std::uint32_t> chain{node};
+  while (chain.back() != 0) chain.push_back(nodes_[chain.back()].parent);
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+/// Coarse looks first: most motions that are not allowed show it in the middle.
+bool PoseTree::straight(const Pose& a, const Pose& b) {
+  int pieces = 2;
+  while (pieces * kLookEvery < distance(a, b)) pieces *= 2;
+  for (int apart = pieces / 2; apart > 0; apart /= 2)
+    for (int i = apart; i < pieces; i += 2 * apart)
+      if (halted() || !allowed(screw_interpolate(a, b, static_cast<double>(i) / pieces))) return false;
+  return true;
+}
+
+std::vector<Pose> PoseTree::shortened(std::vector<Pose> way) {
+  for (std::int64_t k = 0; k < parameters_.shortcuts && way.size() > 2 && !halted(); ++k) {
+    auto a = static_cast<std::size_t>(rng_.below(way.size())), b = static_cast<std::size_t>(rng_.below(way.size()));
+    if (a > b) std::swap(a, b);
+    if (b - a < 2 || !straight(way[a], way[b])) continue;
+    way.erase(way.begin() + static_cast<std::ptrdiff_t>(a) + 1, way.begin() + static_cast<std::ptrdiff_t>(b));
+  }
+  return way;
+}
+
+Path PoseTree::path_of(const std::vector<Pose>& way) const {
+  Path path{poses(way.front())};
+  for (std::size_t k = 1; k < way.size(); ++k) {
+    const double pieces_of_turn = angle_between(way[k - 1].q, way[k].q) / kTurn,
+                 pieces_of_way = distance(way[k - 1], way[k]) / kInstants;
+    const int pieces = std::max(1, static_cast<int>(std::ceil(std::max(pieces_of_turn, pieces_of_way))));
+    for (int i = 1; i <= pieces; ++i)
+      path.push_back(poses(screw_interpolate(way[k - 1], way[k], static_cast<double>(i) / pieces)));
+  }
+  return path::thin(path, bodies_, parameters_.thinning);
+}
+
+/// True when the judge accepts a way to the node; then `result` holds it.
+bool PoseTree::judged(std::uint32_t node, PathResult& result) {
+  const std::vector<std::uint32_t> chain = chain_to(node);
+  std::vector<Pose> way;
+  for (const std::uint32_t n : chain) way.push_back(nodes_[n].pose);
+  Pose at_fault = way.back();
+  for (int round = 0; round <= kRepairs && !halted() && !given_up(); ++round) {
+    const std::vector<Pose> shorter = shortened(way);
+    Path path = path_of(shorter);
+    const Verdict verdict = query_.judge(path);
+    if (verdict.accepted) {
+      result.outcome = Outcome::solved;
+      result.depth = static_cast<unsigned>(shorter.size() - 1);
+      result.path = std::move(path);
+      result.message.clear();
+      return true;
+    }
+    ++refused_;
+    result.message = verdict.reason;
+    if (!verdict.has_witness) break;
+    const auto& instant = path[std::min(verdict.instant, path.size() - 1)];
+    at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
+    tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault);
+    // What was learned may rule out some of the way itself.
+    if (!std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); })) break;
+  }
+  if (!halted()) cut(chain, at_fault);
+  return false;
+}
+
+/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the judge saw a fault,
+/// and what grew from it.
+void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near) {
+  std::uint32_t first = kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < chain.size(); ++k) {
+    if (!allowed(nodes_[chain[k]].pose)) {
+      first = chain[k];
+      break;
+    }
+    if (const double d = distance(nodes_[chain[k]].pose, near); d < least) least = d, first = chain[k];
+  }
+  if (first == kNone) return;
+  nodes_[first].cut = true;
+  for (std::uint32_t n = 1; n < nodes_.size(); ++n)  // children come after their parents
+    nodes_[n].cut = nodes_[n].cut || nodes_[nodes_[n].parent].cut;
+}
+
+void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const {
+  if (!solved) {
+    result.outcome = context_.cancel.cancelled()                                        ? Outcome::cancelled
+                     : deadline_.passed()                                               ? Outcome::timeout
+                     : given_up()                                                       ? Outcome::exhausted
+                     : query_.effort.max_steps > 0 && looks_ >= query_.effort.max_steps ? Outcome::timeout
+                                                                                        : Outcome::depth_limit;
+    result.best_pose = poses(nodes_[best].pose);
+  }
+  result.counts = {{"nodes", static_cast<double>(nodes_.size())},
+                   {"looks", static_cast<double>(looks_)},
+                   {"refused", static_cast<double>(refused_)}};
+  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
+}
+
+}  // namespace dismantle::tolerant_walk
