@@ -52,8 +52,7 @@ class PoseTree {
 
   /// True when the judge accepts a way to the node; then `result` holds it. Else some nodes of the way there are cut.
   bool judged(std::uint32_t node, PathResult& result);
-  /// The search is over, after `most_looks` at the latest: how it ended if nothing was `solved`, `best` being the node
-  /// that came furthest, and counts.
+  /// The search is over: how it ended if nothing was `solved`, `best` being the node that came furthest, and counts.
   void finish(bool solved, std::uint32_t best, PathResult& result) const;
   std::vector<Pose> poses(const Pose& displacement) const;
 
