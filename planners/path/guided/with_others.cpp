@@ -54,14 +54,15 @@ class Others {
     pushes_ = push::plan(query_, tactics_, context_);
     spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
     if (!undecided(pushes_)) return pushes_;
-    if (query_.effort.max_depth >= (is_large(query_) ? kLeastDepthOfLarge : kLeastDepthOfLead)) {
-      lead(kDeepLead - std::min(query_.effort.max_depth, kDeepLead));
+    const unsigned depth = query_.effort.max_depth;
+    if (depth >= kLeastDepthOfLarge || (depth >= kLeastDepthOfLead && !is_large(query_))) {
+      lead(kDeepLead - std::min(depth, kDeepLead));
       if (!undecided(led_)) return together(led_);
     }
     // Ways that the judge refused lead out, and only cut a little too deep.
     const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
-    if (!nearly && query_.effort.max_depth < kLeastDepth) return together(pushes_);
-    const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(query_.effort.max_depth, kDeepSearch);
+    if (!nearly && depth < kLeastDepth) return together(pushes_);
+    const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(depth, kDeepSearch);
     walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
     return together(undecided(squeezed_) ? pushes_ : squeezed_);
   }

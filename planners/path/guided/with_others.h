@@ -8,9 +8,9 @@
 
 namespace dismantle::guided {
 
-/// The search over pushes alone for `forest_after` steps. If they are in vain, one led walk (if
-/// free space leads out) and one as in `squeeze`. Then the forest and the pushes go on in turns of the same length,
-/// each twice as long as the last. Ends when one of them has found a way, the effort is used up, or none has anything
+/// The search over pushes alone for `forest_after` steps. If they are in vain, one led walk (if free space leads out)
+/// and one as in `squeeze`. Then the forest and the pushes go on in turns of the same length, each twice as long as the
+/// last. Ends when one of them has found a way, the effort is used up, or none has anything
 /// left to try (`exhausted`).
 ///
 /// Under a depth limit: the pushes, and then the walks in proportion to it, no forest. Counts of the walks and of the

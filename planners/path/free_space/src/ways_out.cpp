@@ -13,11 +13,10 @@ constexpr std::int32_t kMargin = 3;                       // cells around the bo
 constexpr std::uint16_t kFar = 0xffff;                    // not known, or further than it matters
 constexpr std::array<std::uint16_t, 3> kThirds{3, 4, 5};  // of a cell: to a neighbour by face, edge, corner
 constexpr std::uint32_t kUnit = 3;                        // of cost, a cell that is far from walls
-constexpr std::uint32_t kNearWall =
-    108;                                // thirds: so much dearer is a cell at a wall; a quarter of it twice as far away
-constexpr std::uint32_t kInWall = 120;  // thirds: a cell that is not free
-constexpr double kClosed = 2;           // cells around a narrow place, and its width: so far it is closed
-constexpr int kAhead = 3;               // cells
+constexpr std::uint32_t kNearWall = 108;  // so much dearer is one at a wall; twice as far from it a quarter of that
+constexpr std::uint32_t kInWall = 120;    // cells: so much longer is the way from one that is not free
+constexpr double kClosed = 2;             // cells around a narrow place, and its width: so far it is closed
+constexpr int kAhead = 3;                 // cells
 constexpr std::uint8_t kDeepest = 0xff;
 
 }  // namespace
