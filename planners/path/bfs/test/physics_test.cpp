@@ -84,6 +84,16 @@ TEST(BfsPhysics, NothingLeavesAClosedBoxHoweverLoose) {
   }
 }
 
+TEST(BfsPhysics, ADepthLimitLimitsSimulatedSteps) {
+  Bench bench(closed_box(0.15));
+  for (const unsigned depth : {1u, 2u, 3u}) {
+    const PathResult r = bench.plan({0}, {}, {.max_depth = depth});
+    EXPECT_EQ(r.outcome, Outcome::depth_limit) << depth;
+    // 2000 per level, once translating and from the second level on once turning; a run under way is ended.
+    EXPECT_LE(r.counts.at("steps"), (depth == 1 ? 1 : 2) * 2000.0 * depth + 2 * 500) << depth;
+  }
+}
+
 TEST(BfsPhysics, PartsThatMoveTogetherDoNotBlockEachOther) {
   // Two plates in a tube with a floor, one on the other: both leave at once, and only the tube is in their way.
   const double c = 0.02;
