@@ -56,4 +56,12 @@ std::string describe(const Cage& cage, const Assembly& assembly) {
       inside, other, place(cage.point, assembly), cage.opening);
 }
 
+std::string describe(const Confinement& confinement, const Assembly& assembly) {
+  return fmt::format(
+      "'{0}' and '{1}' hold each other as rigid bodies: cutting in by less than {2:.4g}, '{0}' comes no further than "
+      "{3:.4g} past '{1}' and turns by no more than {4:.4g} rad (assembly units; proved over {5} boxes of poses)",
+      assembly.parts[confinement.inside].name, assembly.parts[confinement.other].name, confinement.depth,
+      confinement.shift, confinement.turn, confinement.cells);
+}
+
 }  // namespace dismantle

@@ -3,10 +3,17 @@
 
 #include "verify/hook_cage.h"
 #include "verify/lock.h"
+#include "verify/pocket/pocket.h"
 #include "verify/ring_cage.h"
 #include "verify/verifier_impl.h"
 
 namespace dismantle {
+namespace {
+
+/// Of the penetration that is allowed. With all of it, what thin tabs bar is not settled in a minute.
+constexpr double kConfinedShare = 0.5;
+
+}  // namespace
 
 std::optional<Lock> Verifier::Impl::locking_point(const InitialOverlap& o) const {
   const double allowed = o.depth + options.max_penetration;
@@ -106,6 +113,21 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
   const auto found = impl_->caged(a, b);
   const std::scoped_lock guard(impl_->cages_guard);
   return impl_->cages.try_emplace({a, b}, found).first->second;
+}
+
+std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunContext& context) const {
+  // Turns of a small part move its points less, so its poses need fewer boxes.
+  const auto extent = [&](PartId part) { return impl_->bodies.at(part).box.size().norm(); };
+  if (extent(b) < extent(a) || (extent(b) == extent(a) && b < a)) std::swap(a, b);
+  Aabb near = impl_->bodies.at(a).box;
+  near.inflate(impl_->options.max_penetration);
+  if (!near.overlaps(impl_->bodies.at(b).box)) return std::nullopt;
+  const double depth = impl_->overlap(a, b) + kConfinedShare * impl_->options.max_penetration;
+  const auto pocket =
+      verify::pocket(impl_->bodies.at(a).solids, impl_->bodies.at(b).solids, depth * (1 + 1e-6), context);
+  if (!pocket) return std::nullopt;
+  const verify::Vector6 most = pocket->lo.cwiseAbs().cwiseMax(pocket->hi.cwiseAbs());
+  return Confinement{a, b, depth, most.tail<3>().norm(), most.head<3>().norm(), pocket->cells};
 }
 
 std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving,

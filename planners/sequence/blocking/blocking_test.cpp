@@ -256,6 +256,28 @@ TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
   }
 }
 
+TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) {
+  for (const double rim : {0.1, -0.01}) {
+    const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, rim, 0.15};
+    const Assembly assembly =
+        shapes::assembly_of({held.around(), held.block(), shapes::box({-0.2, -0.2, 0.5}, {0.2, 0.2, 0.7})});
+    RunResult r = take_apart(assembly);
+    ASSERT_FALSE(r.plan.disassembly.empty()) << "the loose one leaves";
+    if (rim < 0) {
+      EXPECT_EQ(r.outcome, Outcome::solved);
+      continue;
+    }
+    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.sequence_counts["held"], 1);
+    EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
+    ASSERT_EQ(r.plan.unsolved.size(), 2u);
+    for (const auto& u : r.plan.unsolved) {
+      EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
+      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part0" ? "part1" : "part0"});
+    }
+  }
+}
+
 TEST(Blocking, KeepsTheConstraints) {
   RunOptions options;
   options.constraints.base = {0};

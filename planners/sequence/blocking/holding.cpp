@@ -7,7 +7,8 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kProofs = 120;  // pairs of a run that are looked at closely, up to a second or two each
+constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
+constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
 
 }  // namespace
 
@@ -34,17 +35,58 @@ bool TakingApart::join_held(Group& group) {
           context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
           const auto cage = oracle_.judge()->caged(a, b);
           if (!cage) continue;
-          const std::string why = describe(*cage, assembly_);
-          context_.log(LogLevel::info, why);
-          for (const auto& [part, other] : {std::pair(a, b), std::pair(b, a)}) {
-            locked_[part] = true;
-            held_.try_emplace(part, Unsolved{part, Outcome::exhausted, {other}, {}, why});
-          }
-          join(group, u, v);
+          join_pair(group, a, b, describe(*cage, assembly_));
           return true;
         }
     }
   return false;
+}
+
+/// After all searches: the only one that is known to be in a part's way, does it hold it? That proof is for motions
+/// that cut in less than ways may, so it comes last.
+bool TakingApart::join_confined(Group& group) {
+  for (const UnitId u : group.units) {
+    const std::optional<UnitId> v = alone_in_the_way(group, u);
+    if (!v) continue;
+    for (const PartId a : units_[u])
+      for (const PartId b : units_[*v]) {
+        if (stop() || confinements_ == kConfinements) return false;
+        if (!confined_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
+        ++confinements_;
+        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
+        const auto confinement = oracle_.judge()->confined(a, b, context_);
+        if (!confinement) continue;
+        join_pair(group, a, b, describe(*confinement, assembly_));
+        return true;
+      }
+  }
+  return false;
+}
+
+/// The unit that all parts belong to which the last search for a way of `unit` touched; of two, the other.
+auto TakingApart::alone_in_the_way(const Group& group, UnitId unit) const -> std::optional<UnitId> {
+  if (group.units.size() == 2) return group.units[group.units[0] == unit ? 1 : 0];
+  std::optional<UnitId> found;
+  for (const PartId id : units_[unit]) {
+    const auto said = said_.find(id);
+    if (said == said_.end()) continue;
+    for (const PartId by : said->second.blocked_by) {
+      const UnitId v = unit_of_[by];
+      if (v == unit || !in_group(group, v)) continue;
+      if (found && *found != v) return std::nullopt;
+      found = v;
+    }
+  }
+  return found;
+}
+
+void TakingApart::join_pair(Group& group, PartId a, PartId b, const std::string& why) {
+  context_.log(LogLevel::info, why);
+  for (const auto& [part, other] : {std::pair(a, b), std::pair(b, a)}) {
+    locked_[part] = true;
+    held_.try_emplace(part, Unsolved{part, Outcome::exhausted, {other}, {}, why});
+  }
+  join(group, unit_of_[a], unit_of_[b]);
 }
 
 /// Makes one unit of two, under the number of the first.

@@ -130,7 +130,8 @@ void TakingApart::dismantle(Group group) {
       groups_.push_back(std::move(group));
       return;
     }
-    if (!make_up_for(group)) break;
+    if (make_up_for(group)) continue;
+    if (!relations_ || !params_.cages || !join_confined(group)) break;
   }
   give_up(group);
 }

@@ -82,6 +82,9 @@ class TakingApart {
 
   // holding.cpp: pairs that are proved to hold each other
   bool join_held(Group& group);
+  bool join_confined(Group& group);
+  std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
+  void join_pair(Group& group, PartId a, PartId b, const std::string& why);
   void join(Group& group, UnitId u, UnitId v);
   bool passes_straight(PartId a, PartId b);
 
@@ -123,7 +126,8 @@ class TakingApart {
   std::vector<bool> locked_;                       // by part: into another of its unit
   std::map<PartId, Unsolved> held_;                // of those: held by another without overlap, and why
   std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
-  std::size_t proofs_ = 0;
+  std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
+  std::size_t proofs_ = 0, confinements_ = 0;
   std::vector<Pose> poses_;        // by part
   std::vector<std::size_t> turn_;  // by part: the rotation in poses_, as relations_ names it
   std::deque<Group> groups_;       // waiting

@@ -126,4 +126,27 @@ inline std::vector<Vec3> crank(double below, double above, double bend_below, do
 /// Round plate about the origin with a round hole.
 inline Mesh plate(double hole, double thickness) { return tube(hole, 2, -0.5 * thickness, 0.5 * thickness, 40); }
 
+/// A block and a case around it, open above but for a rim.
+struct Cased {
+  Vec3 half;         ///< of the block, about the origin
+  double play = 0;   ///< on every side
+  double rim = 0;    ///< by how much the opening is narrower than the block, on every side; < 0: wider
+  double thick = 0;  ///< of the rim
+
+  Mesh block() const { return box(-half, half); }
+  Mesh around() const {
+    const Vec3 in = half.array() + play, out = in.array() + 0.3;
+    const double top = in.z(), x = half.x() - rim, y = half.y() - rim;
+    Mesh m = box({-out.x(), -out.y(), -out.z()}, {out.x(), out.y(), -in.z()});
+    for (const double s : {-1.0, 1.0}) {
+      const auto wall = [&](Vec3 a, Vec3 b) { append(m, box(a.cwiseMin(b), a.cwiseMax(b))); };
+      wall({s * in.x(), -out.y(), -in.z()}, {s * out.x(), out.y(), top + thick});
+      wall({-in.x(), s * in.y(), -in.z()}, {in.x(), s * out.y(), top + thick});
+      wall({s * std::min(x, in.x()), -in.y(), top}, {s * in.x(), in.y(), top + thick});
+      wall({-in.x(), s * std::min(y, in.y()), top}, {in.x(), s * in.y(), top + thick});
+    }
+    return m;
+  }
+};
+
 }  // namespace dismantle::shapes

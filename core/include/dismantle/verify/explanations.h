@@ -11,5 +11,6 @@ namespace dismantle {
 DISMANTLE_API std::string describe(const Lock& lock, const Assembly& assembly);
 DISMANTLE_API std::string describe(const Enclosure& enclosure, const Assembly& assembly);
 DISMANTLE_API std::string describe(const Cage& cage, const Assembly& assembly);
+DISMANTLE_API std::string describe(const Confinement& confinement, const Assembly& assembly);
 
 }  // namespace dismantle

@@ -70,6 +70,17 @@ struct Cage {
   double opening = 0;  ///< diameter of the widest opening, of the circle about the hole, of the hole
 };
 
+/// Two parts that hold each other as rigid bodies: every motion that begins assembled, and along which they cut in by
+/// less than `depth`, stays within bounds. The depth is less than what the judge allows, so this explains why no way
+/// was found, and does not spare the search for one.
+struct Confinement {
+  PartId inside = 0, other = 0;
+  double depth = 0;       ///< assembly units: the overlap of the two when assembled, and half of max_penetration
+  double shift = 0;       ///< the middle of `inside` comes no further, seen from `other`; assembly units
+  double turn = 0;        ///< nor does it turn by more; rad
+  std::size_t cells = 0;  ///< boxes of poses that the proof is made of
+};
+
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
 ///
 /// The law. Depth of a surface point of one part in another: its distance to the other's surface if it lies inside.
@@ -115,6 +126,9 @@ class DISMANTLE_API Verifier {
   /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
   /// no motion within the limits leads out of it. Fractions of a second up to a few.
   std::optional<Cage> caged(PartId a, PartId b) const;
+  /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in half as deep. Asked
+  /// with a fixed effort: seconds up to half a minute.
+  std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context) const;
   /// Are the moving parts shut in by the still ones, or (a single moving part) one of those by it? Found only when it
   /// can be proved within a fixed effort; a fraction of a second up to a few.
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& moving, const std::vector<PlacedPart>& still) const;

@@ -1,0 +1,84 @@
+/// Points deep within one of two parts: while nothing cuts in too far, they stay out of the other.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "verify/pocket/linear_bound.h"
+#include "verify/solid.h"
+
+namespace dismantle::verify {
+
+/// Is a point inside a solid? Cells of a grid remember what is all inside or all outside, from when they are first
+/// asked for. Safe to use from several threads. Outlived by the solid.
+class Occupancy {
+ public:
+  Occupancy(const Solid& solid, double cell);
+  bool inside(const Eigen::Vector3d& local) const;
+
+ private:
+  enum State : char { unknown, out, in, mixed };
+  const Solid* solid_;
+  double cell_;
+  std::array<std::size_t, 3> count_;
+  std::unique_ptr<std::atomic<char>[]> cells_;
+};
+
+/// A point of one part that never enters a solid of the other: it is deeper below the surface of its own than the two
+/// may cut in, and would have to pass through the solid's surface first.
+struct Pin {
+  bool of_a = true;
+  std::uint32_t faced = 0;                       ///< the solid, as Pinned numbers them
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< assembled frame, from Pinned::center()
+  double room = 0;                               ///< distance from the solid at first
+};
+
+/// Two parts and the pins of both. Where `a` is, seen from `b`, is told by six coordinates, all 0 when assembled: a
+/// rotation vector, about the centre, and a shift of the centre.
+class Pinned {
+ public:
+  struct Faced {
+    const Solid* solid;
+    Pose to_local;  ///< from the assembled frame
+    Occupancy occupied;
+  };
+
+  /// Pins are `depth` (> 0) below the surface and more. Outlived by the solids.
+  Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth);
+
+  const std::vector<Pin>& pins() const { return pins_; }
+  const Faced& faced(const Pin& pin) const { return faced_[pin.faced]; }
+  const Eigen::Vector3d& center() const { return center_; }
+  double radius() const { return radius_; }  ///< of `a` about the centre
+
+ private:
+  void add(const Solid& of, std::uint32_t faced, bool of_a, double depth, double spacing, double reach);
+
+  std::vector<Faced> faced_;
+  Eigen::Vector3d center_;
+  double radius_ = 0;
+  std::vector<Pin> pins_;
+};
+
+/// Where the two parts are, once.
+class Stance {
+ public:
+  Stance(const Pinned& pinned, const Vector6& x);
+  /// The pin, in the frame of the solid that it faces.
+  Eigen::Vector3d seen(const Pin& pin) const;
+  bool inside(const Pin& pin) const;
+  /// No point of `a` has moved further.
+  double moved() const { return moved_; }
+
+ private:
+  const Pinned* pinned_;
+  Eigen::Matrix3d turn_;
+  Eigen::Vector3d shift_;
+  double moved_;
+};
+
+}  // namespace dismantle::verify
