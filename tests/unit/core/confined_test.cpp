@@ -61,6 +61,16 @@ TEST(Confined, NotWhereNothingIsAround) {
   EXPECT_FALSE(far.confined(0, 1, {}));
 }
 
+TEST(Confined, NotWhereASurfaceHasABorder) {
+  Rng rng(7);
+  const Cased c = any_case(rng, 0.1);
+  for (const bool inner : {true, false}) {
+    Mesh block = c.block(), around = c.around();
+    (inner ? block : around).triangles.pop_back();
+    EXPECT_FALSE(Verifier(assembly_of({block, around}), {kWaysMay}).confined(0, 1, {}));
+  }
+}
+
 TEST(Confined, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
   Rng rng(3);
   const Cased c = any_case(rng, 0.1);

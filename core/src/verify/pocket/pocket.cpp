@@ -1,7 +1,10 @@
 #include "verify/pocket/pocket.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "verify/pocket/pin_walk.h"
 #include "verify/pocket/pose_flood.h"
@@ -17,10 +20,23 @@ constexpr double kMargin = 0.5;        // of what the walk reached, on either si
 constexpr double kLeastMargin = 0.02;  // ... and assembly units
 constexpr double kFar = 0.3;           // of the radius: parts that come so far are taken to come apart
 
+/// Has the surface no border? Only then does whatever gets inside pass through it.
+bool borderless(const Solid& solid) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;  // by edge: one way less the other
+  for (const Triangle& t : solid.mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      passes[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  return std::all_of(passes.begin(), passes.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
 }  // namespace
 
 std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth,
                              const RunContext& context) {
+  for (const auto* solids : {&a, &b})
+    if (!std::all_of(solids->begin(), solids->end(), borderless)) return std::nullopt;
   const Pinned pinned(a, b, depth);
   if (pinned.pins().empty()) return std::nullopt;
   const double far = std::max(kFar * pinned.radius(), 1.0);

@@ -16,6 +16,9 @@ constexpr std::size_t kSeldom = 16;  // rounds: how often large ones are asked a
 constexpr double kStep = 0.004;      // assembly units: on a way that is looked at
 constexpr double kGrow = 0.3;        // of the box, on a side that is too close
 
+/// Is the assembled pose in it?
+bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all() && (c.hi.array() >= 0).all(); }
+
 }  // namespace
 
 struct Contractor::Helper {
@@ -231,6 +234,10 @@ PoseFlood::End PoseFlood::run(std::size_t most, const RunContext& context) {
     if (context.should_stop()) return End::open;
     const std::uint32_t exit = next_exit();
     if (exit == kNone) {
+      // Rounding, if anything: the assembled pose is within bounds, so its cell cannot be empty.
+      if (std::none_of(cells_.begin(), cells_.end(),
+                       [&](const Node& n) { return !n.divided && n.reached && holds_start(n.cell); }))
+        return End::open;
       bounds_.lo = hi_;
       bounds_.hi = lo_;
       for (const Node& n : cells_)
@@ -279,9 +286,6 @@ void PoseFlood::divide(std::uint32_t node) {
   cells_[node].reached = false;
   cells_[node].on.clear();
   const std::uint32_t first = split(node);
-  const auto holds_start = [&](const PoseCell& c) {
-    return !c.empty && (c.lo.array() <= 0).all() && (c.hi.array() >= 0).all();
-  };
   if (from == kNone) reach(holds_start(cells_[first].cell) ? first : first + 1, kNone);
   for (const std::uint32_t k : {first, first + 1})
     if (!cells_[k].cell.empty && !cells_[k].reached) adopt(k);
