@@ -9,6 +9,7 @@
 namespace dismantle {
 namespace {
 
+using shapes::append;
 using shapes::assembly_of;
 using shapes::box;
 using shapes::Cased;
@@ -46,12 +47,29 @@ TEST(Confined, ABlockUnderARim) {
 
 TEST(Confined, NotWhereItComesOut) {
   Rng rng(2);
-  for (int i = 0; i < 6; ++i) {
-    const Cased c = any_case(rng, rng.uniform(-0.02, 0.004));  // less than half of what is allowed
+  for (int i = 0; i < 4; ++i) {
+    const Cased c =
+        any_case(rng, i % 2 == 0 ? rng.uniform(-0.02, 0) : rng.uniform(0.002, 0.0027));  // < half of what is allowed
     const Verifier verifier = judge_of(c, Pose{});
     EXPECT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {shapes::shift({0, 0, 3})}}).valid);
     EXPECT_FALSE(verifier.confined(0, 1, {})) << i;
   }
+}
+
+TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
+  // Along a tunnel, and up through a hole in its roof with 0.006 to spare on every side.
+  const double half = 0.2, wide = half + 0.006, hole = 0.5;
+  const Mesh block = box({-half, -half, -half}, {half, half, half});
+  Mesh tunnel = box({-0.5, -0.5, -0.5}, {1, 0.5, -wide});
+  for (const double s : {-1.0, 1.0})
+    append(tunnel, box({-0.5, std::min(s * wide, s * 0.5), -wide}, {1, std::max(s * wide, s * 0.5), 0.5}));
+  append(tunnel, box({-0.5, -wide, -wide}, {-wide, wide, 0.5}));
+  append(tunnel, box({hole + wide, -wide, -wide}, {1, wide, 0.5}));
+  append(tunnel, box({-wide, -wide, wide}, {hole - wide, wide, 0.5}));
+  const Verifier verifier(assembly_of({block, tunnel}), {kWaysMay});
+  const Path out{{Pose{}}, {shapes::shift({hole, 0, 0})}, {shapes::shift({hole, 0, 2})}};
+  ASSERT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, out).valid);
+  EXPECT_FALSE(verifier.confined(0, 1, {}));
 }
 
 TEST(Confined, NotWhereNothingIsAround) {

@@ -183,15 +183,22 @@ bool PoseFlood::within_bounds(const Vector6& x, const PoseCell& around) const {
                       [&](const Pin& p) { return p.room <= stance.moved() && stance.inside(p); });
 }
 
-/// Goes from centre to centre: the cell where a pin is in the way, the larger of two. Nothing: the way is free, as far
-/// as poses tell that are a step apart.
+/// Goes from centre to centre: the cell where a pin in use is in the way, the larger of two. Nothing: the way is free,
+/// as far as poses tell that are a step apart.
 std::uint32_t PoseFlood::barred_at(std::uint32_t exit) const {
+  const auto barred = [&](const Vector6& x) {
+    const Stance stance(pinned_, x);
+    return std::any_of(in_use_.begin(), in_use_.end(), [&](std::uint32_t p) {
+      const Pin& pin = pinned_.pins()[p];
+      return pin.room <= stance.moved() && stance.inside(pin);
+    });
+  };
   for (std::uint32_t k = exit; cells_[k].from != kNone; k = cells_[k].from) {
     const std::uint32_t next = cells_[k].from;
     const Vector6 x = cells_[k].cell.center(), by = cells_[next].cell.center() - x;
     const int steps = 1 + static_cast<int>(by.cwiseProduct(scale_).norm() / kStep);
     for (int i = 1; i < steps; ++i)
-      if (!within_bounds(x + static_cast<double>(i) / steps * by, cells_[2 * i < steps ? k : next].cell))
+      if (barred(x + static_cast<double>(i) / steps * by))
         return extent(cells_[k].cell) > extent(cells_[next].cell) ? k : next;
   }
   return kNone;
