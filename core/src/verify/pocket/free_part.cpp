@@ -43,25 +43,6 @@ Polygon clipped(const std::array<Vec3, 3>& triangle, const Vec3& half) {
   return polygon;
 }
 
-/// Calls f(triangle) for each whose leaf of the tree overlaps the box.
-template <class F>
-void near_box(const TriangleBvh& bvh, const Aabb& box, F f) {
-  std::array<std::uint32_t, 128> stack;
-  std::size_t n = 0;
-  stack[n++] = 0;
-  while (n > 0) {
-    const std::uint32_t k = stack[--n];
-    const TriangleBvh::Node& node = bvh.nodes()[k];
-    if (!node.box.overlaps(box)) continue;
-    if (node.count == 0) {
-      stack[n++] = node.first;
-      stack[n++] = k + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) f(bvh.order()[i]);
-  }
-}
-
 }  // namespace
 
 FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half) {
@@ -79,7 +60,7 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
   normals.clear();
   for (int k = 0; k < 3; ++k)
     for (const double s : {-1.0, 1.0}) normals.push_back(s * Vec3::Unit(k));
-  near_box(solid.bvh, box, [&](std::uint32_t t) {
+  solid.bvh.overlapping(box, [&](std::uint32_t t) {
     if (corners.size() > kMostCorners) return;
     std::array<Vec3, 3> c = solid.bvh.corners(t);
     for (Vec3& x : c) x -= at;

@@ -8,8 +8,6 @@
 namespace dismantle::verify {
 namespace {
 
-using Vec3 = Eigen::Vector3d;
-
 constexpr double kStride = 0.006;  // assembly units, the largest first step
 constexpr int kSteps = 60;         // in one direction, ever faster
 constexpr double kFaster = 1.15, kFastest = 5;

@@ -12,13 +12,14 @@
 namespace dismantle::verify {
 namespace {
 
-constexpr std::size_t kLooks = 8000;
+constexpr std::size_t kLooks = 8000;       // of the random walk
 constexpr std::size_t kDivisions = 24000;  // in all, about
 constexpr std::size_t kFirstShare = 8000;
 constexpr int kBoxes = 16;             // one larger than the other
 constexpr double kMargin = 0.5;        // of what the walk reached, on either side, ...
 constexpr double kLeastMargin = 0.02;  // ... and assembly units
-constexpr double kFar = 0.3;           // of the radius: parts that come so far are taken to come apart
+// Parts that come so far are taken to come apart: of the radius, and assembly units, whichever is more.
+constexpr double kFar = 0.3, kLeastFar = 1;
 
 /// Has the surface no border? Only then does whatever gets inside pass through it.
 bool borderless(const Solid& solid) {
@@ -39,7 +40,7 @@ std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Soli
     if (!std::all_of(solids->begin(), solids->end(), borderless)) return std::nullopt;
   const Pinned pinned(a, b, depth);
   if (pinned.pins().empty()) return std::nullopt;
-  const double far = std::max(kFar * pinned.radius(), 1.0);
+  const double far = std::max(kFar * pinned.radius(), kLeastFar);
   const PinWalk walk = walk_with_pins(pinned, kLooks, far, context);
   if (walk.away) return std::nullopt;
   Vector6 lo = walk.lo, hi = walk.hi;

@@ -1,9 +1,6 @@
 #include "verify/pocket/pose_flood.h"
 
 #include <algorithm>
-#include <exception>
-#include <semaphore>
-#include <thread>
 #include <utility>
 
 namespace dismantle::verify {
@@ -20,59 +17,6 @@ constexpr double kGrow = 0.3;        // of the box, on a side that is too close
 bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all() && (c.hi.array() >= 0).all(); }
 
 }  // namespace
-
-struct Contractor::Helper {
-  std::binary_semaphore begin{0}, done{0};
-  const Pinned* pinned = nullptr;
-  PoseCell* cell = nullptr;  // nothing: the end
-  const PinList* in_use = nullptr;
-  std::exception_ptr error;
-  std::thread thread{[this] {
-    while (true) {
-      begin.acquire();
-      if (cell == nullptr) return;
-      try {
-        contract(*cell, *pinned, *in_use);
-      } catch (...) {
-        error = std::current_exception();  // thrown again by who asked
-      }
-      done.release();
-    }
-  }};
-};
-
-Contractor::Contractor(const Pinned& pinned, unsigned threads) : pinned_(pinned) {
-  if (threads < 2) return;
-  helper_ = std::make_unique<Helper>();
-  helper_->pinned = &pinned;
-}
-
-Contractor::~Contractor() {
-  if (!helper_) return;
-  helper_->cell = nullptr;
-  helper_->begin.release();
-  helper_->thread.join();
-}
-
-void Contractor::operator()(PoseCell& x, PoseCell& y, const PinList& in_use) {
-  if (helper_) {
-    helper_->cell = &y;
-    helper_->in_use = &in_use;
-    helper_->begin.release();
-  }
-  std::exception_ptr error;
-  try {
-    contract(x, pinned_, in_use);
-    if (!helper_) contract(y, pinned_, in_use);
-  } catch (...) {
-    error = std::current_exception();  // thrown below, when the helper is done with what it was lent
-  }
-  if (helper_) {
-    helper_->done.acquire();
-    if (!error) error = std::exchange(helper_->error, nullptr);
-  }
-  if (error) std::rethrow_exception(error);
-}
 
 PoseFlood::PoseFlood(const Pinned& pinned, PinList in_use, const Vector6& lo, const Vector6& hi, Contractor& contractor)
     : pinned_(pinned), contractor_(contractor), in_use_(std::move(in_use)), lo_(lo), hi_(hi) {

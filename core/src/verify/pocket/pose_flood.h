@@ -3,27 +3,14 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <queue>
 #include <vector>
 
 #include "dismantle/run_context.h"
+#include "verify/pocket/contractor.h"
 #include "verify/pocket/pose_cell.h"
 
 namespace dismantle::verify {
-
-/// Two cells are contracted at once where there is a second thread.
-class Contractor {
- public:
-  Contractor(const Pinned& pinned, unsigned threads);
-  ~Contractor();
-  void operator()(PoseCell& x, PoseCell& y, const PinList& in_use);
-
- private:
-  struct Helper;
-  const Pinned& pinned_;
-  std::unique_ptr<Helper> helper_;
-};
 
 class PoseFlood {
  public:
