@@ -33,7 +33,7 @@ AttemptPool::~AttemptPool() {
 void AttemptPool::work(unsigned index) {
   std::unique_lock lock(mutex_);
   while (true) {
-    work_there_.wait(lock, [this] { return stop_ || !queue_.empty(); });
+    work_there_.wait(lock, [this] { return stop_ || may_begin(); });
     if (stop_) return;
     const AttemptKey key = queue_.front();
     queue_.pop_front();
@@ -57,6 +57,8 @@ void AttemptPool::work(unsigned index) {
     job_ended_.notify_all();
   }
 }
+
+bool AttemptPool::may_begin() const { return !queue_.empty() && running_ + (caller_waits_ ? 0 : 1) < workers_.size(); }
 
 void AttemptPool::hint(std::vector<std::pair<AttemptKey, Attempt>> attempts) {
   {
@@ -113,6 +115,8 @@ std::shared_ptr<AttemptPool::Job> AttemptPool::demand(const AttemptKey& key, con
 
 PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, const RunContext& context) {
   std::unique_lock lock(mutex_);
+  caller_waits_ = true;
+  work_there_.notify_all();
   while (true) {
     const std::shared_ptr<Job> job = demand(key, attempt, context);
     while (!job->done) {
@@ -133,6 +137,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
       result.computed.answer.result.outcome = Outcome::timeout;
       result.computed.answer.result.message = "the time limit of the whole run passed during the attempt";
     }
+    caller_waits_ = false;
     return result;
   }
 }

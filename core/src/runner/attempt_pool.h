@@ -62,6 +62,7 @@ class AttemptPool {
   using Jobs = std::map<AttemptKey, std::shared_ptr<Job>>;
 
   void work(unsigned index);
+  bool may_begin() const;
   void make_room();
   std::shared_ptr<Job> demand(const AttemptKey& key, const Attempt& attempt, const RunContext& context);
 
@@ -72,6 +73,7 @@ class AttemptPool {
   Jobs jobs_;
   std::deque<AttemptKey> queue_;
   unsigned running_ = 0;
+  bool caller_waits_ = false;  ///< else it works itself, and one worker less begins something
   std::uint64_t begun_ = 0;
   bool stop_ = false;
   std::vector<std::thread> workers_;

@@ -107,8 +107,30 @@ TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
   EXPECT_EQ(r.plan.disassembly.back().separates[0].size(), 1u);
 }
 
+/// Pairs that hold each other, side by side.
+Assembly cased_pairs(int count) {
+  const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
+  std::vector<Mesh> parts;
+  for (int k = 0; k < count; ++k) {
+    const Pose there = shapes::shift({3.0 * k, 0, 0});
+    parts.push_back(shapes::moved(held.around(), there));
+    parts.push_back(shapes::moved(held.block(), there));
+  }
+  return shapes::assembly_of(parts);
+}
+
+TEST(Blocking, EachOfSeveralPairsIsProvedToHoldEachOther) {
+  RunResult r = take_apart(cased_pairs(3), 2);
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.sequence_counts["held"], 3);
+  EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
+  ASSERT_EQ(r.plan.unsolved.size(), 6u);
+  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
+}
+
 TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
-  for (const Assembly& assembly : {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube()}) {
+  for (const Assembly& assembly :
+       {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube(), cased_pairs(3)}) {
     std::set<std::string> plans;
     std::set<double> relations;
     for (const unsigned threads : {1U, 2U, 3U}) {

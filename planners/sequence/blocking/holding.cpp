@@ -54,7 +54,7 @@ bool TakingApart::join_confined(Group& group) {
         if (!confined_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
         ++confinements_;
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-        const auto confinement = oracle_.judge()->confined(a, b, context_);
+        const auto confinement = confined(a, b);
         if (!confinement) continue;
         join_pair(group, a, b, describe(*confinement, assembly_));
         return true;
@@ -100,7 +100,8 @@ void TakingApart::join(Group& group, UnitId u, UnitId v) {
   watched_[u].clear();
   watched_[v].clear();
   refused_.clear();
-  group.groups_done = group.slides_done = group.turns_done = group.searched_out = group.pair_done = false;
+  group.groups_done = group.slides_done = group.turns_done = group.searched_out = group.pair_done =
+      group.searches_done = false;
   ++counts_["held"];
 }
 

@@ -8,14 +8,12 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kRefusals = 12;       // of the judge, before the slides are given up
-constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
+constexpr std::size_t kRefusals = 12;  // of the judge, before the slides are given up
 // Pairs of edges that the first search for slides may look at (seconds), and how many times more each later one.
 constexpr double kFirstWork = 5e8, kMoreWork = 4;
 constexpr unsigned kDepthWithoutSlides = 4;
 constexpr double kCostOctaves = 0.5;     // searches whose costs differ by less come in the order of use
 constexpr std::size_t kTouchedMost = 3;  // parts, without one of which a search of depth 2 or more is made again
-constexpr unsigned kDeepest = 64;        // of the searches for pairs while other pairs wait
 
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -116,19 +114,23 @@ bool TakingApart::worth_trying(const Group& group, UnitId unit, unsigned depth) 
   return last.outcome == Outcome::depth_limit && last.depth < depth;
 }
 
+/// Did its last search end for want of depth?
+bool TakingApart::wants_depth(UnitId unit) const {
+  const auto known = tried_.find(units_[unit].front());
+  return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
+}
+
+void TakingApart::note_waiting(Group& group, const std::vector<UnitId>& units) const {
+  group.waiting.clear();
+  std::copy_if(units.begin(), units.end(), std::back_inserter(group.waiting), [&](UnitId u) { return wants_depth(u); });
+}
+
 bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next) {
   Attempt question_now = question(group, {unit});
   question_now.max_depth = depth;
   const PartId part = units_[unit].front();
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[part].name);
-  if (context_.threads > 1) {
-    std::vector<Attempt> ahead{question_now};
-    for (std::size_t k = 0; k < next.size() && k < kAheadPerThread * context_.threads; ++k) {
-      ahead.push_back(question(group, {next[k]}));
-      ahead.back().max_depth = depth;
-    }
-    oracle_.prefetch(ahead, context_);
-  }
+  if (context_.threads > 1) prefetch(group, question_now, next);
   const AttemptResult& answer = oracle_.attempt(question_now, context_);
   const PathResult& result = answer.result;
   context_.log(LogLevel::debug, "search for a way of '" + assembly_.parts[part].name + "' to depth " +
@@ -219,6 +221,12 @@ std::vector<TakingApart::UnitId> TakingApart::searchable(const Group& group) {
   return single;
 }
 
+/// Where all arrangements were seen it takes more than slides, if it can be done at all: deep searches, which are for
+/// ways of many slides, have nothing to find.
+unsigned TakingApart::deepest(const Group& group) const {
+  return group.no_slides ? std::min(kDepthWithoutSlides, params_.max_depth) : params_.max_depth;
+}
+
 /// One round of Algorithm 2: every part a little; the next time a little more.
 bool TakingApart::search(Group& group) {
   const std::vector<UnitId> single = searchable(group);
@@ -233,13 +241,9 @@ bool TakingApart::search(Group& group) {
   for (std::size_t k = 0; k < list.size() && !stop(); ++k)
     if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
       return true;
-  const bool deeper = std::any_of(single.begin(), single.end(), [&](UnitId u) {
-    const auto known = tried_.find(units_[u].front());
-    return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
-  });
-  // Where all arrangements were seen it takes more than slides, if it can be done at all: deep searches, which are for
-  // ways of many slides, have nothing to find.
-  const unsigned most = group.no_slides ? std::min(kDepthWithoutSlides, params_.max_depth) : params_.max_depth;
+  note_waiting(group, single);
+  const bool deeper = !group.waiting.empty();
+  const unsigned most = deepest(group);
   const bool more_slides = group.slides_cut && group.units.size() > 2 && group.depth < params_.max_depth;
   if (!more_slides && (!deeper || group.depth >= most || group.units.size() == 2)) {
     group.searched_out = true;
@@ -252,18 +256,19 @@ bool TakingApart::search(Group& group) {
 
 /// The ways of two parts that are left: twice as deep as the last time, or without limit of depth.
 bool TakingApart::search_pair(Group& group, bool without_end) {
-  if (group.pair_depth >= kDeepest) without_end = true;
+  if (group.pair_depth >= kDeepestPair) without_end = true;
   group.pair_depth *= 2;
-  for (const UnitId u : searchable(group)) {
-    const auto known = tried_.find(units_[u].front());
-    if (known != tried_.end() && known->second.outcome != Outcome::depth_limit) continue;
+  const std::vector<UnitId> list = searchable(group);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (tried_.contains(units_[list[k]].front()) && !wants_depth(list[k])) continue;
     if (stop()) return false;
-    if (attempt(group, u, without_end ? 0 : group.pair_depth, {})) return true;
+    if (attempt(group, list[k], without_end ? 0 : group.pair_depth,
+                {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
+      return true;
   }
-  group.pair_done = without_end || std::none_of(group.units.begin(), group.units.end(), [&](UnitId u) {
-                      const auto known = tried_.find(units_[u].front());
-                      return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
-                    });
+  note_waiting(group, list);
+  group.pair_done =
+      without_end || std::none_of(group.units.begin(), group.units.end(), [&](UnitId u) { return wants_depth(u); });
   return false;
 }
 

@@ -57,6 +57,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   all.first = true;
   watched_.resize(units_.size());
   groups_.push_back(std::move(all));
+  if (oracle.judge() != nullptr) confinements_ahead_ = std::make_unique<ConfinementsAhead>(*oracle.judge());
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
     relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_, context.threads);
@@ -131,6 +132,12 @@ void TakingApart::dismantle(Group group) {
       return;
     }
     if (make_up_for(group)) continue;
+    group.searches_done = true;
+    if (std::any_of(groups_.begin(), groups_.end(),
+                    [](const Group& g) { return g.units.size() > 1 && !g.searches_done; })) {
+      groups_.push_back(std::move(group));
+      return;
+    }
     if (!relations_ || !params_.cages || !join_confined(group)) break;
   }
   give_up(group);
@@ -185,7 +192,7 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
   if (answer.out) out = {unit_of_[*answer.out]};
   for (const UnitId u : units) watched_[u].clear();
   refused_.clear();
-  group.slides_done = group.groups_done = group.turns_done = group.searched_out = false;
+  group.slides_done = group.groups_done = group.turns_done = group.searched_out = group.searches_done = false;
   group.at_once = 0;
   if (attempt.part_way || out.size() < units.size()) {
     for (auto& known : watched_) known.clear();  // what was in the way may not be any more
@@ -199,13 +206,12 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
     return;
   }
   std::erase_if(group.units, [&](UnitId u) { return std::find(out.begin(), out.end(), u) != out.end(); });
-  out_ += out.size();
+  ++out_;
   if (out.size() > 1) {
     Group own;
     own.units = out;
     std::sort(own.units.begin(), own.units.end());  // units are numbered in the order of trying
     groups_.push_back(std::move(own));
-    --out_;
   }
   const auto& target = oracle_.constraints().target;
   if (target &&

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocking/blocking.h"
+#include "blocking/confinements_ahead.h"
 #include "blocking/relations.h"
 #include "blocking/slides.h"
 #include "blocking/turns.h"
@@ -41,8 +42,10 @@ class TakingApart {
     bool searched_out = false;  ///< more depth does not help, or is not allowed
     unsigned pair_depth = 1;    ///< pairs only: doubled with every round
     bool pair_done = false;
-    std::string slides_said;   ///< why the search for slides found nothing
-    std::string at_once_said;  ///< likewise that for motions at once
+    bool searches_done = false;   ///< those that were put off as well
+    std::vector<UnitId> waiting;  ///< those whose searches ended for want of depth, as they will be searched next
+    std::string slides_said;      ///< why the search for slides found nothing
+    std::string at_once_said;     ///< likewise that for motions at once
   };
   /// The last search for the way of a part.
   struct Tried {
@@ -52,6 +55,8 @@ class TakingApart {
     std::size_t group_size = 0;  ///< when it was made
   };
   static constexpr UnitId kUnknown = static_cast<UnitId>(-1);
+  static constexpr unsigned kDeepestPair = 64;       ///< of the searches for pairs while other pairs wait
+  static constexpr std::size_t kAheadPerThread = 2;  ///< attempts that are hinted
 
   // taking_apart.cpp: order of things, bookkeeping
   void dismantle(Group group);
@@ -114,7 +119,18 @@ class TakingApart {
   int cost_of(PartId part, const PathResult& result) const;
   void cheap_first(std::vector<UnitId>& units, unsigned depth) const;
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
+  bool wants_depth(UnitId unit) const;
+  void note_waiting(Group& group, const std::vector<UnitId>& units) const;
+
+  // ahead.cpp: what will probably be asked, for idle threads
+  void prefetch(const Group& group, const Attempt& now, const std::vector<UnitId>& next) const;
+  void add_waiting(const Group& group, unsigned depth, const std::vector<UnitId>& units,
+                   std::vector<Attempt>& ahead) const;
+  void add_others(std::vector<Attempt>& ahead) const;
+  std::optional<Confinement> confined(PartId a, PartId b);
+  std::vector<std::pair<PartId, PartId>> pairs_to_confine() const;
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
+  unsigned deepest(const Group& group) const;
 
   const BlockingParams& params_;
   const Assembly& assembly_;
@@ -128,11 +144,12 @@ class TakingApart {
   std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
   std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
   std::size_t proofs_ = 0, confinements_ = 0;
-  std::vector<Pose> poses_;        // by part
-  std::vector<std::size_t> turn_;  // by part: the rotation in poses_, as relations_ names it
-  std::deque<Group> groups_;       // waiting
+  std::unique_ptr<ConfinementsAhead> confinements_ahead_;  // null without a judge
+  std::vector<Pose> poses_;                                // by part
+  std::vector<std::size_t> turn_;                          // by part: the rotation in poses_, as relations_ names it
+  std::deque<Group> groups_;                               // waiting
   std::vector<Removal> removals_;
-  std::size_t out_ = 0;  // units that are alone
+  std::size_t out_ = 0;  // removals that parted a group; one less than units, when all are apart
   std::vector<Unsolved> unsolved_;
   std::vector<PartId> remaining_;
   bool crashed_ = false, interrupted_ = false, target_out_ = false;

@@ -12,8 +12,7 @@ constexpr std::size_t kMostAtOnce = 3;   // parts
 constexpr std::size_t kCandidates = 12;  // sets that are moved a little, for one group as it stands
 constexpr std::size_t kSearched = 2;     // ... and of those in which several parts moved, so many are searched for more
 constexpr unsigned kDepths[] = {1, 4};   // of these two rounds
-constexpr std::size_t kAheadPerThread = 2;  // attempts that are hinted
-constexpr double kMoved = 0.1;              // assembly units; less is play
+constexpr double kMoved = 0.1;           // assembly units; less is play
 
 /// How far the part has come from where it was, turns included, as seen on its box.
 double way_of(const Mesh& mesh, const Pose& from, const Pose& to) {

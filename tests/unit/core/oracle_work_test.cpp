@@ -194,6 +194,26 @@ TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
   EXPECT_LE(most, 3);
 }
 
+TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
+  std::atomic<int> now{0}, most{0};
+  const auto patient = [&](const PathQuery& q, RunContext& c) {  // until there are three, or for a while
+    const int n = ++now;
+    int seen = most;
+    while (n > seen && !most.compare_exchange_weak(seen, n)) {
+    }
+    for (int k = 0; k < 2000 && now < 3; ++k) std::this_thread::yield();
+    PathResult r = fake::push(q, c);
+    --now;
+    return r;
+  };
+  Rig s(fake::row(8), fake::ingredients(patient), 3);
+  std::vector<Attempt> hints;
+  for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
+  s.oracle->prefetch(hints, s.context);
+  while (s.oracle->counts().discarded < 8) std::this_thread::yield();
+  EXPECT_EQ(most, 2);
+}
+
 /// Part 0 never ends by itself.
 PathResult endless(const PathQuery& q, RunContext& c) {
   if (q.cast.moving[0].part != 0) return fake::push(q, c);

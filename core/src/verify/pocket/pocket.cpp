@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <numbers>
-#include <utility>
 
+#include "dismantle/geometry/mesh_measure.h"
 #include "verify/pocket/pin_walk.h"
 #include "verify/pocket/pose_flood.h"
 
@@ -22,15 +21,7 @@ constexpr double kLeastMargin = 0.02;  // ... and assembly units
 constexpr double kFar = 0.3, kLeastFar = 1;
 
 /// Has the surface no border? Only then does whatever gets inside pass through it.
-bool borderless(const Solid& solid) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;  // by edge: one way less the other
-  for (const Triangle& t : solid.mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      passes[std::minmax(from, to)] += from < to ? 1 : -1;
-    }
-  return std::all_of(passes.begin(), passes.end(), [](const auto& edge) { return edge.second == 0; });
-}
+bool borderless(const Solid& solid) { return edge_use(solid.mesh).closed(); }
 
 }  // namespace
 
