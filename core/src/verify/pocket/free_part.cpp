@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace dismantle::verify {
@@ -27,6 +28,9 @@ Polygon clipped(const std::array<Vec3, 3>& triangle, const Vec3& half) {
   for (const Vec3& v : triangle) polygon.add(v);
   for (int d = 0; d < 3; ++d)
     for (const double side : {-1.0, 1.0}) {
+      bool whole = true;
+      for (std::size_t i = 0; i < polygon.count; ++i) whole = whole && side * polygon.corner[i][d] <= half[d];
+      if (whole) continue;
       Polygon rest;
       for (std::size_t i = 0; i < polygon.count; ++i) {
         const Vec3 &a = polygon.corner[i], &b = polygon.corner[(i + 1) % polygon.count];
@@ -64,11 +68,12 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     if (corners.size() > kMostCorners) return;
     std::array<Vec3, 3> c = solid.bvh.corners(t);
     for (Vec3& x : c) x -= at;
+    const Vec3& normal = solid.normals[t];
+    if (std::abs(normal.dot(c[0])) > normal.cwiseAbs().dot(half) + kSurfaceRounding) return;  // its plane is elsewhere
     const Polygon polygon = clipped(c, half);
     if (polygon.count == 0) return;
     corners.insert(corners.end(), polygon.corner.begin(),
                    polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
-    const Vec3& normal = solid.normals[t];
     if (!normal.isZero() && normals.size() < kMostNormals &&
         std::none_of(normals.begin(), normals.end(), [&](const Vec3& m) { return m.dot(normal) > 0.999; }))
       normals.push_back(normal);
@@ -78,16 +83,27 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     (faced.occupied.inside(at) ? result.none : result.all) = true;
     return result;
   }
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 c(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(), k & 4 ? half.z() : -half.z());
-    if (!faced.occupied.inside(at + c)) corners.push_back(c);
-  }
+  // Half spaces that cut off something of the box; what is free of its corners may leave them less.
+  struct Cut {
+    Vec3 normal;
+    double least, enough;
+  };
+  static thread_local std::vector<Cut> cuts;
+  cuts.clear();
   for (const Vec3& m : normals) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Vec3& c : corners) least = std::min(least, m.dot(c));
-    const double width = m.cwiseAbs().dot(half);
-    if (least > -width + 2 * kCutsOff * width) result.within.push_back({m, least + m.dot(at) - kSurfaceRounding});
+    Cut cut{m, std::numeric_limits<double>::infinity(), (2 * kCutsOff - 1) * m.cwiseAbs().dot(half)};
+    for (const Vec3& c : corners) cut.least = std::min(cut.least, m.dot(c));
+    if (cut.least > cut.enough) cuts.push_back(cut);
   }
+  for (int k = 0; k < 8 && !cuts.empty(); ++k) {
+    const Vec3 c(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(), k & 4 ? half.z() : -half.z());
+    if (std::none_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.normal.dot(c) < cut.least; }) ||
+        faced.occupied.inside(at + c))
+      continue;
+    for (Cut& cut : cuts) cut.least = std::min(cut.least, cut.normal.dot(c));
+    std::erase_if(cuts, [](const Cut& cut) { return !(cut.least > cut.enough); });
+  }
+  for (const Cut& cut : cuts) result.within.push_back({cut.normal, cut.least + cut.normal.dot(at) - kSurfaceRounding});
   return result;
 }
 

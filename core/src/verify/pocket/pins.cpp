@@ -48,34 +48,6 @@ double area_near(const std::vector<Solid>& solids, Aabb other, double reach) {
 
 }  // namespace
 
-Occupancy::Occupancy(const Solid& solid, double cell) : solid_(&solid), cell_(cell) {
-  const Vec3 size = solid.box.size();
-  // Long parts with fine pins would need too many cells.
-  cell_ = std::max(cell_, std::cbrt(size.prod() / 4e6));
-  for (std::size_t k = 0; k < 3; ++k)
-    count_[k] = static_cast<std::size_t>(size[static_cast<Eigen::Index>(k)] / cell_) + 1;
-  cells_ = std::make_unique<std::atomic<char>[]>(count_[0] * count_[1] * count_[2]);
-}
-
-bool Occupancy::inside(const Vec3& local) const {
-  if (!solid_->box.contains(local)) return false;
-  std::size_t index = 0;
-  Vec3 center;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto n = static_cast<Eigen::Index>(k);
-    const std::size_t i = std::min(static_cast<std::size_t>((local[n] - solid_->box.lo[n]) / cell_), count_[k] - 1);
-    index = index * count_[k] + i;
-    center[n] = solid_->box.lo[n] + (static_cast<double>(i) + 0.5) * cell_;
-  }
-  char state = cells_[index].load(std::memory_order_relaxed);
-  if (state == unknown) {
-    const double reach = 0.5 * std::sqrt(3.0) * cell_ + 1e-9;
-    state = solid_->bvh.closest(center, 2 * reach).distance <= reach ? mixed : solid_->bvh.inside(center) ? in : out;
-    cells_[index].store(state, std::memory_order_relaxed);  // whoever else computes it finds the same
-  }
-  return state == mixed ? solid_->bvh.inside(local) : state == in;
-}
-
 Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth) {
   const Aabb box_a = placed_box(a), box_b = placed_box(b);
   center_ = box_a.center();

@@ -2,31 +2,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
-#include <atomic>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "verify/pocket/linear_bound.h"
+#include "verify/pocket/occupancy.h"
 #include "verify/solid.h"
 
 namespace dismantle::verify {
-
-/// Is a point inside a solid? Cells of a grid remember what is all inside or all outside, from when they are first
-/// asked for. Safe to use from several threads. Outlived by the solid.
-class Occupancy {
- public:
-  Occupancy(const Solid& solid, double cell);
-  bool inside(const Eigen::Vector3d& local) const;
-
- private:
-  enum State : char { unknown, out, in, mixed };
-  const Solid* solid_;
-  double cell_;
-  std::array<std::size_t, 3> count_;
-  std::unique_ptr<std::atomic<char>[]> cells_;
-};
 
 /// A point of one part that never enters a solid of the other: it is deeper below the surface of its own than the two
 /// may cut in, and would have to pass through the solid's surface first.
