@@ -27,8 +27,9 @@ struct PooledAttempt {
   std::vector<LogLine> log;  ///< what the attempt logged, for the thread that asked to pass on
 };
 
-/// Never more attempts at once than there are workers. An answer depends on nothing but its question: what was
-/// computed ahead is the same as what would be computed when asked, and what was interrupted is forgotten.
+/// Never more attempts at once than there are workers, and one less while nobody waits for an answer. An answer depends
+/// on nothing but its question: what was computed ahead is the same as what would be computed when asked, and what was
+/// interrupted is forgotten.
 class AttemptPool {
  public:
   /// Computes on worker `index`; throws nothing.
