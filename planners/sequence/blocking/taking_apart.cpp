@@ -132,7 +132,7 @@ void TakingApart::dismantle(Group group) {
       return;
     }
     if (make_up_for(group)) continue;
-    group.searches_done = true;
+    group.searches_done = true;  // what proofs are left to make is dear: they come after the searches of all groups
     if (std::any_of(groups_.begin(), groups_.end(),
                     [](const Group& g) { return g.units.size() > 1 && !g.searches_done; })) {
       groups_.push_back(std::move(group));

@@ -174,16 +174,24 @@ TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
     }
 }
 
-TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
+/// How many attempts are being made, and were at most.
+struct Crowd {
   std::atomic<int> now{0}, most{0};
-  const auto busy = [&](const PathQuery& q, RunContext& c) {
+  void enter() {
     const int n = ++now;
     int seen = most;
     while (n > seen && !most.compare_exchange_weak(seen, n)) {
     }
+  }
+};
+
+TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
+  Crowd crowd;
+  const auto busy = [&](const PathQuery& q, RunContext& c) {
+    crowd.enter();
     std::this_thread::yield();
     PathResult r = fake::push(q, c);
-    --now;
+    --crowd.now;
     return r;
   };
   Rig s(fake::row(8), fake::ingredients(busy), 3);
@@ -191,19 +199,16 @@ TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
   for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
   s.oracle->prefetch(hints, s.context);
   for (const auto& h : hints) s.ask(h);
-  EXPECT_LE(most, 3);
+  EXPECT_LE(crowd.most, 3);
 }
 
 TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
-  std::atomic<int> now{0}, most{0};
+  Crowd crowd;
   const auto patient = [&](const PathQuery& q, RunContext& c) {  // until there are three, or for a while
-    const int n = ++now;
-    int seen = most;
-    while (n > seen && !most.compare_exchange_weak(seen, n)) {
-    }
-    for (int k = 0; k < 2000 && now < 3; ++k) std::this_thread::yield();
+    crowd.enter();
+    for (int k = 0; k < 2000 && crowd.now < 3; ++k) std::this_thread::yield();
     PathResult r = fake::push(q, c);
-    --now;
+    --crowd.now;
     return r;
   };
   Rig s(fake::row(8), fake::ingredients(patient), 3);
@@ -211,7 +216,7 @@ TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
   for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
   s.oracle->prefetch(hints, s.context);
   while (s.oracle->counts().discarded < 8) std::this_thread::yield();
-  EXPECT_EQ(most, 2);
+  EXPECT_EQ(crowd.most, 2);
 }
 
 /// Part 0 never ends by itself.

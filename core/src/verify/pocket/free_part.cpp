@@ -14,6 +14,7 @@ constexpr std::size_t kMostCorners = 600;  // of a box that meets more than that
 constexpr std::size_t kMostNormals = 14;
 constexpr double kCutsOff = 0.01;  // of the box's width along the normal, cut off
 constexpr double kSurfaceRounding = 1e-9;
+constexpr double kNormalRounding = 1e-13;
 
 /// Convex; a triangle cut by six planes has nine corners at most.
 struct Polygon {
@@ -21,6 +22,15 @@ struct Polygon {
   std::size_t count = 0;
   void add(const Vec3& p) { corner[count++] = p; }
 };
+
+/// Does the triangle's plane miss the box about the origin? The normal of a sliver is not known well, so it is taken
+/// with what rounding may have done to it.
+bool plane_is_elsewhere(const std::array<Vec3, 3>& triangle, const Vec3& half) {
+  const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], normal = u.cross(v);
+  const double edges = u.norm() + v.norm(), reach = 1 + triangle[0].norm();
+  return std::abs(normal.dot(triangle[0])) >
+         normal.cwiseAbs().dot(half) + kSurfaceRounding * normal.norm() + kNormalRounding * edges * (1 + edges) * reach;
+}
 
 /// The part of a triangle within the box about the origin.
 Polygon clipped(const std::array<Vec3, 3>& triangle, const Vec3& half) {
@@ -68,12 +78,12 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     if (corners.size() > kMostCorners) return;
     std::array<Vec3, 3> c = solid.bvh.corners(t);
     for (Vec3& x : c) x -= at;
-    const Vec3& normal = solid.normals[t];
-    if (std::abs(normal.dot(c[0])) > normal.cwiseAbs().dot(half) + kSurfaceRounding) return;  // its plane is elsewhere
+    if (plane_is_elsewhere(c, half)) return;
     const Polygon polygon = clipped(c, half);
     if (polygon.count == 0) return;
     corners.insert(corners.end(), polygon.corner.begin(),
                    polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
+    const Vec3& normal = solid.normals[t];
     if (!normal.isZero() && normals.size() < kMostNormals &&
         std::none_of(normals.begin(), normals.end(), [&](const Vec3& m) { return m.dot(normal) > 0.999; }))
       normals.push_back(normal);

@@ -57,8 +57,9 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
     const auto& corners = solid_->bvh.corners(t);
     const Vec3 a = corners[0] - cell.center, b = corners[1] - cell.center, c = corners[2] - cell.center;
     const Vec3 normal = (b - a).cross(c - a);
-    const double scale = normal.norm(), from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
-    const double flat = kTooFlat * scale;
+    const double from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
+    // Of the edges, not of the normal: that of a sliver is mostly rounding.
+    const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + way.norm());
     // Both on one side, and not by a hair.
     if ((from_height > flat && to_height > flat) || (from_height < -flat && to_height < -flat)) continue;
     const double u = way.dot(a.cross(b)), v = way.dot(b.cross(c)), w = way.dot(c.cross(a));
