@@ -18,8 +18,8 @@ constexpr double kTooFlat = 1e-10;  // six times a volume, of the product of its
 
 const Occupancy::Mixed Occupancy::kIn, Occupancy::kOut;
 
-Occupancy::Occupancy(const Solid& solid, double cell) : solid_(&solid) {
-  const Vec3 size = solid.box.size();
+Occupancy::Occupancy(const TriangleBvh& surface, const Aabb& box, double cell) : surface_(&surface), box_(box) {
+  const Vec3 size = box.size();
   // Long parts with fine pins would need too many cells.
   cell_ = std::max(cell, std::cbrt(size.prod() / kMostCells));
   for (std::size_t k = 0; k < 3; ++k)
@@ -35,15 +35,15 @@ Occupancy::~Occupancy() {
 
 auto Occupancy::look(const Vec3& center) const -> State {
   const double reach = 0.5 * std::sqrt(3.0) * cell_ + kCellRounding;
-  const int winding = solid_->bvh.winding_number(center);
-  if (solid_->bvh.closest(center, 2 * reach).distance > reach) return winding > 0 ? &kIn : &kOut;
+  const int winding = surface_->winding_number(center);
+  if (surface_->closest(center, 2 * reach).distance > reach) return winding > 0 ? &kIn : &kOut;
   auto mixed = std::make_unique<Mixed>();
   mixed->center = center;
   mixed->winding = winding;
   Aabb box;
   box.extend(center);
   box.inflate(0.5 * cell_ + kCellRounding);
-  solid_->bvh.overlapping(box, [&](std::uint32_t t) { mixed->triangles.push_back(t); });
+  surface_->overlapping(box, [&](std::uint32_t t) { mixed->triangles.push_back(t); });
   return mixed.release();
 }
 
@@ -54,7 +54,7 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
   const Vec3 way = to - cell.center;
   int sum = 0;
   for (const std::uint32_t t : cell.triangles) {
-    const auto& corners = solid_->bvh.corners(t);
+    const auto& corners = surface_->corners(t);
     const Vec3 a = corners[0] - cell.center, b = corners[1] - cell.center, c = corners[2] - cell.center;
     const Vec3 normal = (b - a).cross(c - a);
     const double from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
@@ -76,14 +76,14 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
 }
 
 bool Occupancy::inside(const Vec3& local) const {
-  if (!solid_->box.contains(local)) return false;
+  if (!box_.contains(local)) return false;
   std::size_t index = 0;
   Vec3 center;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto n = static_cast<Eigen::Index>(k);
-    const std::size_t i = std::min(static_cast<std::size_t>((local[n] - solid_->box.lo[n]) / cell_), count_[k] - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>((local[n] - box_.lo[n]) / cell_), count_[k] - 1);
     index = index * count_[k] + i;
-    center[n] = solid_->box.lo[n] + (static_cast<double>(i) + 0.5) * cell_;
+    center[n] = box_.lo[n] + (static_cast<double>(i) + 0.5) * cell_;
   }
   State state = cells_[index].load(std::memory_order_acquire);
   if (state == nullptr) {
@@ -96,7 +96,7 @@ bool Occupancy::inside(const Vec3& local) const {
   }
   if (state == &kIn || state == &kOut) return state == &kIn;
   if (const auto change = crossings(*state, local)) return state->winding + *change > 0;
-  return solid_->bvh.inside(local);
+  return surface_->inside(local);
 }
 
 }  // namespace dismantle::verify

@@ -10,15 +10,17 @@
 #include <optional>
 #include <vector>
 
-#include "verify/solid.h"
+#include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::verify {
 
 /// A grid whose cells remember, from when they are first asked for, that they are all inside or all outside, or the
-/// triangles that come near them and where their centre is. Safe to use from several threads. Outlived by the solid.
+/// triangles that come near them and where their centre is. Safe to use from several threads. Outlived by
+/// the surface, which has no border.
 class Occupancy {
  public:
-  Occupancy(const Solid& solid, double cell);
+  /// `box`: of the surface. `cell`: edge of the cells, > 0, or more where the box is large.
+  Occupancy(const TriangleBvh& surface, const Aabb& box, double cell);
   ~Occupancy();
   Occupancy(Occupancy&&) = default;
   Occupancy& operator=(Occupancy&&) = delete;
@@ -38,7 +40,8 @@ class Occupancy {
   std::optional<int> crossings(const Mixed& cell, const Eigen::Vector3d& to) const;
 
   static const Mixed kIn, kOut;
-  const Solid* solid_;
+  const TriangleBvh* surface_;
+  Aabb box_;
   double cell_;
   std::array<std::size_t, 3> count_;
   std::unique_ptr<std::atomic<State>[]> cells_;

@@ -60,7 +60,7 @@ Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double 
   const double spacing_a = spacing(a, box_b), spacing_b = spacing(b, box_a);
   const double cell = 0.5 * std::min(spacing_a, spacing_b);
   for (const auto* solids : {&a, &b})
-    for (const Solid& s : *solids) faced_.push_back({&s, s.frame.inverse(), Occupancy(s, cell)});
+    for (const Solid& s : *solids) faced_.push_back({&s, s.frame.inverse(), Occupancy(s.bvh, s.box, cell)});
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k) {
       add(a[i], static_cast<std::uint32_t>(a.size() + k), true, depth, spacing_a, reach);
