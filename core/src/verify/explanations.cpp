@@ -14,6 +14,12 @@ std::string place(const Eigen::Vector3d& assembled, const Assembly& assembly) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
+std::string names(const std::vector<PartId>& parts, const Assembly& assembly) {
+  std::vector<std::string> quoted;
+  for (const PartId id : parts) quoted.push_back(fmt::format("'{}'", assembly.parts[id].name));
+  return fmt::format("{}", fmt::join(quoted, ", "));
+}
+
 }  // namespace
 
 std::string describe(const Lock& lock, const Assembly& assembly) {
@@ -25,13 +31,11 @@ std::string describe(const Lock& lock, const Assembly& assembly) {
 }
 
 std::string describe(const Enclosure& enclosure, const Assembly& assembly) {
-  std::vector<std::string> around;
-  for (const PartId id : enclosure.around) around.push_back(fmt::format("'{}'", assembly.parts[id].name));
   return fmt::format(
       "'{}' is shut in by {}: a ball of radius {:.4g} (assembly units) about {}, which it holds, is too large for "
       "every "
       "way out, less the penetration that is allowed",
-      assembly.parts[enclosure.inside].name, fmt::join(around, ", "), enclosure.radius,
+      assembly.parts[enclosure.inside].name, names(enclosure.around, assembly), enclosure.radius,
       place(enclosure.point, assembly));
 }
 
@@ -62,6 +66,14 @@ std::string describe(const Confinement& confinement, const Assembly& assembly) {
       "{3:.4g} past '{1}' and turns by no more than {4:.4g} rad (assembly units; proved over {5} boxes of poses)",
       assembly.parts[confinement.inside].name, assembly.parts[confinement.other].name, confinement.depth,
       confinement.shift, confinement.turn, confinement.cells);
+}
+
+std::string describe(const Interlock& interlock, const Assembly& assembly) {
+  return fmt::format(
+      "{0} hold each other in place as rigid bodies: cutting in by less than {1:.4g} more than when assembled, and "
+      "whichever of them move, none comes further than {2:.4g} past the largest or turns by more than {3:.4g} rad "
+      "(assembly units; proved with {4} half spaces of poses)",
+      names(interlock.parts, assembly), interlock.depth, interlock.shift, interlock.turn, interlock.half_spaces);
 }
 
 }  // namespace dismantle

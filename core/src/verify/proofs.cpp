@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "verify/hook_cage.h"
+#include "verify/interlock/interlock.h"
 #include "verify/lock.h"
 #include "verify/pocket/pocket.h"
 #include "verify/ring_cage.h"
@@ -128,6 +129,33 @@ std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunConte
   if (!pocket) return std::nullopt;
   const verify::Vector6 most = pocket->lo.cwiseAbs().cwiseMax(pocket->hi.cwiseAbs());
   return Confinement{a, b, depth, most.tail<3>().norm(), most.head<3>().norm(), pocket->cells};
+}
+
+std::optional<Interlock> Verifier::interlocked(std::vector<PartId> parts, const RunContext& context) const {
+  const auto& bodies = impl_->bodies;
+  const double share = kConfinedShare * impl_->options.max_penetration;
+  Interlock found{parts, share};
+  std::sort(found.parts.begin(), found.parts.end());
+  parts = found.parts;
+  // Poses are told as seen from the first.
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](PartId a, PartId b) { return bodies.at(a).box.size().norm() > bodies.at(b).box.size().norm(); });
+  std::vector<const std::vector<verify::Solid>*> solids;
+  for (const PartId id : parts) solids.push_back(&bodies.at(id).solids);
+  std::vector<verify::Neighbours> neighbours;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t k = i + 1; k < parts.size(); ++k) {
+      Aabb near = bodies[parts[i]].box;
+      near.inflate(impl_->options.max_penetration);
+      if (near.overlaps(bodies[parts[k]].box))
+        neighbours.push_back({i, k, (impl_->overlap(parts[i], parts[k]) + share) * (1 + 1e-6)});
+    }
+  const auto reach = verify::interlock(solids, neighbours, context);
+  if (!reach) return std::nullopt;
+  found.shift = reach->shift;
+  found.turn = reach->turn;
+  found.half_spaces = reach->half_spaces;
+  return found;
 }
 
 std::optional<Enclosure> Verifier::shut_in(const std::vector<PlacedPart>& moving,

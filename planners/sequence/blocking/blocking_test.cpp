@@ -300,6 +300,21 @@ TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) 
   }
 }
 
+TEST(Blocking, AfterAllSearchesThreeOfWhichNoTwoWouldDoAreProvedToHoldEachOther) {
+  const shapes::Keyed keyed{.play = 0.003};
+  RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_TRUE(r.plan.disassembly.empty());
+  EXPECT_EQ(r.sequence_counts["held"], 2) << "three became one";
+  EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
+  ASSERT_EQ(r.plan.unsolved.size(), 3u);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_NE(u.message.find("hold each other in place"), std::string::npos) << u.message;
+    EXPECT_EQ(u.blocked_by.size(), 2u);
+    EXPECT_EQ(std::count(u.blocked_by.begin(), u.blocked_by.end(), u.part), 0);
+  }
+}
+
 TEST(Blocking, KeepsTheConstraints) {
   RunOptions options;
   options.constraints.base = {0};

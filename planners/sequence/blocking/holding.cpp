@@ -1,4 +1,4 @@
-// Pairs that hold each other without overlap: proved, they are moved as one.
+// Parts that hold each other without overlap: proved, they are moved as one.
 #include <algorithm>
 
 #include "blocking/taking_apart.h"
@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
 constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
+constexpr std::size_t kInterlocked = 8;   // parts: the effort grows with the cube of their number
 
 }  // namespace
 
@@ -35,11 +36,25 @@ bool TakingApart::join_held(Group& group) {
           context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
           const auto cage = oracle_.judge()->caged(a, b);
           if (!cage) continue;
-          join_pair(group, a, b, describe(*cage, assembly_));
+          join_parts(group, {a, b}, describe(*cage, assembly_));
           return true;
         }
     }
   return false;
+}
+
+/// After all searches, and where no part can slide for good: do all of them hold each other in place? As with
+/// join_confined(), the proof is for motions that cut in less than ways may.
+bool TakingApart::join_interlocked(Group& group) {
+  std::vector<PartId> parts = parts_of(group.units);
+  if (!group.no_slides || parts.size() < 3 || parts.size() > kInterlocked || stop()) return false;
+  std::sort(parts.begin(), parts.end());
+  if (!interlocked_.insert(parts).second) return false;
+  context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[parts.front()].name);
+  const auto interlock = oracle_.judge()->interlocked(parts, context_);
+  if (!interlock) return false;
+  join_parts(group, parts, describe(*interlock, assembly_));
+  return true;
 }
 
 /// After all searches: the only one that is known to be in a part's way, does it hold it? That proof is for motions
@@ -56,7 +71,7 @@ bool TakingApart::join_confined(Group& group) {
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
         const auto confinement = confined(a, b);
         if (!confinement) continue;
-        join_pair(group, a, b, describe(*confinement, assembly_));
+        join_parts(group, {a, b}, describe(*confinement, assembly_));
         return true;
       }
   }
@@ -80,13 +95,16 @@ auto TakingApart::alone_in_the_way(const Group& group, UnitId unit) const -> std
   return found;
 }
 
-void TakingApart::join_pair(Group& group, PartId a, PartId b, const std::string& why) {
+void TakingApart::join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why) {
   context_.log(LogLevel::info, why);
-  for (const auto& [part, other] : {std::pair(a, b), std::pair(b, a)}) {
+  for (const PartId part : parts) {
+    std::vector<PartId> others = parts;
+    std::erase(others, part);
     locked_[part] = true;
-    held_.try_emplace(part, Unsolved{part, Outcome::exhausted, {other}, {}, why});
+    held_.try_emplace(part, Unsolved{part, Outcome::exhausted, others, {}, why});
   }
-  join(group, unit_of_[a], unit_of_[b]);
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (unit_of_[parts[i]] != unit_of_[parts[0]]) join(group, unit_of_[parts[0]], unit_of_[parts[i]]);
 }
 
 /// Makes one unit of two, under the number of the first.

@@ -138,7 +138,7 @@ void TakingApart::dismantle(Group group) {
       groups_.push_back(std::move(group));
       return;
     }
-    if (!relations_ || !params_.cages || !join_confined(group)) break;
+    if (!relations_ || !params_.cages || (!join_interlocked(group) && !join_confined(group))) break;
   }
   give_up(group);
 }

@@ -85,11 +85,12 @@ class TakingApart {
   std::vector<UnitId> in_way_of(const Group& group, UnitId unit, std::size_t direction);
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
 
-  // holding.cpp: pairs that are proved to hold each other
+  // holding.cpp: parts that are proved to hold each other
   bool join_held(Group& group);
+  bool join_interlocked(Group& group);
   bool join_confined(Group& group);
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
-  void join_pair(Group& group, PartId a, PartId b, const std::string& why);
+  void join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why);
   void join(Group& group, UnitId u, UnitId v);
   bool passes_straight(PartId a, PartId b);
 
@@ -143,6 +144,7 @@ class TakingApart {
   std::map<PartId, Unsolved> held_;                // of those: held by another without overlap, and why
   std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
   std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
+  std::set<std::vector<PartId>> interlocked_;      // likewise three and more
   std::size_t proofs_ = 0, confinements_ = 0;
   std::unique_ptr<ConfinementsAhead> confinements_ahead_;  // null without a judge
   std::vector<Pose> poses_;                                // by part

@@ -149,4 +149,36 @@ struct Cased {
   }
 };
 
+/// A tray, a slab in one half of it under a roof, and a block in the other half under the slab's tongue. Each of slab
+/// and block is only held as long as the other is there.
+struct Keyed {
+  double length = 0.6, width = 0.4, height = 0.4;  ///< of a half; the slab's and the block's
+  double tongue = 0.3;
+  double play = 0.01;   ///< everywhere
+  double roofed = 0.4;  ///< of the slab's length
+  double gap = 0;       ///< behind the block, beside the play
+
+  Mesh slab() const {
+    Mesh m = box({-length, 0, 0}, {0, width, height});
+    append(m, box({0, 0, 0.5 * height}, {tongue, width, height}));
+    return m;
+  }
+  Mesh block() const {
+    Mesh m = box({play, 0, 0}, {length, width, 0.5 * height - play});
+    append(m, box({tongue + play, 0, 0.5 * height - play}, {length, width, height}));
+    return m;
+  }
+  Mesh tray() const {
+    const double wall = 0.2, x0 = -length - play, x1 = length + play + gap, y0 = -play, y1 = width + play;
+    const double top = height + play;
+    Mesh m = box({x0 - wall, y0 - wall, -play - wall}, {x1 + wall, y1 + wall, -play});
+    append(m, box({x0 - wall, y0 - wall, -play}, {x0, y1 + wall, top}));
+    append(m, box({x1, y0 - wall, -play}, {x1 + wall, y1 + wall, top}));
+    append(m, box({x0, y0 - wall, -play}, {x1, y0, top}));
+    append(m, box({x0, y1, -play}, {x1, y1 + wall, top}));
+    if (roofed > 0) append(m, box({x0 - wall, y0 - wall, top}, {roofed - length, y1 + wall, top + wall}));
+    return m;
+  }
+};
+
 }  // namespace dismantle::shapes

@@ -12,5 +12,6 @@ DISMANTLE_API std::string describe(const Lock& lock, const Assembly& assembly);
 DISMANTLE_API std::string describe(const Enclosure& enclosure, const Assembly& assembly);
 DISMANTLE_API std::string describe(const Cage& cage, const Assembly& assembly);
 DISMANTLE_API std::string describe(const Confinement& confinement, const Assembly& assembly);
+DISMANTLE_API std::string describe(const Interlock& interlock, const Assembly& assembly);
 
 }  // namespace dismantle

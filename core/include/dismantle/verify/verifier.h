@@ -81,6 +81,17 @@ struct Confinement {
   std::size_t cells = 0;  ///< boxes of poses that the proof is made of
 };
 
+/// Parts that hold each other in place as rigid bodies: whoever of them moves, in every motion that begins assembled,
+/// and along which no two cut in by `depth` more than when assembled, all of them stay within bounds. As a confinement,
+/// this does not spare the search for a way.
+struct Interlock {
+  std::vector<PartId> parts;    ///< ascending
+  double depth = 0;             ///< assembly units: half of max_penetration
+  double shift = 0;             ///< no middle comes further, seen from the largest part; assembly units
+  double turn = 0;              ///< none turns by more, seen from it; rad
+  std::size_t half_spaces = 0;  ///< of poses that the proof is made of
+};
+
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
 ///
 /// The law. Depth of a surface point of one part in another: its distance to the other's surface if it lies inside.
@@ -129,6 +140,9 @@ class DISMANTLE_API Verifier {
   /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in half as deep. Asked
   /// with a fixed effort: seconds up to half a minute.
   std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context) const;
+  /// Do these parts (>= 2, distinct), as they are assembled, hold each other in place? Told where they have little
+  /// play: seconds for a handful of parts.
+  std::optional<Interlock> interlocked(std::vector<PartId> parts, const RunContext& context) const;
   /// Are the moving parts shut in by the still ones, or (a single moving part) one of those by it? Found only when it
   /// can be proved within a fixed effort; a fraction of a second up to a few.
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& moving, const std::vector<PlacedPart>& still) const;

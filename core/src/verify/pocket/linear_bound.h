@@ -1,4 +1,4 @@
-/// Bounds of linear functions over polytopes of six dimensions, as certain as arithmetic is.
+/// Bounds of linear functions over polytopes, as certain as arithmetic is.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,25 +8,34 @@ namespace dismantle::verify {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// All x between `lo` and `hi` with a[k] . x <= b[k].
-struct Polytope {
-  Vector6 lo = Vector6::Zero(), hi = Vector6::Zero();
-  std::vector<Vector6> a;
+/// All x between `lo` and `hi` with a[k] . x <= b[k]. N coordinates: 6, or Eigen::Dynamic.
+template <int N>
+struct PolytopeIn {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  Vector lo, hi;
+  std::vector<Vector> a;
   std::vector<double> b;
 
-  void add(const Vector6& normal, double bound) {
+  void add(const Vector& normal, double bound) {
     a.push_back(normal);
     b.push_back(bound);
   }
 };
+using Polytope = PolytopeIn<6>;
 
-struct LinearBound {
-  bool empty = false;            ///< certain: the polytope has no point
-  double value = 0;              ///< no point of it has more; infinity where the search was given up
-  Vector6 at = Vector6::Zero();  ///< about where that is reached
+template <int N>
+struct LinearBoundIn {
+  bool empty = false;              ///< certain: the polytope has no point
+  double value = 0;                ///< no point of it has more; infinity where the search was given up
+  Eigen::Matrix<double, N, 1> at;  ///< about where that is reached
 };
+using LinearBound = LinearBoundIn<6>;
 
 /// Of direction . x over the polytope. Dual simplex method: the bound is made of the multipliers, not of the vertex.
-LinearBound maximum(const Vector6& direction, const Polytope& polytope);
+template <int N>
+LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope);
+
+extern template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&);
+extern template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&);
 
 }  // namespace dismantle::verify

@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 
+#include "dismantle/geometry/mesh_measure.h"
+
 namespace dismantle::verify {
 namespace {
 
@@ -95,6 +97,10 @@ void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, 
         if (room < reach && !other.bvh.inside(there)) pins_.push_back({of_a, faced, assembled - center_, room});
       }
   }
+}
+
+bool borderless(const std::vector<Solid>& solids) {
+  return std::all_of(solids.begin(), solids.end(), [](const Solid& s) { return edge_use(s.mesh).closed(); });
 }
 
 Stance::Stance(const Pinned& pinned, const Vector6& x)

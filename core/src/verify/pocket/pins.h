@@ -47,6 +47,9 @@ class Pinned {
   std::vector<Pin> pins_;
 };
 
+/// Have the surfaces no border? Only then does whatever gets inside pass through them, as pins would have to.
+bool borderless(const std::vector<Solid>& solids);
+
 /// Where the two parts are, once.
 class Stance {
  public:

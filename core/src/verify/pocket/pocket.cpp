@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "dismantle/geometry/mesh_measure.h"
 #include "verify/pocket/pin_walk.h"
 #include "verify/pocket/pose_flood.h"
 
@@ -20,15 +19,11 @@ constexpr double kLeastMargin = 0.02;  // ... and assembly units
 // Parts that come so far are taken to come apart: of the radius, and assembly units, whichever is more.
 constexpr double kFar = 0.3, kLeastFar = 1;
 
-/// Has the surface no border? Only then does whatever gets inside pass through it.
-bool borderless(const Solid& solid) { return edge_use(solid.mesh).closed(); }
-
 }  // namespace
 
 std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth,
                              const RunContext& context) {
-  for (const auto* solids : {&a, &b})
-    if (!std::all_of(solids->begin(), solids->end(), borderless)) return std::nullopt;
+  if (!borderless(a) || !borderless(b)) return std::nullopt;
   const Pinned pinned(a, b, depth);
   if (pinned.pins().empty()) return std::nullopt;
   const double far = std::max(kFar * pinned.radius(), kLeastFar);

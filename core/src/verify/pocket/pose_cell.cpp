@@ -123,7 +123,7 @@ bool shrink(PoseCell& cell, Polytope& polytope) {
   const Vector6 middle = cell.center(), size = cell.size();
   for (int d = 0; d < 6; ++d)
     for (const bool upper : {false, true}) {
-      const LinearBound m = maximum((upper ? 1.0 : -1.0) * Vector6::Unit(d), polytope);
+      const LinearBound m = maximum(Vector6((upper ? 1.0 : -1.0) * Vector6::Unit(d)), polytope);
       if (m.empty) return false;
       const double by = m.value + kRounding;
       if (upper && by < polytope.hi[d] - kLeastMove * size[d]) {
