@@ -53,6 +53,13 @@ std::string describe(const Cage& cage, const Assembly& assembly) {
         "wide, where a circle of {4:.4g} about the hole keeps them off (assembly units, with the penetration that is "
         "allowed)",
         inside, other, place(cage.point, assembly), cage.size, cage.opening);
+  if (cage.kind == Cage::Kind::disc)
+    return fmt::format(
+        "'{0}' and '{1}' hold each other: '{0}' has a flat disc of diameter {2:.4g} about {3} in a chamber of '{1}', "
+        "none "
+        "of whose openings it gets through, however it is turned (assembly units, less the penetration that is "
+        "allowed)",
+        inside, other, cage.size, place(cage.point, assembly));
   return fmt::format(
       "'{0}' and '{1}' hold each other: '{0}' goes through a hole in '{1}' at {2}, {3:.4g} wide (assembly units), and "
       "is "

@@ -1,6 +1,7 @@
 // That parts cannot leave: what the verifier proves of pairs and of what is around them.
 #include <algorithm>
 
+#include "verify/disc/disc_cage.h"
 #include "verify/hook_cage.h"
 #include "verify/interlock/interlock.h"
 #include "verify/lock.h"
@@ -114,6 +115,19 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
   const auto found = impl_->caged(a, b);
   const std::scoped_lock guard(impl_->cages_guard);
   return impl_->cages.try_emplace({a, b}, found).first->second;
+}
+
+std::optional<Cage> Verifier::caged_flat(PartId a, PartId b) const {
+  const auto& bodies = impl_->bodies;
+  const double depth = (impl_->overlap(a, b) + impl_->options.max_penetration) * (1 + 1e-6);
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)}) {
+    const auto& middles = impl_->middles_of(inside);
+    for (std::size_t i = 0; i < middles.size(); ++i)
+      for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], middles[i], depth, 1))
+        if (const auto cage = verify::disc_cage(disc, bodies.at(other).solids))
+          return Cage{Cage::Kind::disc, inside, other, disc.center, 2 * disc.radius, 0};
+  }
+  return std::nullopt;
 }
 
 std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunContext& context) const {

@@ -87,6 +87,7 @@ class TakingApart {
 
   // holding.cpp: parts that are proved to hold each other
   bool join_held(Group& group);
+  bool join_flat(Group& group);
   bool join_interlocked(Group& group);
   bool join_confined(Group& group);
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
@@ -145,6 +146,7 @@ class TakingApart {
   std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
   std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
   std::set<std::vector<PartId>> interlocked_;      // likewise three and more
+  std::set<std::pair<PartId, PartId>> flat_;       // likewise, after a deep search
   std::size_t proofs_ = 0, confinements_ = 0;
   std::unique_ptr<ConfinementsAhead> confinements_ahead_;  // null without a judge
   std::vector<Pose> poses_;                                // by part

@@ -62,12 +62,13 @@ struct Cage {
     ring,   ///< a circle within `inside` is in a chamber of `other`, all of whose openings are narrower
     spool,  ///< `inside` goes through a hole in `other`, between two rims that are wider than a circle about the hole
     hook,   ///< `inside` goes through a hole in `other`, between two bends that cannot follow
+    disc,   ///< a flat disc within `inside` is in a chamber of `other`, and gets through none of its openings
   };
   Kind kind = Kind::ring;
   PartId inside = 0, other = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the circle's centre, or a point in the hole; assembled
-  double size = 0;     ///< diameter of the circle, width of the narrower rim; assembly units; 0 for a hook
-  double opening = 0;  ///< diameter of the widest opening, of the circle about the hole, of the hole
+  double size = 0;     ///< diameter of the circle or disc, width of the narrower rim; assembly units; 0 for a hook
+  double opening = 0;  ///< diameter of the widest opening, of the circle about the hole, of the hole; 0 for a disc
 };
 
 /// Two parts that hold each other as rigid bodies: every motion that begins assembled, and along which they cut in by
@@ -137,6 +138,8 @@ class DISMANTLE_API Verifier {
   /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
   /// no motion within the limits leads out of it. Fractions of a second up to a few.
   std::optional<Cage> caged(PartId a, PartId b) const;
+  /// The same for what has a large flat piece; seconds up to ten, so it is not part of caged().
+  std::optional<Cage> caged_flat(PartId a, PartId b) const;
   /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in half as deep. Asked
   /// with a fixed effort: seconds up to half a minute.
   std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context) const;
