@@ -10,8 +10,9 @@ namespace {
 constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
 constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
 constexpr std::size_t kFlatProofs = 30;   // likewise, up to ten seconds each
-constexpr unsigned kDepthForFlat = 2;     // of a search that was in vain
-constexpr std::size_t kInterlocked = 8;   // parts: the effort grows with the cube of their number
+constexpr std::size_t kTouchedByFlat = 4;
+constexpr unsigned kDepthForFlat = 2;    // of a search that was in vain
+constexpr std::size_t kInterlocked = 8;  // parts: the effort grows with the cube of their number
 
 }  // namespace
 
@@ -46,21 +47,23 @@ bool TakingApart::join_held(Group& group) {
 }
 
 /// Like join_held(), with a proof that is dear. A search that was in vain may be, too, and the next one takes twice as
-/// long: it comes before that, for the part and the other one that it touched most.
+/// long: it comes before that, for the part and the others that it touched most.
 bool TakingApart::join_flat(Group& group) {
   for (const UnitId u : group.units) {
     const auto tried = tried_.find(units_[u].front());
-    if (tried == tried_.end() || tried->second.depth < kDepthForFlat || tried->second.blocked_by.empty()) continue;
-    const PartId other = tried->second.blocked_by.front();
-    if (!in_group(group, unit_of_[other]) || unit_of_[other] == u) continue;
-    for (const PartId id : units_[u]) {
-      if (stop() || flat_.size() == kFlatProofs) return false;
-      if (!flat_.insert(std::minmax(id, other)).second || passes_straight(id, other)) continue;
-      context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[id].name);
-      const auto cage = oracle_.judge()->caged_flat(id, other);
-      if (!cage) continue;
-      join_parts(group, {id, other}, describe(*cage, assembly_));
-      return true;
+    if (tried == tried_.end() || tried->second.depth < kDepthForFlat) continue;
+    const std::vector<PartId> touched = tried->second.blocked_by;
+    for (std::size_t k = 0; k < std::min(touched.size(), kTouchedByFlat); ++k) {
+      if (!in_group(group, unit_of_[touched[k]]) || unit_of_[touched[k]] == u) continue;
+      for (const PartId id : units_[u]) {
+        if (stop() || flat_.size() == kFlatProofs) return false;
+        if (!flat_.insert(std::minmax(id, touched[k])).second || passes_straight(id, touched[k])) continue;
+        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[id].name);
+        const auto cage = oracle_.judge()->caged_flat(id, touched[k]);
+        if (!cage) continue;
+        join_parts(group, {id, touched[k]}, describe(*cage, assembly_));
+        return true;
+      }
     }
   }
   return false;

@@ -13,7 +13,9 @@ using shapes::append;
 using shapes::assembly_of;
 using shapes::box;
 using shapes::Cased;
+using shapes::inside_out;
 using shapes::moved;
+using shapes::Passage;
 using shapes::random_pose;
 using shapes::Vec3;
 
@@ -70,6 +72,44 @@ TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
   const Path out{{Pose{}}, {shapes::shift({hole, 0, 0})}, {shapes::shift({hole, 0, 2})}};
   ASSERT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, out).valid);
   EXPECT_FALSE(verifier.confined(0, 1, {}));
+}
+
+TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
+  Rng rng(8);
+  for (int i = 0; i < 2; ++i) {
+    const Passage p{rng.uniform(0.15, 0.25), rng.uniform(0.003, 0.02), true};
+    const Pose at = random_pose(rng, 2);
+    const Verifier verifier(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), {kWaysMay});
+    const auto by = [&](double x, double y, double z) { return shapes::shift(at.q * (p.step() * Vec3(x, y, z))); };
+    const Path out{{Pose{}}, {by(1, 0, 0)}, {by(1, 1, 0)}, {by(1, 1, 8)}};
+    ASSERT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, out).valid) << i;
+    EXPECT_FALSE(verifier.confined(0, 1, {})) << i;
+  }
+}
+
+TEST(Confined, ACubeThatSlidesRoundACorner) {
+  const Passage p{0.2, 0.003, false};
+  const Verifier verifier(assembly_of({p.cube(), p.around()}), {kWaysMay});
+  const auto found = verifier.confined(0, 1, {});
+  ASSERT_TRUE(found);
+  EXPECT_GE(found->shift, p.step()) << "it gets to the corner at least";
+}
+
+TEST(Confined, ABlockThatSlidesFar) {
+  Rng rng(9);
+  for (int i = 0; i < 2; ++i) {
+    const double slide = rng.uniform(0.5, 2), play = rng.uniform(0.003, 0.015);
+    const Vec3 half(rng.uniform(0.4, 0.7), rng.uniform(0.3, 0.5), rng.uniform(0.3, 0.5));
+    const Vec3 in = half.array() + play, out = in.array() + 0.3, far(slide, 0, 0);
+    Mesh channel = box(-out, out + far);
+    append(channel, inside_out(box(-in, in + far)));
+    const Pose at = random_pose(rng, 2);
+    const Verifier verifier(assembly_of({moved(box(-half, half), at), moved(channel, at)}), {kWaysMay});
+    const auto found = verifier.confined(0, 1, {});
+    ASSERT_TRUE(found) << i;
+    EXPECT_GE(found->shift, slide) << i;
+    EXPECT_LT(found->shift, slide + 0.3) << "within the walls";
+  }
 }
 
 TEST(Confined, NotWhereNothingIsAround) {

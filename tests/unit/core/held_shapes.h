@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -177,6 +179,55 @@ struct Keyed {
     append(m, box({x0, y0 - wall, -play}, {x1, y0, top}));
     append(m, box({x0, y1, -play}, {x1, y1 + wall, top}));
     if (roofed > 0) append(m, box({x0 - wall, y0 - wall, top}, {roofed - length, y1 + wall, top + wall}));
+    return m;
+  }
+};
+
+/// The same surface, turned inside out: a void.
+inline Mesh inside_out(Mesh m) {
+  for (Triangle& t : m.triangles) std::swap(t[1], t[2]);
+  return m;
+}
+
+/// A cube about the origin, in a block with a passage that is wider by `play` on every side: along x, then along y,
+/// each time by one cube; and there, perhaps, up and out. One solid, whose surface follows a grid.
+struct Passage {
+  double half = 0.2, play = 0.01;
+  bool open = false;
+
+  double step() const { return 2 * (half + play); }
+  Mesh cube() const { return box(Vec3::Constant(-half), Vec3::Constant(half)); }
+  bool solid(const std::array<int, 3>& at) const {
+    const auto [x, y, z] = at;
+    if (std::min({x, y, z}) < -1 || x > 2 || y > 2 || z > 1) return false;
+    const bool corner = x == 1 && y == 1;
+    if (z == 0 && (corner || (y == 0 && (x == 0 || x == 1)))) return false;
+    return !(open && z == 1 && corner);
+  }
+  Mesh around() const {
+    Mesh m;
+    std::map<std::array<int, 3>, std::uint32_t> known;
+    const auto vertex = [&](const std::array<int, 3>& at) {
+      const auto [found, is_new] = known.try_emplace(at, static_cast<std::uint32_t>(m.vertices.size()));
+      if (is_new) m.vertices.push_back(step() * (Vec3(at[0], at[1], at[2]) - Vec3::Constant(0.5)));
+      return found->second;
+    };
+    for (int x = -1; x <= 2; ++x)
+      for (int y = -1; y <= 2; ++y)
+        for (int z = -1; z <= 1; ++z)
+          for (std::size_t d = 0; d < 3 && solid({x, y, z}); ++d)
+            for (const int side : {0, 1}) {
+              std::array<int, 3> at{x, y, z};
+              at[d] += 2 * side - 1;
+              if (solid(at)) continue;
+              at[d] += 1 - side;
+              // Seen from outside, the corners go round against the clock.
+              const std::size_t u = (d + (side ? 1 : 2)) % 3, v = (d + (side ? 2 : 1)) % 3;
+              std::array<int, 3> b = at, c = at, e = at;
+              ++b[u], ++c[u], ++c[v], ++e[v];
+              m.triangles.push_back({vertex(at), vertex(b), vertex(c)});
+              m.triangles.push_back({vertex(at), vertex(c), vertex(e)});
+            }
     return m;
   }
 };

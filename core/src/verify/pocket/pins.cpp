@@ -14,6 +14,7 @@ using Vec3 = Eigen::Vector3d;
 
 constexpr double kLeastSpacing = 0.02;  // assembly units; closer pins find nothing more on parts of some size
 constexpr double kMostPins = 6000;      // about so many for each part
+constexpr double kLever = 0.7;          // of the radius: at which points are about when the part turns
 
 /// From a point of the surface to where the solid is `depth` deep; nothing where it is not.
 std::optional<Vec3> sunk(const Solid& solid, const Vec3& from, const Vec3& inward, double depth) {
@@ -101,6 +102,12 @@ void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, 
 
 bool borderless(const std::vector<Solid>& solids) {
   return std::all_of(solids.begin(), solids.end(), [](const Solid& s) { return edge_use(s.mesh).closed(); });
+}
+
+Vector6 Pinned::scale() const {
+  Vector6 scale;
+  scale << Vec3::Constant(kLever * radius_), Vec3::Ones();
+  return scale;
 }
 
 Stance::Stance(const Pinned& pinned, const Vector6& x)

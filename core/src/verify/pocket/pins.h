@@ -37,6 +37,8 @@ class Pinned {
   const Faced& faced(const Pin& pin) const { return faced_[pin.faced]; }
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }  ///< of `a` about the centre
+  /// About how far points of `a` move, in assembly units, for one of each coordinate.
+  Vector6 scale() const;
 
  private:
   void add(const Solid& of, std::uint32_t faced, bool of_a, double depth, double spacing, double reach);
@@ -57,6 +59,8 @@ class Stance {
   /// The pin, in the frame of the solid that it faces.
   Eigen::Vector3d seen(const Pin& pin) const;
   bool inside(const Pin& pin) const;
+  /// The same, quicker where the pin cannot have come so far.
+  bool barred_by(const Pin& pin) const { return pin.room <= moved_ && inside(pin); }
   /// No point of `a` has moved further.
   double moved() const { return moved_; }
 

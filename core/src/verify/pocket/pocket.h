@@ -25,6 +25,8 @@ struct Pocket {
 /// leave over of a cell is bounded by contract(). Two cells are neighbours when what is left of them touches. A motion
 /// out of the box passes through neighbours up to its border. So when no chain of neighbours leads from the cell of the
 /// assembled pose to the border, there is no such motion. Only cells on a chain that leads there are divided further.
+/// Where chains keep leading to the same side, the box grows by a cell on that side, and the walk is sent there: what
+/// it reaches has to be in the box, and where it comes out there is nothing to prove.
 std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth,
                              const RunContext& context);
 

@@ -6,41 +6,43 @@
 namespace dismantle::verify {
 namespace {
 
-constexpr double kLeastExtent = 5e-4;  // assembly units: cells that are smaller are not divided
-constexpr double kOnBorder = 1e-12;
-constexpr double kSmall = 1.0 / 16;  // of the whole box: cells that tell something by their centres
-constexpr std::size_t kSeldom = 16;  // rounds: how often large ones are asked as well
-constexpr double kStep = 0.004;      // assembly units: on a way that is looked at
-constexpr double kGrow = 0.3;        // of the box, on a side that is too close
+constexpr double kLeastExtent = 5e-4;    // assembly units: cells that are smaller are not divided
+constexpr double kSmall = 1.0 / 16;      // of the whole box: cells that tell something by their centres
+constexpr std::size_t kSeldom = 16;      // rounds: how often large ones are asked as well
+constexpr double kAbout = 0.5;           // cells so much smaller than others are divided later
+constexpr double kGrain = 0.05;          // assembly units: what a walk has reached is measured in grains of that size
+constexpr double kMostGrains = 5e5;      // of more a proof is not to be expected
+constexpr std::size_t kPause = 500;      // rounds after which the walk is sent again, twice as many each time in vain
+constexpr std::size_t kLedLooks = 2000;  // poses it looks at each time
+
+bool any_side(const PoseBox::Sides& sides) { return std::find(sides.begin(), sides.end(), true) != sides.end(); }
 
 /// Is the assembled pose in it?
 bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all() && (c.hi.array() >= 0).all(); }
 
 }  // namespace
 
-PoseFlood::PoseFlood(const Pinned& pinned, PinList in_use, const Vector6& lo, const Vector6& hi, Contractor& contractor)
-    : pinned_(pinned), contractor_(contractor), in_use_(std::move(in_use)), lo_(lo), hi_(hi) {
-  used_.assign(pinned.pins().size(), false);
-  for (const std::uint32_t p : in_use_) used_[p] = true;
-  scale_ << Eigen::Vector3d::Constant(0.7 * pinned.radius()), Eigen::Vector3d::Ones();
+PoseFlood::PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, Contractor& contractor)
+    : pinned_(pinned),
+      walk_(walk),
+      limits_(limits),
+      contractor_(contractor),
+      in_use_(pinned, walk.met()),
+      scale_(pinned.scale()),
+      box_(walk, scale_),
+      pause_(kPause) {
   Node all;
-  all.cell.lo = lo;
-  all.cell.hi = hi;
+  all.cell.lo = box_.lo();
+  all.cell.hi = box_.hi();
   all.cell.pins = std::make_shared<PinList>();
-  contract(all.cell, pinned, in_use_);
+  all.close = in_use_.all();
+  contract(all.cell, pinned, in_use_.list());
   all.border = at_border(all.cell);
   cells_.push_back(std::move(all));
   reach(0, kNone);
 }
 
-bool PoseFlood::at_border(const PoseCell& cell) const {
-  return !cell.empty && (((cell.lo - lo_).array() < kOnBorder).any() || ((hi_ - cell.hi).array() < kOnBorder).any());
-}
-
-double PoseFlood::from_border(const PoseCell& cell) const {
-  const Vector6 size = hi_ - lo_;
-  return std::min((cell.lo - lo_).cwiseQuotient(size).minCoeff(), (hi_ - cell.hi).cwiseQuotient(size).minCoeff());
-}
+bool PoseFlood::at_border(const PoseCell& cell) const { return any_side(box_.touched(cell)); }
 
 double PoseFlood::extent(const PoseCell& cell) const { return cell.size().cwiseProduct(scale_).maxCoeff(); }
 
@@ -52,7 +54,7 @@ void PoseFlood::reach(std::uint32_t node, std::uint32_t from) {
   ++n.stamp;
   n.on.clear();
   if (from != kNone) cells_[from].on.push_back(node);
-  queue_.push({from_border(n.cell), node, n.stamp});
+  queue_.push({box_.from_border(n.cell), node, n.stamp});
 }
 
 /// Reaches a cell again from a neighbour, if one is.
@@ -90,136 +92,119 @@ std::uint32_t PoseFlood::to_divide(std::uint32_t exit) const {
     if (!cells_[k].cell.center_open && e > shut_extent) shut_extent = e, shut = k;
     if (e > any_extent) any_extent = e, any = k;
   }
-  return shut != kNone && shut_extent >= 0.25 * any_extent ? shut : any;
-}
-
-/// Takes the pin that is deepest inside at the centre of the cell, if there is one.
-void PoseFlood::learn(std::uint32_t node) {
-  const Stance stance(pinned_, cells_[node].cell.center());
-  std::uint32_t best = kNone;
-  double deepest = 0;
-  for (std::uint32_t p = 0; p < pinned_.pins().size(); ++p) {
-    const Pin& pin = pinned_.pins()[p];
-    if (used_[p] || pin.room > stance.moved() || !stance.inside(pin)) continue;
-    const double depth = pinned_.faced(pin).solid->bvh.closest(stance.seen(pin)).distance;
-    if (depth > deepest) deepest = depth, best = p;
-  }
-  if (best == kNone) return;
-  used_[best] = true;
-  in_use_.push_back(best);
+  return shut != kNone && shut_extent >= kAbout * any_extent ? shut : any;
 }
 
 void PoseFlood::learn_along(std::uint32_t exit) {
   for (std::uint32_t k = exit; k != kNone; k = cells_[k].from) {
     if (!cells_[k].cell.center_open || cells_[k].asked) continue;
     cells_[k].asked = true;
-    learn(k);
+    in_use_.learn(cells_[k].cell, cells_[k].close);
   }
-}
-
-/// Is no pin inside at all? Those that may be inside somewhere in the cell around are asked first.
-bool PoseFlood::within_bounds(const Vector6& x, const PoseCell& around) const {
-  const Stance stance(pinned_, x);
-  const auto& pins = pinned_.pins();
-  if (std::any_of(around.pins->begin(), around.pins->end(), [&](std::uint32_t p) { return stance.inside(pins[p]); }))
-    return false;
-  return std::none_of(pins.begin(), pins.end(),
-                      [&](const Pin& p) { return p.room <= stance.moved() && stance.inside(p); });
 }
 
 /// Goes from centre to centre: the cell where a pin in use is in the way, the larger of two. Nothing: the way is free,
 /// as far as poses tell that are a step apart.
 std::uint32_t PoseFlood::barred_at(std::uint32_t exit) const {
-  const auto barred = [&](const Vector6& x) {
-    const Stance stance(pinned_, x);
-    return std::any_of(in_use_.begin(), in_use_.end(), [&](std::uint32_t p) {
-      const Pin& pin = pinned_.pins()[p];
-      return pin.room <= stance.moved() && stance.inside(pin);
-    });
-  };
   for (std::uint32_t k = exit; cells_[k].from != kNone; k = cells_[k].from) {
     const std::uint32_t next = cells_[k].from;
-    const Vector6 x = cells_[k].cell.center(), by = cells_[next].cell.center() - x;
-    const int steps = 1 + static_cast<int>(by.cwiseProduct(scale_).norm() / kStep);
-    for (int i = 1; i < steps; ++i)
-      if (barred(x + static_cast<double>(i) / steps * by))
-        return extent(cells_[k].cell) > extent(cells_[next].cell) ? k : next;
+    if (!in_use_.passes(cells_[k].cell.center(), cells_[next].cell.center()))
+      return extent(cells_[k].cell) > extent(cells_[next].cell) ? k : next;
   }
   return kNone;
 }
 
-/// When each side was last reached.
-void PoseFlood::note_sides(std::uint32_t exit, std::size_t round) {
+/// Sides that the parts seem to get to. It is asked in the middle of what of the cell is on them.
+PoseBox::Sides PoseFlood::sides_reached(std::uint32_t exit) const {
   const PoseCell& cell = cells_[exit].cell;
-  for (std::size_t d = 0; d < 6; ++d) {
-    const auto n = static_cast<Eigen::Index>(d);
-    if (cell.lo[n] - lo_[n] < kOnBorder) round_at_[2 * d] = round;
-    if (hi_[n] - cell.hi[n] < kOnBorder) round_at_[2 * d + 1] = round;
-  }
+  PoseBox::Sides sides = box_.touched(cell);
+  for (int d = 0; d < 6; ++d)
+    for (const bool upper : {false, true}) {
+      bool& reached = sides[PoseBox::side(d, upper)];
+      if (!reached) continue;
+      Vector6 x = cell.center();
+      x[d] = (upper ? box_.hi() : box_.lo())[d];
+      reached = in_use_.within_bounds(x, cell) && in_use_.passes(cell.center(), x);
+    }
+  return sides;
 }
 
-/// Do the parts get to the border? It is asked in the middle of what of the cell is on it.
-bool PoseFlood::wants_more(std::uint32_t exit) {
-  const PoseCell& cell = cells_[exit].cell;
-  const Vector6 width = hi_ - lo_;
-  bounds_.lo = lo_;
-  bounds_.hi = hi_;
-  bool grows = false;
-  const auto look = [&](int d, double at, double& bound, double by) {
-    Vector6 x = cell.center();
-    x[d] = at;
-    if (!within_bounds(x, cell)) return;
-    bound += by;
-    grows = true;
-  };
-  for (int d = 0; d < 6; ++d) {
-    if (cell.lo[d] - lo_[d] < kOnBorder) look(d, lo_[d], bounds_.lo[d], -kGrow * width[d]);
-    if (hi_[d] - cell.hi[d] < kOnBorder) look(d, hi_[d], bounds_.hi[d], kGrow * width[d]);
-  }
-  return grows;
+/// The box becomes larger on those sides: a cell is added on each. What is known of the others stays.
+void PoseFlood::grow(const PoseBox::Sides& sides) {
+  for (int d = 0; d < 6; ++d)
+    for (const bool upper : {false, true}) {
+      if (!sides[PoseBox::side(d, upper)]) continue;
+      const auto node = static_cast<std::uint32_t>(cells_.size());
+      cells_.emplace_back();
+      cells_[node].close = in_use_.all();
+      cells_[node].cell = box_.grow(d, upper, walk_);
+      contract(cells_[node].cell, pinned_, in_use_.list());
+      for (std::uint32_t k = 0; k < node; ++k)
+        if (!cells_[k].divided) befriend(k, node);
+      if (!cells_[node].cell.empty) adopt(node);
+    }
+  for (Node& n : cells_) n.border = !n.divided && at_border(n.cell);
 }
 
 PoseFlood::End PoseFlood::run(std::size_t most, const RunContext& context) {
-  const double whole = extent(cells_.front().cell);
-  for (std::size_t round = 0; round < most; ++round) {
+  for (std::size_t round = 1; round <= most; ++round) {
     if (context.should_stop()) return End::open;
     const std::uint32_t exit = next_exit();
-    if (exit == kNone) {
-      // Rounding, if anything: the assembled pose is within bounds, so its cell cannot be empty.
-      if (std::none_of(cells_.begin(), cells_.end(),
-                       [&](const Node& n) { return !n.divided && n.reached && holds_start(n.cell); }))
-        return End::open;
-      bounds_.lo = hi_;
-      bounds_.hi = lo_;
-      for (const Node& n : cells_)
-        if (!n.divided && n.reached) {
-          bounds_.lo = bounds_.lo.cwiseMin(n.cell.lo);
-          bounds_.hi = bounds_.hi.cwiseMax(n.cell.hi);
-        }
-      return End::closed;
-    }
-    note_sides(exit, round);
+    if (exit == kNone) return closed() ? End::closed : End::open;
     learn_along(exit);
     std::uint32_t node = to_divide(exit);
-    if (cells_[node].cell.center_open && (round % kSeldom == 0 || extent(cells_[node].cell) < kSmall * whole)) {
-      if (const std::uint32_t barred = barred_at(exit); barred != kNone)
+    const double large = kSmall * box_.extent();
+    box_.led_to(cells_[exit].cell, extent(cells_[exit].cell) < large, round);
+    PoseBox::Sides sides = box_.insisted_on(round);
+    if (cells_[node].cell.center_open && (round % kSeldom == 0 || extent(cells_[node].cell) < large)) {
+      if (const std::uint32_t barred = barred_at(exit); barred != kNone) {
         node = barred;
-      else if (wants_more(exit))
-        return End::at_edge;
+      } else if (sides = sides_reached(exit); any_side(sides)) {
+        for (std::uint32_t k = exit; k != kNone; k = cells_[k].from) walk_.add(cells_[k].cell.center());
+      }
+    }
+    if (any_side(sides) || round >= sent_at_ + pause_) {
+      sent_at_ = round;
+      walk_.lead(box_.beyond(cells_[exit].cell), kLedLooks, context);
+      pause_ *= 2;
+      if (hopeless()) return End::open;
+      const PoseBox::Sides passed = box_.passed_by(walk_);
+      for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = sides[k] || passed[k];
+    }
+    if (any_side(sides)) {
+      pause_ = kPause;
+      grow(sides);
+      box_.begin_again(round);
+      continue;
     }
     if (extent(cells_[node].cell) < kLeastExtent) return End::open;
     divide(node);
   }
-  // Where the last ways led to the border may be too close: what is open may well go round something further out.
-  bounds_.lo = lo_;
-  bounds_.hi = hi_;
-  for (std::size_t d = 0; d < 6; ++d) {
-    const auto n = static_cast<Eigen::Index>(d);
-    const double by = kGrow * (hi_[n] - lo_[n]);
-    if (round_at_[2 * d] + most / 8 > most) bounds_.lo[n] -= by;
-    if (round_at_[2 * d + 1] + most / 8 > most) bounds_.hi[n] += by;
-  }
   return End::spent;
+}
+
+/// Have the parts come away, or so far and in so many ways that the divisions will not do?
+bool PoseFlood::hopeless() const {
+  if (walk_.away()) return true;
+  const Vector6 most = (-box_.lo()).cwiseMax(box_.hi());
+  if (most.head<3>().maxCoeff() > limits_.turn || most.tail<3>().maxCoeff() > limits_.shift) return true;
+  const Vector6 grains = (walk_.hi() - walk_.lo()).cwiseProduct(scale_) / kGrain;
+  return grains.cwiseMax(1.0).prod() > kMostGrains;
+}
+
+/// Bounds of what can be reached. False: the assembled pose cannot, by rounding, if anything: it is within bounds.
+bool PoseFlood::closed() {
+  if (std::none_of(cells_.begin(), cells_.end(),
+                   [&](const Node& n) { return !n.divided && n.reached && holds_start(n.cell); }))
+    return false;
+  bounds_.lo = box_.hi();
+  bounds_.hi = box_.lo();
+  for (const Node& n : cells_)
+    if (!n.divided && n.reached) {
+      bounds_.lo = bounds_.lo.cwiseMin(n.cell.lo);
+      bounds_.hi = bounds_.hi.cwiseMax(n.cell.hi);
+    }
+  return true;
 }
 
 void PoseFlood::divide(std::uint32_t node) {
@@ -253,24 +238,27 @@ std::uint32_t PoseFlood::split(std::uint32_t node) {
   for (const bool upper : {false, true}) {
     Node half;
     half.cell = cells_[node].cell;
+    half.close = cells_[node].close;
     (upper ? half.cell.lo : half.cell.hi)[d] = middle;
     cells_.push_back(std::move(half));
   }
-  contractor_(cells_[first].cell, cells_[first + 1].cell, in_use_);
+  contractor_(cells_[first].cell, cells_[first + 1].cell, in_use_.list());
   for (const std::uint32_t k : {first, first + 1}) cells_[k].border = at_border(cells_[k].cell);
   cells_[node].divided = true;
   cells_[node].cell.pins.reset();
+  cells_[node].close.pins.reset();
   join(node, first);
   return first;
 }
 
+void PoseFlood::befriend(std::uint32_t x, std::uint32_t y) {
+  if (cells_[x].cell.empty || cells_[y].cell.empty || !cells_[x].cell.touches(cells_[y].cell)) return;
+  cells_[x].near.push_back(y);
+  cells_[y].near.push_back(x);
+}
+
 /// The halves take the place of the whole among its neighbours.
 void PoseFlood::join(std::uint32_t node, std::uint32_t first) {
-  const auto befriend = [&](std::uint32_t x, std::uint32_t y) {
-    if (cells_[x].cell.empty || cells_[y].cell.empty || !cells_[x].cell.touches(cells_[y].cell)) return;
-    cells_[x].near.push_back(y);
-    cells_[y].near.push_back(x);
-  };
   for (const std::uint32_t k : cells_[node].near) {
     auto& near = cells_[k].near;
     near.erase(std::find(near.begin(), near.end(), node));

@@ -1,13 +1,15 @@
-/// Divides a box of poses until the assembled pose is cut off from its border.
+/// Divides a box of poses until the assembled pose is cut off from its border. The box grows where the parts get there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <queue>
 #include <vector>
 
 #include "dismantle/run_context.h"
 #include "verify/pocket/contractor.h"
+#include "verify/pocket/pin_walk.h"
+#include "verify/pocket/pins_in_use.h"
+#include "verify/pocket/pose_box.h"
 #include "verify/pocket/pose_cell.h"
 
 namespace dismantle::verify {
@@ -15,20 +17,24 @@ namespace dismantle::verify {
 class PoseFlood {
  public:
   enum class End {
-    closed,   ///< nothing leads from the assembled pose to the border
-    open,     ///< something does, though the cells are as small as cells get; or told to stop
-    spent,    ///< no divisions are left; a larger box may need fewer
-    at_edge,  ///< the parts get as far as the border: it has to be further out, see bounds()
+    closed,  ///< nothing leads from the assembled pose to the border
+    open,    ///< something does, as far as can be told; or the parts come further than the limits; or told to stop
+    spent,   ///< no divisions are left
   };
 
-  /// The box from lo to hi, around 0. `in_use`: pins to begin with; more are taken as they are needed.
-  PoseFlood(const Pinned& pinned, PinList in_use, const Vector6& lo, const Vector6& hi, Contractor& contractor);
+  /// How far parts may come, either way, in any coordinate: rad, and assembly units.
+  struct Limits {
+    double turn, shift;
+  };
+
+  /// Begins with a box that holds what the walk has reached, and with the pins that it met; more are taken as they are
+  /// needed. The walk is sent further where ways lead to.
+  PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, Contractor& contractor);
 
   /// Makes so many divisions at most.
   End run(std::size_t most, const RunContext& context);
-  const PinList& in_use() const { return in_use_; }
   std::size_t cells() const { return cells_.size(); }
-  /// closed: what the assembled pose is not cut off from. at_edge, spent: a larger box.
+  /// closed: what the assembled pose is not cut off from.
   const PoseCell& bounds() const { return bounds_; }
 
  private:
@@ -37,6 +43,7 @@ class PoseFlood {
   struct Node {
     PoseCell cell;
     bool divided = false, border = false;
+    ClosePins close;
     bool asked = false;  ///< all pins were asked at the centre
     bool reached = false, expanded = false;
     std::uint32_t from = kNone, stamp = 0;
@@ -49,31 +56,33 @@ class PoseFlood {
   };
 
   bool at_border(const PoseCell& cell) const;
-  double from_border(const PoseCell& cell) const;
   double extent(const PoseCell& cell) const;
   void reach(std::uint32_t node, std::uint32_t from);
   void adopt(std::uint32_t node);
   std::uint32_t next_exit();
   std::uint32_t to_divide(std::uint32_t exit) const;
   void learn_along(std::uint32_t exit);
-  void learn(std::uint32_t node);
-  bool within_bounds(const Vector6& x, const PoseCell& around) const;
-  void note_sides(std::uint32_t exit, std::size_t round);
   std::uint32_t barred_at(std::uint32_t exit) const;
-  bool wants_more(std::uint32_t exit);
+  PoseBox::Sides sides_reached(std::uint32_t exit) const;
+  void grow(const PoseBox::Sides& sides);
+  bool hopeless() const;
+  bool closed();
   void divide(std::uint32_t node);
   std::uint32_t split(std::uint32_t node);
+  void befriend(std::uint32_t x, std::uint32_t y);
   void join(std::uint32_t node, std::uint32_t first);
 
   const Pinned& pinned_;
+  PinWalk& walk_;
+  Limits limits_;
   Contractor& contractor_;
-  PinList in_use_;
-  std::vector<bool> used_;
-  Vector6 lo_, hi_, scale_;
+  PinsInUse in_use_;
+  Vector6 scale_;
+  PoseBox box_;
   std::vector<Node> cells_;
   std::priority_queue<Entry> queue_;
   PoseCell bounds_;
-  std::array<std::size_t, 12> round_at_{};  ///< by side: when a way last led there
+  std::size_t sent_at_ = 0, pause_;  ///< the round in which the walk was last sent; how long until the next time
 };
 
 }  // namespace dismantle::verify
