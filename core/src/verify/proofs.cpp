@@ -12,8 +12,8 @@
 namespace dismantle {
 namespace {
 
-/// Of the penetration that is allowed. With all of it, what thin tabs bar is not settled in a minute.
-constexpr double kConfinedShare = 0.5;
+/// Of the penetration that is allowed. What is not linear in poses grows with it: with all of it less is settled.
+constexpr double kInterlockedShare = 0.5;
 
 }  // namespace
 
@@ -130,14 +130,14 @@ std::optional<Cage> Verifier::caged_flat(PartId a, PartId b) const {
   return std::nullopt;
 }
 
-std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunContext& context) const {
+std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunContext& context, double share) const {
   // Turns of a small part move its points less, so its poses need fewer boxes.
   const auto extent = [&](PartId part) { return impl_->bodies.at(part).box.size().norm(); };
   if (extent(b) < extent(a) || (extent(b) == extent(a) && b < a)) std::swap(a, b);
   Aabb near = impl_->bodies.at(a).box;
   near.inflate(impl_->options.max_penetration);
   if (!near.overlaps(impl_->bodies.at(b).box)) return std::nullopt;
-  const double depth = impl_->overlap(a, b) + kConfinedShare * impl_->options.max_penetration;
+  const double depth = impl_->overlap(a, b) + share * impl_->options.max_penetration;
   const auto pocket =
       verify::pocket(impl_->bodies.at(a).solids, impl_->bodies.at(b).solids, depth * (1 + 1e-6), context);
   if (!pocket) return std::nullopt;
@@ -147,7 +147,7 @@ std::optional<Confinement> Verifier::confined(PartId a, PartId b, const RunConte
 
 std::optional<Interlock> Verifier::interlocked(std::vector<PartId> parts, const RunContext& context) const {
   const auto& bodies = impl_->bodies;
-  const double share = kConfinedShare * impl_->options.max_penetration;
+  const double share = kInterlockedShare * impl_->options.max_penetration;
   Interlock found{parts, share};
   std::sort(found.parts.begin(), found.parts.end());
   parts = found.parts;

@@ -25,9 +25,8 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
   schema.add(
       "cages", &BlockingParams::cages,
       {.doc = "Then look whether two parts provably hold each other (a ring in a groove, a bent bar in a hole), and "
-              "move those as one. After all searches: any two of which one was alone in the other's way, and groups of "
-              "up to "
-              "eight parts of which none can slide."});
+              "move those as one. After vain searches: what has a flat piece, any two of which one was alone in the "
+              "other's way, and groups of up to eight parts of which none can slide."});
   schema.add("turns", &BlockingParams::turns,
              {.doc = "Then turn parts about the axes of their round surfaces, and leave them turned where that frees "
                      "another part (latches)."});

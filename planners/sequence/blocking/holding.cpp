@@ -10,9 +10,10 @@ namespace {
 constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
 constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
 constexpr std::size_t kFlatProofs = 30;   // likewise, up to ten seconds each
-constexpr std::size_t kTouchedByFlat = 4;
-constexpr unsigned kDepthForFlat = 2;    // of a search that was in vain
-constexpr std::size_t kInterlocked = 8;  // parts: the effort grows with the cube of their number
+constexpr unsigned kDepthForFlat = 2;     // of a search that was in vain
+constexpr std::size_t kSureProofs = 6;    // likewise, up to half a minute each
+constexpr unsigned kDepthForSure = 4;     // as above
+constexpr std::size_t kInterlocked = 8;   // parts: the effort grows with the cube of their number
 
 }  // namespace
 
@@ -47,24 +48,45 @@ bool TakingApart::join_held(Group& group) {
 }
 
 /// Like join_held(), with a proof that is dear. A search that was in vain may be, too, and the next one takes twice as
-/// long: it comes before that, for the part and the others that it touched most.
+/// long: it comes before that, for the part and the larger ones that it touched.
 bool TakingApart::join_flat(Group& group) {
+  const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
   for (const UnitId u : group.units) {
     const auto tried = tried_.find(units_[u].front());
     if (tried == tried_.end() || tried->second.depth < kDepthForFlat) continue;
     const std::vector<PartId> touched = tried->second.blocked_by;
-    for (std::size_t k = 0; k < std::min(touched.size(), kTouchedByFlat); ++k) {
-      if (!in_group(group, unit_of_[touched[k]]) || unit_of_[touched[k]] == u) continue;
-      for (const PartId id : units_[u]) {
+    for (const PartId id : units_[u])
+      for (const PartId other : touched) {
+        if (!in_group(group, unit_of_[other]) || unit_of_[other] == u || !(size(other) > size(id))) continue;
         if (stop() || flat_.size() == kFlatProofs) return false;
-        if (!flat_.insert(std::minmax(id, touched[k])).second || passes_straight(id, touched[k])) continue;
+        if (!flat_.insert(std::minmax(id, other)).second || passes_straight(id, other)) continue;
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[id].name);
-        const auto cage = oracle_.judge()->caged_flat(id, touched[k]);
+        const auto cage = oracle_.judge()->caged_flat(id, other);
         if (!cage) continue;
-        join_parts(group, {id, touched[k]}, describe(*cage, assembly_));
+        join_parts(group, {id, other}, describe(*cage, assembly_));
         return true;
       }
-    }
+  }
+  return false;
+}
+
+/// Likewise, before searches of a part that has only one other in its way get very long, while others wait for theirs.
+bool TakingApart::join_confined_for_sure(Group& group) {
+  if (group.units.size() < 3) return false;
+  for (const UnitId u : group.units) {
+    if (!wants_depth(u) || tried_.at(units_[u].front()).depth < kDepthForSure) continue;
+    const std::optional<UnitId> v = alone_in_the_way(group, u);
+    if (!v) continue;
+    for (const PartId a : units_[u])
+      for (const PartId b : units_[*v]) {
+        if (stop() || sure_.size() == kSureProofs) return false;
+        if (!sure_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
+        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
+        const auto confinement = oracle_.judge()->confined(a, b, context_, 1);
+        if (!confinement) continue;
+        join_parts(group, {a, b}, describe(*confinement, assembly_));
+        return true;
+      }
   }
   return false;
 }

@@ -90,6 +90,7 @@ class TakingApart {
   bool join_flat(Group& group);
   bool join_interlocked(Group& group);
   bool join_confined(Group& group);
+  bool join_confined_for_sure(Group& group);
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
   void join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why);
   void join(Group& group, UnitId u, UnitId v);
@@ -145,6 +146,7 @@ class TakingApart {
   std::map<PartId, Unsolved> held_;                // of those: held by another without overlap, and why
   std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
   std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
+  std::set<std::pair<PartId, PartId>> sure_;       // likewise, for motions that cut in as deep as ways may
   std::set<std::vector<PartId>> interlocked_;      // likewise three and more
   std::set<std::pair<PartId, PartId>> flat_;       // likewise, after a deep search
   std::size_t proofs_ = 0, confinements_ = 0;

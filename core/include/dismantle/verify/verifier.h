@@ -72,11 +72,11 @@ struct Cage {
 };
 
 /// Two parts that hold each other as rigid bodies: every motion that begins assembled, and along which they cut in by
-/// less than `depth`, stays within bounds. The depth is less than what the judge allows, so this explains why no way
+/// less than `depth`, stays within bounds. Where the depth is less than what the judge allows, this explains why no way
 /// was found, and does not spare the search for one.
 struct Confinement {
   PartId inside = 0, other = 0;
-  double depth = 0;       ///< assembly units: the overlap of the two when assembled, and half of max_penetration
+  double depth = 0;       ///< assembly units: the overlap of the two when assembled, and a share of max_penetration
   double shift = 0;       ///< the middle of `inside` comes no further, seen from `other`; assembly units
   double turn = 0;        ///< nor does it turn by more; rad
   std::size_t cells = 0;  ///< boxes of poses that the proof is made of
@@ -140,9 +140,10 @@ class DISMANTLE_API Verifier {
   std::optional<Cage> caged(PartId a, PartId b) const;
   /// The same for what has a large flat piece; seconds up to ten, so it is not part of caged().
   std::optional<Cage> caged_flat(PartId a, PartId b) const;
-  /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in half as deep. Asked
-  /// with a fixed effort: seconds up to half a minute.
-  std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context) const;
+  /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in by less than that
+  /// share (in (0, 1]) of max_penetration more than when assembled; with all of it much is not settled that is with
+  /// half. Asked with a fixed effort: seconds up to half a minute.
+  std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context, double share = 0.5) const;
   /// Do these parts (>= 2, distinct), as they are assembled, hold each other in place? Told where they have little
   /// play: seconds for a handful of parts.
   std::optional<Interlock> interlocked(std::vector<PartId> parts, const RunContext& context) const;
