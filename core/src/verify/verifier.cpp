@@ -279,15 +279,25 @@ bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<Pla
       for (const auto& c : impl_->bodies.at(p.part).corners) points.push_back(p.pose * c);
     return points;
   };
-  const auto found = separate(corners(group), corners(rest));
-  if (!found) return false;
   // qhull leaves out points that are within rounding of a face: the last word is on all vertices.
-  double top = -std::numeric_limits<double>::infinity(), bottom = -top;
-  for (const auto& p : group)
-    for (const auto& v : impl_->meshes[p.part]->vertices) top = std::max(top, found->normal.dot(p.pose * v));
-  for (const auto& p : rest)
-    for (const auto& v : impl_->meshes[p.part]->vertices) bottom = std::min(bottom, found->normal.dot(p.pose * v));
-  return bottom > top;
+  const auto parted_across = [&](const Vec3& normal) {
+    double top = -std::numeric_limits<double>::infinity(), bottom = -top;
+    for (const auto& p : group)
+      for (const auto& v : impl_->meshes[p.part]->vertices) top = std::max(top, normal.dot(p.pose * v));
+    for (const auto& p : rest)
+      for (const auto& v : impl_->meshes[p.part]->vertices) bottom = std::min(bottom, normal.dot(p.pose * v));
+    return bottom > top;
+  };
+  const std::vector<Vec3> ours = corners(group), theirs = corners(rest);
+  Aabb box, other;
+  for (const Vec3& c : ours) box.extend(c);
+  for (const Vec3& c : theirs) other.extend(c);
+  for (int k = 0; k < 3; ++k)  // most leave along an axis
+    for (const double side : {1.0, -1.0})
+      if ((side > 0 ? box.hi[k] < other.lo[k] : box.lo[k] > other.hi[k]) && parted_across(side * Vec3::Unit(k)))
+        return true;
+  const auto found = separate(ours, theirs);
+  return found && parted_across(found->normal);
 }
 
 }  // namespace dismantle
