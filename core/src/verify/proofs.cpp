@@ -117,16 +117,14 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
   return impl_->cages.try_emplace({a, b}, found).first->second;
 }
 
-std::optional<Cage> Verifier::caged_flat(PartId a, PartId b) const {
+std::optional<Cage> Verifier::caged_flat(PartId inside, PartId other, const RunContext& context) const {
   const auto& bodies = impl_->bodies;
-  const double depth = (impl_->overlap(a, b) + impl_->options.max_penetration) * (1 + 1e-6);
-  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)}) {
-    const auto& middles = impl_->middles_of(inside);
-    for (std::size_t i = 0; i < middles.size(); ++i)
-      for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], middles[i], depth, 1))
-        if (const auto cage = verify::disc_cage(disc, bodies.at(other).solids))
-          return Cage{Cage::Kind::disc, inside, other, disc.center, 2 * disc.radius, 0};
-  }
+  const double depth = (impl_->overlap(inside, other) + impl_->options.max_penetration) * (1 + 1e-6);
+  const auto& middles = impl_->middles_of(inside);
+  for (std::size_t i = 0; i < middles.size(); ++i)
+    for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], middles[i], depth, 1))
+      if (verify::disc_cage(disc, bodies.at(other).solids, context))
+        return Cage{Cage::Kind::disc, inside, other, disc.center, 2 * disc.radius, 0};
   return std::nullopt;
 }
 

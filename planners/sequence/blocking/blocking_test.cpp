@@ -300,6 +300,17 @@ TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) 
   }
 }
 
+TEST(Blocking, AfterASearchInVainAFlatPieceInAChamberIsProvedToBeHeld) {
+  const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
+  RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.plan.disassembly.size(), 1u) << "the loose one leaves";
+  EXPECT_EQ(r.sequence_counts["held"], 1);
+  EXPECT_GT(r.counts.attempts, 0);
+  ASSERT_EQ(r.plan.unsolved.size(), 2u);
+  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("flat disc"), std::string::npos) << u.message;
+}
+
 TEST(Blocking, AfterAllSearchesThreeOfWhichNoTwoWouldDoAreProvedToHoldEachOther) {
   const shapes::Keyed keyed{.play = 0.003};
   RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));

@@ -53,15 +53,19 @@ bool TakingApart::join_flat(Group& group) {
   const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
   for (const UnitId u : group.units) {
     const auto tried = tried_.find(units_[u].front());
-    if (tried == tried_.end() || tried->second.depth < kDepthForFlat) continue;
-    const std::vector<PartId> touched = tried->second.blocked_by;
+    if (tried == tried_.end()) continue;
+    const unsigned depth = tried->second.depth;  // 0: without limit
+    if (depth > 0 && depth < kDepthForFlat) continue;
+    const bool pair = group.units.size() == 2;
+    const std::vector<PartId> touched =
+        pair ? units_[group.units[group.units[0] == u ? 1 : 0]] : tried->second.blocked_by;
     for (const PartId id : units_[u])
       for (const PartId other : touched) {
         if (!in_group(group, unit_of_[other]) || unit_of_[other] == u || !(size(other) > size(id))) continue;
         if (stop() || flat_.size() == kFlatProofs) return false;
-        if (!flat_.insert(std::minmax(id, other)).second || passes_straight(id, other)) continue;
+        if (!flat_.insert({id, other}).second || passes_straight(id, other)) continue;
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[id].name);
-        const auto cage = oracle_.judge()->caged_flat(id, other);
+        const auto cage = oracle_.judge()->caged_flat(id, other, context_);
         if (!cage) continue;
         join_parts(group, {id, other}, describe(*cage, assembly_));
         return true;

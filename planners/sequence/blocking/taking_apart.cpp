@@ -139,7 +139,8 @@ void TakingApart::dismantle(Group group) {
       groups_.push_back(std::move(group));
       return;
     }
-    if (!relations_ || !params_.cages || (!join_interlocked(group) && !join_confined(group))) break;
+    if (!relations_ || !params_.cages || (!join_flat(group) && !join_interlocked(group) && !join_confined(group)))
+      break;
   }
   give_up(group);
 }

@@ -168,6 +168,29 @@ TEST(Caged, NotASpoolOneOfWhoseRimsGoesThroughWithinWhatIsAllowed) {
   EXPECT_FALSE(look(moved(spool(0.3, 0.8, 0.8), shapes::shift({0, 0, 0.6})), shapes::plate(0.4, 0.3), rng));
 }
 
+TEST(Caged, AFlatPieceInACanWithAWindowThatItDoesNotPass) {
+  Rng rng(9);
+  const Mesh disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
+  for (const std::uint32_t sectors : {6u, 24u}) {  // of 48: a chord of 0.77, and as wide as the can
+    const Pose turned = random_pose(rng, 2);
+    const Assembly assembly =
+        assembly_of({moved(disc, turned), moved(shapes::can_with_window(1, 0.6, 0.3, 0.3, sectors), turned)});
+    const Verifier verifier(assembly, {kAllowed});
+    EXPECT_FALSE(verifier.caged(0, 1)) << "not a matter of openings that are all round";
+    EXPECT_FALSE(verifier.caged_flat(1, 0, {})) << "the can is in no chamber of the disc";
+    const auto cage = verifier.caged_flat(0, 1, {});
+    ASSERT_EQ(cage.has_value(), sectors == 6) << sectors;
+    if (!cage) continue;
+    EXPECT_EQ(cage->kind, Cage::Kind::disc);
+    EXPECT_EQ(cage->inside, 0u);
+    EXPECT_EQ(cage->other, 1u);
+    EXPECT_GT(cage->size, 1.6);
+    EXPECT_LT(cage->size, 1.8);
+    const std::string text = describe(*cage, assembly);
+    for (const char* said : {"'part0'", "'part1'", "flat disc"}) EXPECT_NE(text.find(said), std::string::npos) << text;
+  }
+}
+
 TEST(Caged, SaysWhoAndWhere) {
   Rng rng(8);
   Assembly assembly = assembly_of({ring(0.8, rng), can(1, 0.6, 0.3, 0.3)});

@@ -56,11 +56,11 @@ Mesh chamber(double x, double y, double about_z, double about_x) {
   return m;
 }
 
-std::optional<verify::DiscCage> look(const Mesh& plate, const Mesh& around) {
+std::optional<verify::DiscCage> look(const Mesh& plate, const Mesh& around, const RunContext& context = {}) {
   const auto bodies = verify::split_into_solids(plate);
   const auto discs = verify::discs_in(bodies.at(0), verify::middle_of(bodies.at(0), kDepth), kDepth, 1);
   if (discs.empty()) return std::nullopt;
-  return verify::disc_cage(discs[0], verify::split_into_solids(around));
+  return verify::disc_cage(discs[0], verify::split_into_solids(around), context);
 }
 
 /// Lies on the floor of the tray; its disc has a radius of 0.95 or a little more.
@@ -104,6 +104,12 @@ TEST(DiscCaged, NotWithoutALidOrBesideTheChamber) {
 
 TEST(DiscCaged, NotWhereTheFlatPieceIsNoThickerThanWhatIsAllowed) {
   EXPECT_FALSE(look(box({-1, -1, -0.7}, {1, 1, -0.7 + 1.9 * kDepth}), chamber(0.5, 0.5, 0, 0)));
+}
+
+TEST(DiscCaged, EndsWhenToldTo) {
+  RunContext context;
+  context.cancel.cancel();
+  EXPECT_FALSE(look(plate(), chamber(0.5, 0.5, 0, 0), context));
 }
 
 TEST(DiscCaged, InARoundChamberWithRoundOpenings) {

@@ -138,8 +138,9 @@ class DISMANTLE_API Verifier {
   /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
   /// no motion within the limits leads out of it. Fractions of a second up to a few.
   std::optional<Cage> caged(PartId a, PartId b) const;
-  /// The same for what has a large flat piece; seconds up to ten, so it is not part of caged().
-  std::optional<Cage> caged_flat(PartId a, PartId b) const;
+  /// The same for a large flat piece within `inside`; seconds up to ten, so it is not part of caged(). Nothing when
+  /// told to stop.
+  std::optional<Cage> caged_flat(PartId inside, PartId other, const RunContext& context) const;
   /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in by less than that
   /// share (in (0, 1]) of max_penetration more than when assembled; with all of it much is not settled that is with
   /// half. Asked with a fixed effort: seconds up to half a minute.

@@ -55,7 +55,7 @@ class Chamber {
   }
 
   /// The number of cells, if they cut the start off from the border.
-  std::optional<std::size_t> closed() {
+  std::optional<std::size_t> closed(const RunContext& context) {
     if (!facets_.box().contains(start_) || !(solids_.clearance(start_) > disc_.half)) return std::nullopt;
     Cell all;
     all.box = box_;
@@ -65,6 +65,7 @@ class Chamber {
     look(all);
     Graph graph(all, place(all));
     for (std::size_t round = 0; round < kDivisions && room_.work() < kWork; ++round) {
+      if (context.should_stop()) return std::nullopt;
       const std::uint32_t exit = graph.next_exit();
       if (exit == Graph::kNone) {
         for (std::uint32_t k = 0; k < graph.size(); ++k)
@@ -282,8 +283,8 @@ class Chamber {
 
 }  // namespace
 
-std::optional<DiscCage> disc_cage(const InnerDisc& disc, const std::vector<Solid>& around) {
-  const auto cells = Chamber(disc, around).closed();
+std::optional<DiscCage> disc_cage(const InnerDisc& disc, const std::vector<Solid>& around, const RunContext& context) {
+  const auto cells = Chamber(disc, around).closed(context);
   if (!cells) return std::nullopt;
   return DiscCage{disc, *cells};
 }

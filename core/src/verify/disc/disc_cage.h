@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/run_context.h"
 #include "verify/bar_middle.h"
 #include "verify/solid.h"
 
@@ -27,9 +28,9 @@ struct DiscCage {
   std::size_t cells = 0;  ///< that were looked at
 };
 
-/// Is the disc in a chamber of the solids that it cannot leave? Nothing: not found within the effort, up to ten
-/// seconds. `depth` of discs_in() has to include what the parts overlap by when assembled: where the disc's centre is
-/// nearer than `half` to a solid to begin with, nothing is found.
+/// Is the disc in a chamber of the solids that it cannot leave? Nothing: told to stop, or not found within the effort,
+/// up to ten seconds. `depth` of discs_in() has to include what the parts overlap by when assembled: where the disc's
+/// centre is nearer than `half` to a solid to begin with, nothing is found.
 ///
 /// Why it cannot. What is nearer than `half` to the disc keeps off the solids: where a surface met it, that would be
 /// deeper in the disc's part than is allowed, and it begins outside. So wherever the centre is, a solid is no nearer
@@ -37,6 +38,6 @@ struct DiscCage {
 /// if along no line in the plane through the centre there is room for a diameter, the centre cannot be there. Cells of
 /// places that are shut out by either are cut away, until the rest around the centre at first is shut in. That a cell
 /// is shut out is shown for all of it (see DiscRoom), not for samples.
-std::optional<DiscCage> disc_cage(const InnerDisc& disc, const std::vector<Solid>& around);
+std::optional<DiscCage> disc_cage(const InnerDisc& disc, const std::vector<Solid>& around, const RunContext& context);
 
 }  // namespace dismantle::verify
