@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "verify/disc/cell_graph.h"
+#include "verify/cell_graph.h"
 #include "verify/disc/disc_room.h"
 #include "verify/disc/facets.h"
 #include "verify/disc/solid_union.h"

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <queue>
-#include <vector>
 
 #include "dismantle/run_context.h"
+#include "verify/cell_graph.h"
 #include "verify/pocket/contractor.h"
 #include "verify/pocket/pin_walk.h"
 #include "verify/pocket/pins_in_use.h"
@@ -38,28 +37,16 @@ class PoseFlood {
   const PoseCell& bounds() const { return bounds_; }
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// A cell, divided or not, and what the search from the assembled pose knows of it.
-  struct Node {
-    PoseCell cell;
-    bool divided = false, border = false;
+  struct Cell : PoseCell {
     ClosePins close;
     bool asked = false;  ///< all pins were asked at the centre
-    bool reached = false, expanded = false;
-    std::uint32_t from = kNone, stamp = 0;
-    std::vector<std::uint32_t> on, near;  ///< reached from here; neighbours
   };
-  struct Entry {
-    double key;
-    std::uint32_t node, stamp;
-    bool operator<(const Entry& o) const { return key > o.key || (key == o.key && node > o.node); }
-  };
+  using Graph = CellGraph<Cell>;
+  static constexpr std::uint32_t kNone = Graph::kNone;
 
-  bool at_border(const PoseCell& cell) const;
+  Cell first_cell() const;
+  CellPlace place(const PoseCell& cell) const;
   double extent(const PoseCell& cell) const;
-  void reach(std::uint32_t node, std::uint32_t from);
-  void adopt(std::uint32_t node);
-  std::uint32_t next_exit();
   std::uint32_t to_divide(std::uint32_t exit) const;
   void learn_along(std::uint32_t exit);
   std::uint32_t barred_at(std::uint32_t exit) const;
@@ -68,9 +55,6 @@ class PoseFlood {
   bool hopeless() const;
   bool closed();
   void divide(std::uint32_t node);
-  std::uint32_t split(std::uint32_t node);
-  void befriend(std::uint32_t x, std::uint32_t y);
-  void join(std::uint32_t node, std::uint32_t first);
 
   const Pinned& pinned_;
   PinWalk& walk_;
@@ -79,8 +63,7 @@ class PoseFlood {
   PinsInUse in_use_;
   Vector6 scale_;
   PoseBox box_;
-  std::vector<Node> cells_;
-  std::priority_queue<Entry> queue_;
+  Graph cells_;
   PoseCell bounds_;
   std::size_t sent_at_ = 0, pause_;  ///< the round in which the walk was last sent; how long until the next time
 };

@@ -39,7 +39,10 @@ class CellGraph {
   /// After next_exit() returned kNone: can it be reached?
   bool connected(std::uint32_t node) const { return !nodes_[node].divided && nodes_[node].reached; }
   const CellPlace& place(std::uint32_t node) const { return nodes_[node].place; }
+  bool divided(std::uint32_t node) const { return nodes_[node].divided; }
   void set_narrow(std::uint32_t node, double narrow) { nodes_[node].place.narrow = narrow; }
+  /// The whole has changed. What is waiting to be gone on from keeps its turn.
+  void set_place(std::uint32_t node, const CellPlace& place) { nodes_[node].place = place; }
   bool holds_start(std::uint32_t node) const { return nodes_[node].place.start; }
 
   /// Goes on from cell to cell, the closest to the border first, until one is there; kNone if none is.
@@ -58,6 +61,15 @@ class CellGraph {
         if (!nodes_[k].reached) reach(k, e.node);
     }
     return kNone;
+  }
+
+  /// One more, beside those that there are.
+  void add(Cell cell, const CellPlace& place) {
+    const auto node = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back(std::move(cell), place);
+    for (std::uint32_t k = 0; k < node; ++k)
+      if (!nodes_[k].divided) befriend(k, node);
+    if (!nodes_[node].cell.empty) adopt(node);
   }
 
   /// Puts two in the place of one. Returns the first of them; the other follows.
@@ -139,13 +151,14 @@ class CellGraph {
     if (by != near.end()) reach(node, *by);
   }
 
+  void befriend(std::uint32_t x, std::uint32_t y) {
+    if (nodes_[x].cell.empty || nodes_[y].cell.empty || !nodes_[x].cell.touches(nodes_[y].cell)) return;
+    nodes_[x].near.push_back(y);
+    nodes_[y].near.push_back(x);
+  }
+
   /// The halves take the place of the whole among its neighbours.
   void join(std::uint32_t node, std::uint32_t first) {
-    const auto befriend = [&](std::uint32_t x, std::uint32_t y) {
-      if (nodes_[x].cell.empty || nodes_[y].cell.empty || !nodes_[x].cell.touches(nodes_[y].cell)) return;
-      nodes_[x].near.push_back(y);
-      nodes_[y].near.push_back(x);
-    };
     for (const std::uint32_t k : nodes_[node].near) {
       auto& near = nodes_[k].near;
       near.erase(std::find(near.begin(), near.end(), node));
