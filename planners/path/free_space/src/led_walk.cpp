@@ -19,23 +19,28 @@ constexpr unsigned kInTheWall = 2;      // cells: a point that is deeper in what
 constexpr double kMostPoints = 0.5;     // share of the points that has to have a way
 constexpr double kDetour = 2;           // of the body's radius: how far ahead the way is closed where it got stuck ...
 constexpr double kNear = 0.2;           // ... and assembly units
-constexpr double kWorthIt = 0.15;       // share of the way, without which nothing more is tried
+constexpr double kWorthIt = 0.15;       // share of the way, or ...
+constexpr double kOfBody = 2;           // ... so often the body's radius, without which nothing more is tried
 constexpr double kDistances = 1000;     // of a look that counts as one ...
 constexpr double kLeast = 0.25;         // ... and what one counts at least
 constexpr double kMostOfPatience = 12;  // what a walk that gets on may take, by what it may without progress
 constexpr std::uint64_t kFirst = 100;   // looks, after which ...
-constexpr double kHeld = 0.02;          // ... what has not come so far (of the body's radius) is held where it is
+constexpr double kHeld = 0.02;          // ... what has not come so far (of the body's radius) is held where it is, ...
+constexpr double kMoves = 0.05;         // ... unless it is thin and so far away, in any direction
+constexpr double kThrough = 0.5;        // of a thin body's radius: an overlap that lets it pass through walls
 constexpr double kAskEvery = 0.03;      // assembly units of the way: whether it is out
 constexpr double kProgress = 0.05;      // likewise: less is none
 constexpr int kLongestFlight = 200;     // steps
-constexpr double kFaster = 1.25, kFastest = 10;  // as in tolerant_walk::Walk
-constexpr double kOctaves = 3;                   // between the largest and the smallest first steps
-constexpr double kDownhill = 0.7;                // share of flights that are led
-constexpr double kTogether = 0.4;                // ... in which all points lead alike, not those near one of them ...
-constexpr double kNearest = 0.2;                 // ... (so near at least, of the body's radius) ...
-constexpr double kOthers = 0.02;                 // ... and the others by so much
-constexpr int kLongestAside = 20;                // steps of a flight that is not led
-constexpr double kBest = 0.6;                    // share that begins where the place is least far
+constexpr double kFaster = 1.25, kFastest = 10;      // as in tolerant_walk::Walk
+constexpr double kOctaves = 3;                       // between the largest and the smallest first steps
+constexpr double kSlip = 0.2, kBesideSlip = 0.1;     // share of flights along the body; how far these go aside
+constexpr double kDownhill = 0.7;                    // share of the others that are led
+constexpr double kTogether = 0.4;                    // ... in which all points lead alike, not those near one ...
+constexpr double kNearest = 0.2;                     // ... (so near at least, of the body's radius) ...
+constexpr double kOthers = 0.02;                     // ... and the others by so much
+constexpr int kLongestAside = 20;                    // steps of a flight that is not led
+constexpr std::array kShares{0.01, 0.25, 0.5, 1.0};  // of the points: the foremost ones, by rank
+constexpr double kBest = 0.6;                        // share that begins where the place is least far
 
 double ball_of(const std::vector<BodyPoint>& points) {
   std::vector<double> radii;
@@ -59,15 +64,28 @@ std::vector<BodyPoint> points_of(const PathQuery& query) {
 
 }  // namespace
 
+bool overlaps_through(const PathQuery& query) {
+  double overlap = 0;
+  for (const auto& m : query.cast.moving)
+    for (const auto& s : query.cast.still) overlap = std::max(overlap, query.assembly.initial_overlap(m.part, s.part));
+  return overlap > 0 && overlap > kThrough * ball_of(points_of(query));
+}
+
 LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-                 std::size_t most_cells)
+                 std::size_t most_cells, tolerant_walk::Overlap overlap)
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x1ed0a1c)),
-      tree_(parameters_, query, context, rng_),
+      tree_(parameters_, query, context, rng_, overlap),
       body_(points_of(query)),
       ways_(query.assembly, query.cast.still, ball_of(body_), most_cells),
-      leads_out_(have_ways()) {
+      leads_out_(have_ways()),
+      thin_(overlap == tolerant_walk::Overlap::near_start) {
+  if (query.cast.moving.size() == 1) {
+    const PlacedPart& m = query.cast.moving.front();
+    for (const Twist& slip : slips(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
+      slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
+  }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
   begin_again();
 }
@@ -82,16 +100,17 @@ bool LedWalk::have_ways() const {
 void LedWalk::begin_again() {
   place_of_.clear();
   places_.clear();
-  by_score_.clear();
-  best_left_ = asked_at_ = left(Pose{});
+  for (auto& scores : by_score_) scores.clear();
+  least_ = left(Pose{});
+  best_left_ = asked_at_ = least_.back();
   best_ = 0;
   for (std::uint32_t n = 0; n < tree_.size(); ++n) {
     if (tree_[n].cut) continue;
-    const double to_go = left(tree_[n].pose);
+    const Left to_go = left(tree_[n].pose);
     put(n, to_go);
-    if (to_go < best_left_) best_left_ = to_go, best_ = n;
+    for (std::size_t r = 0; r < kRanks; ++r) least_[r] = std::min(least_[r], to_go[r]);
+    if (to_go.back() < best_left_) best_left_ = to_go.back(), best_ = n;
   }
-  least_ = best_left_;
   progress_at_ = work();
 }
 
@@ -103,10 +122,19 @@ bool LedWalk::detour() {
   return leads_out_;
 }
 
-double LedWalk::left(const Pose& pose) const {
+LedWalk::Left LedWalk::left(const Pose& pose) const {
+  std::vector<double> lengths;
+  for (const BodyPoint& p : body_) lengths.push_back(ways_.length(pose * p.center));
+  std::sort(lengths.begin(), lengths.end());
+  Left means{};
   double sum = 0;
-  for (const BodyPoint& p : body_) sum += ways_.length(pose * p.center);
-  return sum / std::max(1.0, static_cast<double>(body_.size()));
+  std::size_t rank = 0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    sum += lengths[k];
+    while (rank < kRanks && static_cast<double>(k + 1) >= kShares[rank] * static_cast<double>(lengths.size()))
+      means[rank++] = sum / static_cast<double>(k + 1);
+  }
+  return means;
 }
 
 /// A look at a large body among many walls costs a hundred times what one at a small body in a room does.
@@ -114,10 +142,12 @@ double LedWalk::work() const {
   return std::max(kLeast * static_cast<double>(tree_.looks()), static_cast<double>(tree_.distances()) / kDistances);
 }
 
-double LedWalk::score(const Place& place) const { return place.left + kVisit * static_cast<double>(place.visits); }
+double LedWalk::score(const Place& place, std::size_t rank) const {
+  return place.left[rank] + kVisit * static_cast<double>(place.visits[rank]);
+}
 
 /// Among the poses of its place.
-void LedWalk::put(std::uint32_t node, double left) {
+void LedWalk::put(std::uint32_t node, const Left& left) {
   Key key;
   for (std::size_t c = 0; c < std::min(kCorners, body_.size()); ++c) {  // the first are far from each other
     const Vec3 p = tree_[node].pose * body_[c].center / place_size_;
@@ -126,31 +156,35 @@ void LedWalk::put(std::uint32_t node, double left) {
   const auto [entry, is_new] = place_of_.try_emplace(key, static_cast<std::uint32_t>(places_.size()));
   const std::uint32_t id = entry->second;
   if (is_new) {
-    places_.push_back({{node}, left, 1, 0});
-    by_score_.insert({score(places_[id]), id});
-    return;
+    Place place;
+    place.left = left;
+    place.first.fill(node);
+    places_.push_back(std::move(place));
+    for (std::size_t r = 0; r < kRanks; ++r) by_score_[r].insert({score(places_[id], r), id});
   }
   Place& place = places_[id];
   ++place.seen;
-  if (left < place.left) {
-    by_score_.erase({score(place), id});
-    place.left = left;
-    by_score_.insert({score(place), id});
-    std::swap(place.nodes[0], node);
+  for (std::size_t r = 0; r < kRanks; ++r) {
+    if (!(left[r] < place.left[r])) continue;
+    by_score_[r].erase({score(place, r), id});
+    place.left[r] = left[r];
+    place.first[r] = node;
+    by_score_[r].insert({score(place, r), id});
   }
   if (place.nodes.size() < kKept)
     place.nodes.push_back(node);
-  else if (const std::uint64_t at = 1 + rng_.below(place.seen); at < kKept)
+  else if (const std::uint64_t at = rng_.below(place.seen); at < kKept)
     place.nodes[at] = node;
 }
 
 std::uint32_t LedWalk::choose() {
-  const std::uint32_t id = by_score_.begin()->second;
-  by_score_.erase(by_score_.begin());
+  const std::size_t rank = rng_.below(kRanks);
+  const std::uint32_t id = by_score_[rank].begin()->second;
+  by_score_[rank].erase(by_score_[rank].begin());
   Place& place = places_[id];
-  ++place.visits;
-  by_score_.insert({score(place), id});
-  return rng_.uniform() < kBest ? place.nodes[0] : place.nodes[rng_.below(place.nodes.size())];
+  ++place.visits[rank];
+  by_score_[rank].insert({score(place, rank), id});
+  return rng_.uniform() < kBest ? place.first[rank] : place.nodes[rng_.below(place.nodes.size())];
 }
 
 /// Who leads: all alike, or those near one of them.
@@ -176,25 +210,38 @@ LedWalk::PoseTree::Step LedWalk::downhill(std::uint32_t node, const std::vector<
   return {twist.way / size, twist.turn / size};
 }
 
-bool LedWalk::arrived(std::uint32_t node, double left) {
-  if (left < best_left_) best_ = node, best_left_ = left;
-  if (left < least_ - kProgress) progress_at_ = work(), least_ = left;
-  if (left > asked_at_ - kAskEvery) return false;
-  asked_at_ = left;
+bool LedWalk::arrived(std::uint32_t node, const Left& left) {
+  moves_ = moves_ || (thin_ && (tree_[node].center - tree_.center()).norm() > kMoves * tree_.radius());
+  if (left.back() < best_left_) best_ = node, best_left_ = left.back();
+  for (std::size_t r = 0; r < kRanks; ++r)
+    if (left[r] < least_[r] - kProgress) progress_at_ = work(), least_[r] = left[r];
+  if (left.back() > asked_at_ - kAskEvery) return false;
+  asked_at_ = left.back();
   return tree_.separated(tree_[node].pose);
 }
 
-/// Steps downhill and a little aside, always the same; or only aside. Longer and longer while nothing is in the way.
+/// A motion of the body along itself, from a node. Points move by about 1.
+LedWalk::PoseTree::Step LedWalk::along(std::uint32_t node, const Twist& slip) const {
+  const Eigen::Quaterniond& q = tree_[node].pose.q;
+  return {q * slip.way, q * slip.turn};
+}
+
+/// Steps downhill and a little aside, always the same; or only aside; or along the body itself. Longer and longer while
+/// nothing is in the way.
 bool LedWalk::fly(PathResult& result) {
   std::uint32_t at = choose();
   if (tree_[at].cut) return false;
   const auto in_cube = [&] { return Vec3(rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)); };
-  const bool led = rng_.uniform() < kDownhill;
+  // What is wound leaves a hole as a corkscrew does a cork.
+  const Twist* slip = !slips_.empty() && rng_.uniform() < kSlip ? &slips_[rng_.below(slips_.size())] : nullptr;
+  const double forward = slip != nullptr && rng_.uniform() < 0.5 ? -1 : 1;
+  const bool led = slip == nullptr && rng_.uniform() < kDownhill;
   const std::vector<double> weights = leaders();
   const double size = parameters_.step * std::exp2(1 - kOctaves * rng_.uniform());
-  const double beside = led ? rng_.uniform() * rng_.uniform() : 1, turning = rng_.uniform();
+  const double beside = led ? rng_.uniform() * rng_.uniform() : slip != nullptr ? kBesideSlip * rng_.uniform() : 1;
+  const double turning = rng_.uniform();
   const Vec3 way = beside * (1 - turning) * in_cube(), turn = beside * turning / tree_.radius() * in_cube();
-  const int longest = led ? kLongestFlight : 1 + static_cast<int>(rng_.below(kLongestAside));
+  const int longest = led || slip != nullptr ? kLongestFlight : 1 + static_cast<int>(rng_.below(kLongestAside));
   const double fastest = kFastest * parameters_.step / size;
   double faster = 1;
   for (int k = 0; k < longest && !tree_.halted(); ++k) {
@@ -204,6 +251,11 @@ bool LedWalk::fly(PathResult& result) {
       step.way += down.way;
       step.turn += down.turn;
     }
+    if (slip != nullptr) {
+      const PoseTree::Step on = along(at, *slip);
+      step.way += forward * on.way;
+      step.turn += forward * on.turn;
+    }
     const Pose next = tree_.after(at, step, faster * size);
     if (!tree_.allowed(next)) {
       if (k == 0 || faster <= 1) break;
@@ -211,11 +263,14 @@ bool LedWalk::fly(PathResult& result) {
       continue;
     }
     at = tree_.add(next, at);
-    const double to_go = left(next);
+    const Left to_go = left(next);
     put(at, to_go);
     if (arrived(at, to_go)) {
       if (tree_.judged(at, result)) return true;
       begin_again();
+      // Where the judge left nothing of the tree, there is everything to be tried again.
+      first_look_ = looks();
+      first_work_ = work();
       return false;
     }
     faster = std::min(fastest, kFaster * faster);
@@ -229,16 +284,20 @@ PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most
   bool solved = false;
   unsigned detours = 0;
   progress_at_ = work();
-  const double at_first = left(Pose{});
+  const Left at_first = left(Pose{});
   while (!solved && leads_out_ && looks() < most_looks && work() < kMostOfPatience * patience && !tree_.halted() &&
          !tree_.given_up()) {
     solved = fly(result);
     if (solved) break;
     // What is held where it is has some play, too: it takes a good piece of the way to be worth more looks.
-    if (looks() >= kFirst && at_first - best_left_ < kHeld * tree_.radius()) break;
-    const double gone = 1 - best_left_ / std::max(at_first, 1e-9);
+    const bool play = !moves_ && at_first.back() - best_left_ < kHeld * tree_.radius();
+    held_ = held_ && play;
+    if (looks() >= first_look_ + kFirst && play) break;
+    bool worth_it = moves_;  // what is threaded through somewhere has long come no further
+    for (std::size_t r = 0; r < kRanks; ++r)
+      worth_it = worth_it || at_first[r] - least_[r] > std::min(kWorthIt * at_first[r], kOfBody * tree_.radius());
     const bool in_vain = work() >= progress_at_ + patience;
-    if (gone < kWorthIt && (in_vain || work() >= 2 * patience)) break;
+    if (!worth_it && (in_vain || work() >= first_work_ + 2 * patience)) break;
     if (in_vain && (++detours > most_detours || !detour())) break;
   }
   tree_.finish(solved, best_, result);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "helix.h"
 #include "table.h"
 
 namespace dismantle::free_space {
@@ -103,6 +104,57 @@ TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
   ASSERT_TRUE(r.counts.contains("led_detours")) << "pushes were enough: it is no test";
   EXPECT_EQ(r.outcome, Outcome::solved) << r.message;
   EXPECT_GE(r.counts.at("led_detours"), 1);
+}
+
+/// A wire wound wider than the hole in the wall before it: out by screwing, and by nothing else.
+struct SpringInABox {
+  static constexpr double kWire = 0.03, kHole = 0.5, kWall = 0.06, kAt = 1.8;
+  Mesh spring, still, wall;
+  Assembly assembly;
+
+  /// So deep in the bottom of the box.
+  explicit SpringInABox(double sunk) {
+    const path::test::Helix wound{.radius = 0.4, .pitch = 0.7, .wire = kWire, .turns = 2};
+    spring = path::test::helix(wound);
+    for (auto& v : spring.vertices) v += Eigen::Vector3d(0.02 - sunk + kWire, 1.5, 0.5);
+    const double x0 = kAt, x1 = kAt + kWall, y0 = 1.5 - 0.5 * kHole, y1 = y0 + kHole, z0 = 0.25, z1 = z0 + kHole;
+    const std::vector<Aabb> around{block(x0, 0, 0, x1, y0, kHeight), block(x0, y1, 0, x1, kWidth, kHeight),
+                                   block(x0, y0, 0, x1, y1, z0), block(x0, y0, z1, x1, y1, kHeight)};
+    std::vector<Aabb> all = box_of(2.4);
+    all.insert(all.end(), around.begin(), around.end());
+    still = boxes(all);
+    wall = boxes(around);
+    assembly = assembly_of({spring, still});
+    const double overlap = penetration_depth(spring, Pose{}, still, Pose{}, 1e-4);
+    if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
+  }
+};
+
+TEST(LedWalk, ScrewsASpringThroughAHole) {
+  Table table(SpringInABox(0).assembly);
+  int solved = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
+    if (is_success(r.outcome)) ++solved;
+  }
+  EXPECT_GE(solved, 2);
+}
+
+/// It is sunk into the bottom deeper than the wall is thick: by what is allowed for that it could leave through the
+/// wall, and does not.
+TEST(LedWalk, DoesNotTakeAnOverlapThroughAWall) {
+  const SpringInABox scene(0.07);
+  ASSERT_GT(scene.assembly.initial_overlap(0, 1), 0.5 * SpringInABox::kWall);
+  Table table(scene.assembly);
+  int solved = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
+    if (!is_success(r.outcome)) continue;
+    ++solved;
+    const DepthBody spring(scene.spring), wall(scene.wall);
+    for (const auto& instant : r.path) EXPECT_LT(penetration_depth(spring, instant[0], wall, Pose{}, 1e-3), 0.012);
+  }
+  EXPECT_GE(solved, 2);
 }
 
 }  // namespace

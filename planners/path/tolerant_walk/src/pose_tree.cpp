@@ -18,7 +18,7 @@ constexpr int kRepairs = 4;          // tries to shorten the same way, after it 
 
 }  // namespace
 
-PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng)
+PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap)
     : parameters_(parameters),
       query_(query),
       context_(context),
@@ -26,7 +26,7 @@ PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunCont
       deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
                                          : context.deadline),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.cast, parameters.max_penetration) {
+      tolerance_(query.assembly, query.cast, parameters.max_penetration, overlap) {
   const std::size_t count = query.cast.moving.size();
   for (std::size_t i = 0; i < count; ++i) {
     bodies_.push_back({world_->center(i), world_->radius(i)});
@@ -102,7 +102,15 @@ bool PoseTree::straight(const Pose& a, const Pose& b) {
   return true;
 }
 
+/// Piece by piece, the longest first; then between any two.
 std::vector<Pose> PoseTree::shortened(std::vector<Pose> way) {
+  for (std::size_t piece = way.size() / 2; piece > 1 && !halted(); piece /= 2)
+    for (std::size_t k = 0; k + piece < way.size() && !halted(); ++k)
+      if (straight(way[k], way[k + piece]))
+        way.erase(way.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                  way.begin() + static_cast<std::ptrdiff_t>(k + piece));
+      else
+        k += piece - 1;
   for (std::int64_t k = 0; k < parameters_.shortcuts && way.size() > 2 && !halted(); ++k) {
     auto a = static_cast<std::size_t>(rng_.below(way.size())), b = static_cast<std::size_t>(rng_.below(way.size()));
     if (a > b) std::swap(a, b);
@@ -146,7 +154,10 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
     if (!verdict.has_witness) break;
     const auto& instant = path[std::min(verdict.instant, path.size() - 1)];
     at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
-    tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault);
+    if (tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault)) {
+      cut_disallowed();
+      return false;
+    }
     // What was learned may rule out some of the way itself.
     if (!std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); })) break;
   }
@@ -170,6 +181,12 @@ void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near) {
   nodes_[first].cut = true;
   for (std::uint32_t n = 1; n < nodes_.size(); ++n)  // children come after their parents
     nodes_[n].cut = nodes_[n].cut || nodes_[nodes_[n].parent].cut;
+}
+
+/// What is allowed has changed for good.
+void PoseTree::cut_disallowed() {
+  for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n)
+    nodes_[n].cut = nodes_[n].cut || nodes_[nodes_[n].parent].cut || !allowed(nodes_[n].pose);
 }
 
 void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const {

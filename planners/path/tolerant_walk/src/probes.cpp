@@ -20,8 +20,11 @@ constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
 constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
 constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
 constexpr double kFlat = 0.9986;                      // cosine between neighbouring faces (3 degrees): more is no edge
-constexpr int kTries = 4;       // samples that are measured for the one that is kept: fine meshes have many more
-constexpr double kCells = 0.7;  // of the spacing of samples: edge of the cells that hold one ball each
+constexpr double kAcute = -0.03;                      // likewise: more than 90 degrees between them
+constexpr std::uint64_t kExact = 20;                  // distances from fields that one that is measured costs
+constexpr int kTries = 4;              // samples that are measured for the one that is kept: fine meshes have many more
+constexpr double kMoreAtStart = 2e-3;  // assembly units: fields are not exact
+constexpr double kCells = 0.7;         // of the spacing of samples: edge of the cells that hold one ball each
 
 /// How far it is from a point of the surface to the opposite side, by steps of what the field says is free; `most` if
 /// that is further.
@@ -56,6 +59,7 @@ double share_within(const std::array<Vec3, 3>& corners, const Aabb& region) {
 
 Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region, std::size_t most, double least_spacing,
                const std::function<bool(const Vec3&)>& wanted) {
+  exactly_ = allowance.exactly;
   const double allowed = allowance.overlap + allowance.beyond;
   const TriangleBvh& bvh = part.bvh();
   double area = 0;
@@ -84,7 +88,9 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
       const double thick = allowance.beyond / kOfThickness;
       const double thin = std::min(thickness_at(part, p - kLeastStep * beside, -normal, thick),
                                    thickness_at(part, p - kLeastStep * normal, -beside, thick));
-      const Probe probe{p, -allowance.overlap - std::min(allowance.beyond, kOfThickness * thin)};
+      // An acute edge is thin close to it: there is no telling how deep the judge lets it go.
+      const bool acute = allowance.exactly && normal.dot(beside) < kAcute;
+      const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.beyond, kOfThickness * thin))};
       const auto [entry, is_new] = points.try_emplace(key_of(p), probe);
       if (!is_new && probe.keep > entry->second.keep) entry->second = probe;
     }
@@ -155,6 +161,17 @@ void Probes::build(std::uint32_t first, std::uint32_t count) {
   nodes_[id] = node;
 }
 
+void Probes::excuse(const Pose& place, SolidField& other, double reach) {
+  for (auto* kind : {&probes_, &added_})
+    for (Probe& p : *kind) {
+      const Vec3 at = place * p.center;
+      const double depth = other.at(at);
+      if (p.start != Probe::kNoStart || !(depth < p.keep)) continue;
+      p.start = static_cast<std::uint32_t>(starts_.size());
+      starts_.push_back({at, depth - kMoreAtStart, reach});
+    }
+}
+
 void Probes::take(Probes other) {
   probes_.insert(probes_.end(), other.probes_.begin(), other.probes_.end());
   added_.insert(added_.end(), other.added_.begin(), other.added_.end());
@@ -162,11 +179,30 @@ void Probes::take(Probes other) {
   if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
 }
 
+void Probes::learn_from(const Probes& other) {
+  for (Probe p : other.added_) {
+    if (p.start != Probe::kNoStart) {
+      starts_.push_back(other.starts_[p.start]);
+      p.start = static_cast<std::uint32_t>(starts_.size() - 1);
+    }
+    added_.push_back(p);
+  }
+}
+
 bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& asked) {
   const Eigen::Matrix3d r = place.q.toRotationMatrix();
   const auto violated = [&](const Probe& p) {
     ++asked;
-    return other.at(r * p.center + place.t) < p.keep;
+    const Vec3 at = r * p.center + place.t;
+    double distance = other.at(at);
+    if (exactly_ && std::abs(distance - p.keep) < other.error()) {
+      distance = other.exactly(at);
+      asked += kExact;
+    }
+    if (!(distance < p.keep)) return false;
+    if (p.start == Probe::kNoStart) return true;
+    const Probe::Start& start = starts_[p.start];
+    return distance < start.keep || (at - start.at).squaredNorm() > start.reach * start.reach;
   };
   if (std::any_of(added_.begin(), added_.end(), violated)) return true;
   if (nodes_.empty()) return false;

@@ -106,6 +106,8 @@ double SolidField::exact(const Eigen::Vector3d& p, int sign) const {
   return inside ? -d : d;
 }
 
+double SolidField::exactly(const Eigen::Vector3d& p) const { return exact(p, 0); }
+
 double SolidField::at(const Eigen::Vector3d& p) {
   const double outside = around_.squared_distance(p);
   if (outside > 0) return kAround + std::sqrt(outside);

@@ -13,14 +13,19 @@ constexpr double kNear = 0.06;            // assembly units: where the parts are
 constexpr double kSpacing = 0.03;         // ... their samples are so far apart,
 constexpr std::size_t kSamples = 5'000;   // or so that there are no more of each part around the other,
 constexpr std::size_t kElsewhere = 1000;  // and so many all over
-constexpr double kLearned = 0.5;          // share of what was too deep at a place that the judge has named
-constexpr double kBeside = 0.05;          // assembly units: what is so near such a place ...
-constexpr std::size_t kMostBeside = 100;  // ... counts as well, so many corners of triangles of it
+constexpr double kReach = 3, kLeastReach = 0.02;  // an overlap is excused so near the start: overlaps; assembly units
+constexpr double kOverlap = 1e-3;                 // assembly units; less is within what is allowed beyond
+constexpr double kLeast = 5e-4;                   // assembly units: not less is aimed at
+constexpr double kLearned = 0.5;                  // share of what was too deep at a place that the judge has named
+constexpr double kBeside = 0.05;                  // assembly units: what is so near such a place ...
+constexpr std::size_t kMostBeside = 100;          // ... counts as well, so many corners of triangles of it
+
+double reach_of_overlap(double overlap) { return kLeastReach + kReach * overlap; }
 
 }  // namespace
 
-Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration)
-    : assembly_(assembly), cast_(cast), max_penetration_(max_penetration) {
+Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap)
+    : assembly_(assembly), cast_(cast), max_penetration_(max_penetration), overlap_(overlap) {
   for (const auto& m : cast_.moving) {
     const Mesh& mesh = *assembly.parts[m.part].mesh;
     Ball ball{mesh.box().center(), 0};
@@ -36,13 +41,24 @@ SolidField& Tolerance::field(PartId part) {
   return *known;
 }
 
-Allowance Tolerance::allowed(PartId a, PartId b) const { return {assembly_.initial_overlap(a, b), max_penetration_}; }
+Allowance Tolerance::allowed(PartId a, PartId b) const {
+  return {assembly_.initial_overlap(a, b), max_penetration_, overlap_ == Overlap::near_start};
+}
 
 Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& still) {
   const auto key = std::pair(moving.part, still.part);
   if (const auto known = pairs_.find(key); known != pairs_.end()) return known->second;
-  const Allowance deep = allowed(moving.part, still.part);
-  const auto probes = [&](const PlacedPart& of, const PlacedPart& other) {
+  Allowance deep = allowed(moving.part, still.part);
+  const bool strict = overlap_ == Overlap::near_start && deep.overlap > kOverlap;
+  if (strict) deep = {0, deep.beyond, true};
+  return pairs_.emplace(key, probes(moving, still, deep, strict)).first->second;
+}
+
+/// `strict`: what is deeper at the start is excused near there.
+Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& still, const Allowance& deep,
+                                  bool strict) {
+  const double reach = reach_of_overlap(allowed(moving.part, still.part).overlap);
+  const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
     // Where the other stands, as seen from this one; dense there, sparse all over.
     const Pose to_part = of.pose.inverse() * other.pose;
     Aabb near;
@@ -54,9 +70,23 @@ Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& sti
                [&](const Eigen::Vector3d& p) { return to_other.at(place * p) < kNear; });
     all.take(Probes(field(of.part), deep, field(of.part).box(), kElsewhere, kSpacing,
                     [](const Eigen::Vector3d&) { return true; }));
+    if (strict) all.excuse(place, to_other, reach);
     return all;
   };
-  return pairs_.emplace(key, Pair{probes(moving, still), probes(still, moving)}).first->second;
+  return {made(moving, still), made(still, moving), deep, strict, 0};
+}
+
+/// Where the judge sees deeper than samples do again, less is aimed at.
+bool Tolerance::tighten(const PlacedPart& moving, const PlacedPart& still, Pair& both) {
+  if (overlap_ == Overlap::everywhere || both.refused < 2 || both.deep.beyond < kLeast) return false;
+  Allowance deep = both.deep;
+  deep.beyond *= kLearned;
+  Pair next = probes(moving, still, deep, true);
+  next.refused = both.refused;
+  next.of_moving.learn_from(both.of_moving);
+  next.of_still.learn_from(both.of_still);
+  both = std::move(next);
+  return true;
 }
 
 bool Tolerance::clear(const PlacedPart& moving, const Pose& at, const PlacedPart& still) {
@@ -87,8 +117,9 @@ bool Tolerance::allows(const Pose& displacement) {
 
 /// `place` takes the frame of the one to that of the other.
 void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point, const Pose& place,
-                      Probes& probes) {
-  const Allowance most = allowed(of.part, other.part);
+                      const Pair& both, Probes& probes) {
+  const Allowance& most = both.deep;
+  const double reach = reach_of_overlap(allowed(of.part, other.part).overlap);
   SolidField& solid = field(other.part);
   // Where the judge refuses less than it tolerates elsewhere, it is because the wall is thin, or because it could not
   // prove more. Half of what it refused, or else half of what it tolerates.
@@ -96,7 +127,9 @@ void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen
   const double beyond = solid.at(there) < 0 ? solid.bvh().closest(there).distance - most.overlap : 0;
   const double keep = -most.overlap - kLearned * (beyond > 0 ? std::min(beyond, most.beyond) : most.beyond);
   const Pose at_first = other.pose.inverse() * of.pose;
-  const auto add = [&](const Eigen::Vector3d& p) { probes.add({p, std::min(keep, solid.at(at_first * p))}); };
+  const auto add = [&](const Eigen::Vector3d& p) {
+    probes.add({p, both.strict ? keep : std::min(keep, solid.at(at_first * p))});
+  };
   add(point);
   // What is as thin beside it would be refused next.
   std::vector<Eigen::Vector3d> near;
@@ -104,16 +137,24 @@ void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen
     if ((v - point).squaredNorm() < kBeside * kBeside) near.push_back(v);
   const std::size_t every = near.size() / kMostBeside + 1;
   for (std::size_t k = 0; k < near.size(); k += every) add(near[k]);
+  if (both.strict) probes.excuse(at_first, solid, reach);
 }
 
-void Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement) {
+bool Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement) {
+  bool tightened = false;
   for (const auto& moving : cast_.moving)
     for (const auto& still : cast_.still) {
       const Pose place = still.pose.inverse() * (displacement * moving.pose);
-      if (moving.part == part && still.part == other) learn(moving, still, point, place, pair(moving, still).of_moving);
-      if (moving.part == other && still.part == part)
-        learn(still, moving, point, place.inverse(), pair(moving, still).of_still);
+      if (std::minmax(moving.part, still.part) != std::minmax(part, other)) continue;
+      Pair& both = pair(moving, still);
+      ++both.refused;
+      tightened = tighten(moving, still, both) || tightened;
+      if (moving.part == part)
+        learn(moving, still, point, place, both, both.of_moving);
+      else
+        learn(still, moving, point, place.inverse(), both, both.of_still);
     }
+  return tightened;
 }
 
 }  // namespace dismantle::tolerant_walk

@@ -36,7 +36,7 @@ Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& con
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
-      tree_(parameters_, query, context, rng_) {}
+      tree_(parameters_, query, context, rng_, Overlap::everywhere) {}
 
 void Walk::note(std::uint32_t node) {
   for (std::size_t d = 0; d < furthest_.size(); ++d)

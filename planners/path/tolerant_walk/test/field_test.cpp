@@ -58,7 +58,7 @@ TEST(Tolerance, AgreesWithTheDepthOfThePair) {
     const double overlap = penetration_depth(plate, Pose{}, ground, Pose{}, 1e-4);
     if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
     const double most = 0.01;
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most);
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most, Overlap::everywhere);
     for (int i = 0; i < 60; ++i) {
       const Eigen::Quaterniond q(Eigen::AngleAxisd(
           rng.uniform(-0.02, 0.02), turned.q * Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized()));
@@ -88,7 +88,7 @@ TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
     const Pose turned = random_pose(rng, 1);
     const Assembly assembly =
         assembly_of({boxes({block(1, -1, -1, 3, 1, 1)}), boxes({block(0, -2, -2, 0.06, 2, 2)})}, turned);
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01);
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere);
     for (double x = -0.2; x > -2.9; x -= 0.1) {
       const bool through = x < -0.95 && x > -2.98;
       EXPECT_EQ(tolerance.allows({turned.q * Vector3d(x, 0, 0), Eigen::Quaterniond::Identity()}), !through) << x;
@@ -96,9 +96,52 @@ TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
   }
 }
 
+TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
+  // A rod of 0.04 sunk by 0.03 into a block; beside it a wall of 0.05, which it must not pass.
+  Rng rng(9);
+  for (int k = 0; k < 5; ++k) {
+    const Pose turned = random_pose(rng, 1);
+    const Mesh rod = moved(boxes({block(-1, 0, -0.03, 1, 0.04, 0.01)}), turned),
+               still = moved(boxes({block(-2, -1, -1, 2, 0.5, 0), block(-2, 1, -1, 2, 1.05, 1)}), turned);
+    Assembly assembly = assembly_of({rod, still});
+    assembly.overlaps.push_back({0, 1, penetration_depth(rod, Pose{}, still, Pose{}, 1e-4)});
+    const Cast cast{{{0, Pose{}}}, {{1, Pose{}}}};
+    Tolerance near_start(assembly, cast, 0.01, Overlap::near_start),
+        everywhere(assembly, cast, 0.01, Overlap::everywhere);
+    const auto at = [&](double y, double z) {
+      return Pose{turned.q * Vector3d(0, y, z), Eigen::Quaterniond::Identity()};
+    };
+    for (auto* tolerance : {&near_start, &everywhere}) {
+      EXPECT_TRUE(tolerance->allows(Pose{}));
+      EXPECT_FALSE(tolerance->allows(at(0, -0.03)));
+      for (const double z : {0.01, 0.03, 0.1}) EXPECT_TRUE(tolerance->allows(at(0, z))) << z;
+      EXPECT_TRUE(tolerance->allows(at(0.9, 0.3)));
+      EXPECT_TRUE(tolerance->allows(at(1.1, 0.3)));
+    }
+    for (const double y : {0.98, 1.0, 1.02, 1.04}) {
+      EXPECT_FALSE(near_start.allows(at(y, 0.3))) << y;
+      EXPECT_TRUE(everywhere.allows(at(y, 0.3))) << y << ": or it is no test";
+    }
+    EXPECT_FALSE(near_start.allows(at(0.3, 0)));  // as deep as when assembled, but elsewhere
+  }
+}
+
+TEST(Tolerance, AimsAtLessWhereTheJudgeRefusesAgain) {
+  Assembly assembly = assembly_of({boxes({block(-1, -1, -0.02, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
+  assembly.overlaps.push_back({0, 1, 0.02});
+  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::near_start);
+  const Pose at{Vector3d(0.5, 0, 0.014), Eigen::Quaterniond::Identity()};  // 0.006 deep
+  EXPECT_TRUE(tolerance.allows(at));
+  EXPECT_FALSE(tolerance.learn(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(tolerance.learn(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
+  EXPECT_FALSE(tolerance.allows(at));
+  EXPECT_TRUE(tolerance.allows({Vector3d(0.5, 0, 0.018), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(tolerance.allows(Pose{}));
+}
+
 TEST(Tolerance, LearnsAPlace) {
   const Assembly assembly = assembly_of({boxes({block(-1, -1, 0, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
-  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01);
+  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere);
   const Pose sunk{Vector3d(0, 0, -0.007), Eigen::Quaterniond::Identity()};
   EXPECT_TRUE(tolerance.allows(sunk));
   tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), sunk);

@@ -1,6 +1,7 @@
 /// A random tree that is led: what is free between the still parts says where to go.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "dismantle/free_space/body_points.h"
+#include "dismantle/free_space/slips.h"
 #include "dismantle/free_space/ways_out.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/tolerant_walk/parameters.h"
@@ -15,13 +17,18 @@
 
 namespace dismantle::free_space {
 
-/// The mean of the ways that points of the body still have to go says how far a pose has come. Poses of the tree are
-/// kept by place; the place that has come furthest is gone on from, and the more often that was in vain the less.
+/// Is what moves so thin that what is allowed for its overlaps would let it pass through walls?
+bool overlaps_through(const PathQuery& query);
+
+/// The ways that points of the body still have to go say how far a pose has come: their mean, or that of the foremost
+/// ones alone. Poses of the tree are kept by place; the place that has come furthest is gone on from, and the more
+/// often that was in vain the less.
 class LedWalk {
  public:
-  /// All outlive this. Several moving parts move as one rigid body. The grid has about `most_cells`.
+  /// All outlive this. Several moving parts move as one rigid body. The grid has about `most_cells`. Overlaps near the
+  /// start only are for what overlaps_through().
   LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-          std::size_t most_cells);
+          std::size_t most_cells, tolerant_walk::Overlap overlap);
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
   bool leads_out() const { return leads_out_; }
@@ -31,45 +38,57 @@ class LedWalk {
   /// Outcomes as of tolerant_walk::Walk.
   PathResult run(std::uint64_t most_looks, double patience, unsigned most_detours);
   std::uint64_t looks() const { return tree_.looks(); }
+  /// It has only some play where it starts, by what was found until now.
+  bool held() const { return held_; }
 
  private:
   using PoseTree = tolerant_walk::PoseTree;
+  /// Of the way, by rank: mean of the points that are furthest out, one, some, or all of them.
+  static constexpr std::size_t kRanks = 4;
+  using Left = std::array<double, kRanks>;
   /// Poses of which all points are in the same cells of a coarse grid.
   struct Place {
-    std::vector<std::uint32_t> nodes;  ///< the one that has come furthest, and some others
-    double left = 0;                   ///< of the way, at the first of them
-    std::uint64_t seen = 0, visits = 0;
+    std::array<std::uint32_t, kRanks> first{};  ///< the ones that have come furthest, by rank
+    Left left{};                                ///< of the way, at these
+    std::array<std::uint64_t, kRanks> visits{};
+    std::vector<std::uint32_t> nodes;  ///< some others
+    std::uint64_t seen = 0;
   };
   using Key = std::vector<std::int32_t>;
 
   double work() const;
-  double left(const Pose& pose) const;
-  double score(const Place& place) const;
-  void put(std::uint32_t node, double left);
+  Left left(const Pose& pose) const;
+  double score(const Place& place, std::size_t rank) const;
+  void put(std::uint32_t node, const Left& left);
   bool have_ways() const;
   void begin_again();
   bool detour();
   std::uint32_t choose();
+  PoseTree::Step along(std::uint32_t node, const Twist& slip) const;
   PoseTree::Step downhill(std::uint32_t node, const std::vector<double>& weights) const;
   std::vector<double> leaders();
   bool fly(PathResult& result);
-  bool arrived(std::uint32_t node, double left);
+  bool arrived(std::uint32_t node, const Left& left);
 
   const tolerant_walk::Parameters parameters_;
   const PathQuery& query_;
   Rng rng_;
   PoseTree tree_;
   std::vector<BodyPoint> body_;  // world, at the start
+  std::vector<Twist> slips_;     // likewise
   WaysOut ways_;
-  bool leads_out_;
+  bool leads_out_, thin_;
+  bool held_ = true, moves_ = false;  // only some play was found; thin, and clearly off where it starts
   double place_size_ = 0;
   std::map<Key, std::uint32_t> place_of_;
   std::vector<Place> places_;
-  std::set<std::pair<double, std::uint32_t>> by_score_;  // places
-  std::uint32_t best_ = 0;                               // the node that has come furthest
-  double best_left_ = 0, asked_at_ = 0;                  // of the way: there; where it was last asked whether it is out
-  double least_ = 0;                                     // where there was progress last, ...
-  double progress_at_ = 0;                               // ... after so much work
+  std::array<std::set<std::pair<double, std::uint32_t>>, kRanks> by_score_;  // places
+  std::uint32_t best_ = 0;                                                   // the node that has come furthest
+  double best_left_ = 0, asked_at_ = 0;  // of the way: there; where it was last asked whether it is out
+  Left least_{};                         // where there was progress last, ...
+  double progress_at_ = 0;               // ... after so much work
+  std::uint64_t first_look_ = 0;         // when the walk began, or the judge has last refused a way
+  double first_work_ = 0;
 };
 
 }  // namespace dismantle::free_space

@@ -29,7 +29,7 @@ class PoseTree {
   };
 
   /// All three outlive this.
-  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng);
+  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap);
 
   const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
@@ -64,6 +64,7 @@ class PoseTree {
   std::vector<Pose> shortened(std::vector<Pose> way);
   Path path_of(const std::vector<Pose>& way) const;
   void cut(const std::vector<std::uint32_t>& chain, const Pose& near);
+  void cut_disallowed();
 
   const Parameters& parameters_;
   const PathQuery& query_;

@@ -16,12 +16,20 @@ namespace dismantle::tolerant_walk {
 struct Probe {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double keep = 0;  ///< assembly units; negative for points of the surface, which may be so deep
+  /// Close to this place, in the other part's frame, it may be as deep as it is there.
+  struct Start {
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    double keep = 0, reach = 0;
+  };
+  std::uint32_t start = kNoStart;  ///< in the list of Probes
+  static constexpr std::uint32_t kNoStart = 0xffffffffu;
 };
 
 /// How deep a pair may penetrate (assembly units): as when assembled, and beyond that so much, but no more than a
 /// quarter of the wall's thickness where that is thin.
 struct Allowance {
   double overlap = 0, beyond = 0;
+  bool exactly = false;  ///< costs more: distances are measured where fields might be wrong, acute edges count as thin
 };
 
 /// Two kinds. Points of the edges may be as deep in the other part as is allowed. And the centre of a ball within
@@ -40,6 +48,10 @@ class Probes {
   /// Joins those of another set of the same part.
   void take(Probes other);
   void add(const Probe& probe) { added_.push_back(probe); }
+  /// What was added to another set of the same part is added to this one.
+  void learn_from(const Probes& other);
+  /// Those that are too deep when at `place` may be a little deeper than that within `reach` of where they are there.
+  void excuse(const Pose& place, SolidField& other, double reach);
   std::size_t size() const { return probes_.size() + added_.size(); }
 
  private:
@@ -50,7 +62,9 @@ class Probes {
   };
   void build(std::uint32_t first, std::uint32_t count);
 
+  bool exactly_ = false;
   std::vector<Probe> probes_, added_;
+  std::vector<Probe::Start> starts_;
   std::vector<Node> nodes_;
   std::uint32_t last_ = 0;  // that was violated
 };

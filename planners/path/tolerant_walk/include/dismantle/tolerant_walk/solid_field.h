@@ -21,6 +21,9 @@ class SolidField {
 
   /// Assembled frame of the part, assembly units; negative inside.
   double at(const Eigen::Vector3d& p);
+  /// Measured, not interpolated.
+  double exactly(const Eigen::Vector3d& p) const;
+  double error() const { return kError * fine_.cell(); }  ///< of at() near the surface, at most about
   const TriangleBvh& bvh() const { return bvh_; }
   const Mesh& mesh() const { return *mesh_; }
   const Aabb& box() const { return box_; }  ///< of the part
@@ -31,6 +34,7 @@ class SolidField {
     Grid(const Aabb& box, double cell);
     /// Without a field only what is known already; else not a number.
     double at(const Eigen::Vector3d& p, const SolidField* field);
+    double cell() const { return cell_; }
 
    private:
     static constexpr std::size_t kBlock = 9;  // places along the edge of a block, its last ones those of the next, too
@@ -42,6 +46,7 @@ class SolidField {
     std::array<std::int64_t, 3> blocks_{};
     std::vector<std::unique_ptr<Block>> known_;
   };
+  static constexpr double kError = 0.35;                   // of a cell
   double exact(const Eigen::Vector3d& p, int sign) const;  ///< sign 0: not known
 
   std::shared_ptr<const Mesh> mesh_;

@@ -14,13 +14,17 @@
 
 namespace dismantle::tolerant_walk {
 
+/// Where a pair may be as deep in each other as when assembled. What is thinner than that passes through walls where it
+/// is allowed everywhere; and without it what is held with interference all the way never comes out.
+enum class Overlap { everywhere, near_start };
+
 /// A necessary condition, by samples: no pair penetrates deeper than when assembled and `max_penetration`. Made from
 /// the original triangles, and by none of the judge's code. What it needs of a pair is computed when they first come
 /// near each other. Not safe to use from several threads.
 class Tolerance {
  public:
   /// `assembly` must outlive it.
-  Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration);
+  Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap);
 
   /// `displacement` acts on all moving parts where the cast has them.
   bool allows(const Pose& displacement);
@@ -29,23 +33,30 @@ class Tolerance {
   /// Distances that all answers so far have taken: what they cost, in a number that is the same everywhere.
   std::uint64_t asked() const { return asked_; }
   /// A place where the judge found it too permissive: `point` (assembled frame of `part`) lay too deep in `other` at
-  /// that displacement. From now on neither it nor what is near it may be as deep, unless it is at the start.
-  void learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
+  /// that displacement. From now on neither it nor what is near it may be as deep, unless it is at the start. True:
+  /// nor may the rest of the two, for it was not the first such place; what was allowed may be so no more.
+  bool learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement);
 
  private:
   struct Pair {
     Probes of_moving, of_still;
+    Allowance deep;        ///< of these
+    bool strict = false;   ///< what is deeper at the start is excused near there only
+    unsigned refused = 0;  ///< by the judge
   };
   SolidField& field(PartId part);
   Pair& pair(const PlacedPart& moving, const PlacedPart& still);
+  Pair probes(const PlacedPart& moving, const PlacedPart& still, const Allowance& deep, bool strict);
   Allowance allowed(PartId a, PartId b) const;
+  bool tighten(const PlacedPart& moving, const PlacedPart& still, Pair& both);
   void learn(const PlacedPart& of, const PlacedPart& other, const Eigen::Vector3d& point, const Pose& place,
-             Probes& probes);
+             const Pair& both, Probes& probes);
   bool clear(const PlacedPart& moving, const Pose& at, const PlacedPart& still);
 
   const Assembly& assembly_;
   Cast cast_;
   double max_penetration_;
+  Overlap overlap_;
   /// A moving part, for the question whether it may be near another at all.
   struct Ball {
     Eigen::Vector3d center;
