@@ -44,10 +44,11 @@ struct Parameters {
           {.unit = "1",
            .min = 0,
            .max = 1e12,
-           .doc = "Under `motion: auto`: where pushes are in vain and free space leads out, a walk along it, given up "
-                  "after so many looks at poses without progress, and some detours; one look takes 1000 distances, "
-                  "cheaper ones count as a part of one, a quarter at least. Under a depth limit of 2 or 3 a half of it "
-                  "for each level below 4, and none for what is larger than half of what stays. 0: none."});
+           .doc = "Under `motion: auto`: where free space leads out, a walk along it, given up after so many looks at "
+                  "poses without progress, and some detours; one look takes 1000 distances, cheaper ones count as a "
+                  "part of one, a quarter at least. Under a depth limit of 2 (then a half of it) or more it comes "
+                  "before pushes, but below 4 not for what is larger than half of what stays; without a limit after "
+                  "as many steps as before a forest, or, of what is thinner than its overlaps, a tenth. 0: none."});
     s.add("lead_cells", &Parameters::lead_cells,
           {.unit = "1",
            .min = 1000,

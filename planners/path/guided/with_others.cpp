@@ -44,6 +44,7 @@ class Others {
         parameters_(parameters),
         tactics_(tactics),
         context_(context),
+        thin_(free_space::overlaps_through(query)),
         steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
     limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
     limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
@@ -51,14 +52,14 @@ class Others {
   }
 
   PathResult under_depth_limit() {
-    pushes_ = push::plan(query_, tactics_, context_);
-    spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
-    if (!undecided(pushes_)) return pushes_;
     const unsigned depth = query_.effort.max_depth;
     if (depth >= kLeastDepthOfLarge || (depth >= kLeastDepthOfLead && !is_large(query_))) {
-      lead(kDeepLead - std::min(depth, kDeepLead));
+      lead(depth <= kLeastDepthOfLead ? 1 : 0);
       if (!undecided(led_)) return together(led_);
     }
+    pushes_ = push::plan(query_, tactics_, context_);
+    spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
+    if (!undecided(pushes_)) return together(pushes_);
     // Ways that the judge refused lead out, and only cut a little too deep.
     const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
     if (!nearly && depth < kLeastDepth) return together(pushes_);
@@ -71,6 +72,7 @@ class Others {
     push::ByTurns pushing(query_, tactics_, context_);
     const auto most = static_cast<std::uint64_t>(parameters_.forest_steps);
     std::optional<tunnel_forest::Growth> growth;
+    if (thin_) limits_.pause_after /= kLeadThinAfter;
     bool pushing_ends = false, forest_ends = most == 0, walked = false;
     while (!pushing_ends || !forest_ends) {
       if (!pushing_ends) {
@@ -84,6 +86,8 @@ class Others {
         walk(static_cast<double>(parameters_.squeeze_looks));
         walked = true;
         if (!undecided(squeezed_)) return together(squeezed_);
+        limits_.pause_after = static_cast<std::uint64_t>(parameters_.forest_after);
+        if (thin_ && !pushing_ends) continue;
       }
       if (!forest_ends) {
         if (!growth) growth.emplace(tunnel_forest::Parameters{}, query_, context_);
@@ -104,9 +108,10 @@ class Others {
 
  private:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-  static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk ...
-  static constexpr unsigned kDeepLead = 4;    // ... and all the patience of one that is led
+  static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
   static constexpr unsigned kMostDetours = 8;
+  static constexpr std::int64_t kFewRefusals = 3;
+  static constexpr std::uint64_t kLeadThinAfter = 10;  // of what is thin pushes pause for walks so many times earlier
 
   void spend(std::uint64_t steps) {
     if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, steps);
@@ -127,13 +132,30 @@ class Others {
   /// Likewise. Patience and detours halved so many times.
   void lead(unsigned halvings) {
     const double patience = std::ldexp(static_cast<double>(parameters_.lead_looks), -static_cast<int>(halvings));
+    const unsigned detours = kMostDetours >> halvings;
     led_.outcome = Outcome::depth_limit;
     if (patience > 0 && steps_left_ > 0) {
-      free_space::LedWalk walk(tolerant_walk_, query_, context_, static_cast<std::size_t>(parameters_.lead_cells));
-      if (walk.leads_out()) led_ = walk.run(steps_left_, patience, kMostDetours >> halvings);
-      spend(walk.looks());
+      tolerant_walk::Parameters walk;
+      if (thin_) {
+        // What has only some play so may be held with interference all the way out. Else its ways lead through walls.
+        if (lead(tolerant_walk::Overlap::near_start, walk, patience, detours)) {
+          walk.max_refusals = kFewRefusals;
+          lead(tolerant_walk::Overlap::everywhere, walk, patience, detours);
+        }
+      } else {
+        lead(tolerant_walk::Overlap::everywhere, walk, patience, detours);
+      }
     }
     if (undecided(led_) && steps_left_ == 0) led_.outcome = Outcome::timeout;
+  }
+
+  /// True where that shows no more than some play.
+  bool lead(tolerant_walk::Overlap overlap, const tolerant_walk::Parameters& parameters, double patience,
+            unsigned most_detours) {
+    free_space::LedWalk walk(parameters, query_, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap);
+    if (walk.leads_out()) led_ = walk.run(steps_left_, patience, most_detours);
+    spend(walk.looks());
+    return undecided(led_) && walk.held();
   }
 
   /// What all have counted and touched, in the one that says how it ended.
@@ -155,9 +177,9 @@ class Others {
   const Parameters& parameters_;
   const push::Tactics& tactics_;
   RunContext& context_;
+  const bool thin_;
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
-  const tolerant_walk::Parameters tolerant_walk_{};
   PathResult pushes_, led_, squeezed_, forest_;
 };
 
