@@ -74,9 +74,17 @@ bool TakingApart::join_flat(Group& group) {
   return false;
 }
 
-/// Likewise, before searches of a part that has only one other in its way get very long, while others wait for theirs.
+/// Is it one more search until join_confined_for_sure()?
+bool TakingApart::close_to_proof(const Group& group) const {
+  return relations_ && params_.cages && std::any_of(group.units.begin(), group.units.end(), [&](UnitId u) {
+           if (!wants_depth(u)) return false;
+           const unsigned depth = tried_.at(units_[u].front()).depth;
+           return depth + 1 == kDepthForSure;
+         });
+}
+
+/// Likewise, before searches of a part that has only one other in its way get very long.
 bool TakingApart::join_confined_for_sure(Group& group) {
-  if (group.units.size() < 3) return false;
   for (const UnitId u : group.units) {
     if (!wants_depth(u) || tried_.at(units_[u].front()).depth < kDepthForSure) continue;
     const std::optional<UnitId> v = alone_in_the_way(group, u);

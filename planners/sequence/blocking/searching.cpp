@@ -245,7 +245,8 @@ bool TakingApart::search(Group& group) {
   const bool deeper = !group.waiting.empty();
   const unsigned most = deepest(group);
   const bool more_slides = group.slides_cut && group.units.size() > 2 && group.depth < params_.max_depth;
-  if (!more_slides && (!deeper || group.depth >= most || group.units.size() == 2)) {
+  const bool pair = group.units.size() == 2 && !close_to_proof(group);
+  if (!more_slides && (!deeper || group.depth >= most || pair)) {
     group.searched_out = true;
   } else {
     ++group.depth;

@@ -108,8 +108,9 @@ void TakingApart::dismantle(Group group) {
     if (relations_ && params_.at_once && group.units.size() > 2) {
       if (together(group)) continue;
     }
-    // Two that are left, with nobody to be fair to, are searched without limit at once.
-    if (group.units.size() == 2 &&
+    // Two that are left, with nobody to be fair to, are searched without limit at once; but if searches were in vain
+    // that were not deep enough for a proof that they are held, that comes first.
+    if (group.units.size() == 2 && !close_to_proof(group) &&
         std::none_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() > 1; }))
       group.searched_out = true;
     if (!group.searched_out) {

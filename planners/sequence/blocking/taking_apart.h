@@ -90,6 +90,7 @@ class TakingApart {
   bool join_flat(Group& group);
   bool join_interlocked(Group& group);
   bool join_confined(Group& group);
+  bool close_to_proof(const Group& group) const;
   bool join_confined_for_sure(Group& group);
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
   void join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why);
