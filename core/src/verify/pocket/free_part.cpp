@@ -25,11 +25,10 @@ struct Polygon {
 
 /// Does the triangle's plane miss the box about the origin? The normal of a sliver is not known well, so it is taken
 /// with what rounding may have done to it.
-bool plane_is_elsewhere(const std::array<Vec3, 3>& triangle, const Vec3& half) {
-  const Vec3 u = triangle[1] - triangle[0], v = triangle[2] - triangle[0], normal = u.cross(v);
-  const double edges = u.norm() + v.norm(), reach = 1 + triangle[0].norm();
-  return std::abs(normal.dot(triangle[0])) >
-         normal.cwiseAbs().dot(half) + kSurfaceRounding * normal.norm() + kNormalRounding * edges * (1 + edges) * reach;
+bool plane_is_elsewhere(const Pinned::Plane& plane, const Vec3& corner, const Vec3& half) {
+  const double reach = 1 + corner.lpNorm<1>();
+  return std::abs(plane.normal.dot(corner)) > plane.normal.cwiseAbs().dot(half) + kSurfaceRounding * plane.length +
+                                                  kNormalRounding * plane.edges * (1 + plane.edges) * reach;
 }
 
 /// The part of a triangle within the box about the origin.
@@ -76,9 +75,10 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     for (const double s : {-1.0, 1.0}) normals.push_back(s * Vec3::Unit(k));
   solid.bvh.overlapping(box, [&](std::uint32_t t) {
     if (corners.size() > kMostCorners) return;
-    std::array<Vec3, 3> c = solid.bvh.corners(t);
+    const auto& whole = solid.bvh.corners(t);
+    if (plane_is_elsewhere(faced.planes[t], whole[0] - at, half)) return;
+    std::array<Vec3, 3> c = whole;
     for (Vec3& x : c) x -= at;
-    if (plane_is_elsewhere(c, half)) return;
     const Polygon polygon = clipped(c, half);
     if (polygon.count == 0) return;
     corners.insert(corners.end(), polygon.corner.begin(),

@@ -49,6 +49,16 @@ double area_near(const std::vector<Solid>& solids, Aabb other, double reach) {
   return area;
 }
 
+std::vector<Pinned::Plane> planes_of(const Solid& solid) {
+  std::vector<Pinned::Plane> planes;
+  for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
+    const auto& c = solid.bvh.corners(t);
+    const Vec3 u = c[1] - c[0], v = c[2] - c[0], normal = u.cross(v);
+    planes.push_back({normal, normal.norm(), u.norm() + v.norm()});
+  }
+  return planes;
+}
+
 }  // namespace
 
 Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth) {
@@ -63,7 +73,8 @@ Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double 
   const double spacing_a = spacing(a, box_b), spacing_b = spacing(b, box_a);
   const double cell = 0.5 * std::min(spacing_a, spacing_b);
   for (const auto* solids : {&a, &b})
-    for (const Solid& s : *solids) faced_.push_back({&s, s.frame.inverse(), Occupancy(s.bvh, s.box, cell)});
+    for (const Solid& s : *solids)
+      faced_.push_back({&s, s.frame.inverse(), Occupancy(s.bvh, s.box, cell), planes_of(s)});
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k) {
       add(a[i], static_cast<std::uint32_t>(a.size() + k), true, depth, spacing_a, reach);

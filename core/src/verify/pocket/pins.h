@@ -24,10 +24,16 @@ struct Pin {
 /// rotation vector, about the centre, and a shift of the centre.
 class Pinned {
  public:
+  /// The plane of a triangle, of length twice the area, and the lengths of two edges.
+  struct Plane {
+    Eigen::Vector3d normal;
+    double length, edges;
+  };
   struct Faced {
     const Solid* solid;
     Pose to_local;  ///< from the assembled frame
     Occupancy occupied;
+    std::vector<Plane> planes;  ///< by triangle
   };
 
   /// Pins are `depth` (> 0) below the surface and more. Outlived by the solids.
