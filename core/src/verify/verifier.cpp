@@ -265,7 +265,7 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
       grown = y.box;
       grown.inflate(limits.most());
       const verify::RelativeMotion backward(poses_b, poses_a, grown);
-      // Most that do not pass show it at a sample, which takes a hundredth of what it takes to fail to certify them.
+      // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
       const Finding seen = verify::deepest_sample(x, y, forward, backward);
       if (seen.depth > limits.at(seen.thickness)) return false;
       verify::Budget budget{kQuickTests, kQuickPatches};

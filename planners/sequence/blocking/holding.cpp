@@ -74,12 +74,11 @@ bool TakingApart::join_flat(Group& group) {
   return false;
 }
 
-/// Is it one more search until join_confined_for_sure()?
+/// Is it one more search until join_confined_for_sure()? Of what was joined, or may not leave, none will be made.
 bool TakingApart::close_to_proof(const Group& group) const {
   return relations_ && params_.cages && std::any_of(group.units.begin(), group.units.end(), [&](UnitId u) {
-           if (!wants_depth(u)) return false;
-           const unsigned depth = tried_.at(units_[u].front()).depth;
-           return depth + 1 == kDepthForSure;
+           return units_[u].size() == 1 && wants_depth(u) && may_leave(group, {u}) &&
+                  tried_.at(units_[u].front()).depth + 1 == kDepthForSure;
          });
 }
 

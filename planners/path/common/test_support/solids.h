@@ -8,6 +8,7 @@
 
 #include "dismantle/geometry/aabb.h"
 #include "dismantle/model/assembly.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::path::test {
 
@@ -30,6 +31,12 @@ inline Mesh boxes(const std::vector<Aabb>& list) {
       mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
   }
   return mesh;
+}
+
+/// Turned anyhow, within a cube about the origin of half width `spread`.
+inline Pose random_pose(Rng& rng, double spread) {
+  const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
+  return {spread * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
 }
 
 inline Mesh moved(Mesh mesh, const Pose& pose) {

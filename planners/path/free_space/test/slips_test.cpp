@@ -14,11 +14,7 @@ using Eigen::Vector3d;
 using path::test::helix;
 using path::test::Helix;
 using path::test::moved;
-
-Pose random_pose(Rng& rng) {
-  const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
-  return {3 * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
-}
+using path::test::random_pose;
 
 /// Of a motion about `center`: where it takes `p` in a short time.
 Vector3d speed(const Twist& twist, const Vector3d& center, const Vector3d& p) {
@@ -28,7 +24,7 @@ Vector3d speed(const Twist& twist, const Vector3d& center, const Vector3d& p) {
 TEST(Slips, OfAHelixAreItsScrew) {
   Rng rng(2);
   for (int k = 0; k < 10; ++k) {
-    const Pose pose = random_pose(rng);
+    const Pose pose = random_pose(rng, 3);
     const Helix h{.radius = rng.uniform(0.3, 1), .pitch = rng.uniform(0.2, 1), .wire = 0.02, .turns = 3};
     const Mesh mesh = moved(helix(h), pose);
     const Vector3d center = mesh.box().center();
@@ -45,7 +41,7 @@ TEST(Slips, OfAHelixAreItsScrew) {
 
 TEST(Slips, OfARodAreAlongItAndAboutIt) {
   Rng rng(3);
-  const Mesh rod = moved(helix({.radius = 0, .pitch = 4, .wire = 0.02, .turns = 1, .around = 24}), random_pose(rng));
+  const Mesh rod = moved(helix({.radius = 0, .pitch = 4, .wire = 0.02, .turns = 1, .around = 24}), random_pose(rng, 3));
   const std::vector<Twist> found = slips(rod, rod.box().center());
   EXPECT_EQ(found.size(), 2U);
 }
@@ -56,7 +52,7 @@ TEST(Slips, OfABoxAreNone) {
     const Vector3d half(rng.uniform(0.2, 1), rng.uniform(0.2, 1), rng.uniform(0.2, 1));
     const Mesh box =
         moved(path::test::boxes({path::test::block(-half.x(), -half.y(), -half.z(), half.x(), half.y(), half.z())}),
-              random_pose(rng));
+              random_pose(rng, 3));
     EXPECT_TRUE(slips(box, box.box().center()).empty()) << half.transpose();
   }
 }

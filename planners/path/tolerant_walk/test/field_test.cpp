@@ -14,11 +14,7 @@ using path::test::assembly_of;
 using path::test::block;
 using path::test::boxes;
 using path::test::moved;
-
-Pose random_pose(Rng& rng, double spread) {
-  const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
-  return {spread * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
-}
+using path::test::random_pose;
 
 TEST(SolidField, IsWithinACellOfTheDistance) {
   Rng rng(3);
