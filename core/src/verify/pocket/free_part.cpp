@@ -68,7 +68,8 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     result.all = true;
     return result;
   }
-  static thread_local std::vector<Vec3> corners, normals;
+  static thread_local struct { std::vector<Vec3> corners, normals; } kept;
+  auto& [corners, normals] = kept;  // once: to find what is the thread's own takes a call each time
   corners.clear();
   normals.clear();
   for (int k = 0; k < 3; ++k)

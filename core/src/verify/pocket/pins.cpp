@@ -14,7 +14,8 @@ using Vec3 = Eigen::Vector3d;
 
 constexpr double kLeastSpacing = 0.02;  // assembly units; closer pins find nothing more on parts of some size
 constexpr double kMostPins = 6000;      // about so many for each part
-constexpr double kLever = 0.7;          // of the radius: at which points are about when the part turns
+constexpr double kLever = 0.85;         // of the distance of the furthest pin from an axis: about that of the others
+constexpr double kLeastLever = 1e-6;    // assembly units
 
 /// From a point of the surface to where the solid is `depth` deep; nothing where it is not.
 std::optional<Vec3> sunk(const Solid& solid, const Vec3& from, const Vec3& inward, double depth) {
@@ -74,12 +75,17 @@ Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double 
   const double cell = 0.5 * std::min(spacing_a, spacing_b);
   for (const auto* solids : {&a, &b})
     for (const Solid& s : *solids)
-      faced_.push_back({&s, s.frame.inverse(), Occupancy(s.bvh, s.box, cell), planes_of(s)});
+      faced_.push_back({&s, s.frame.inverse(), s.frame.q.toRotationMatrix().transpose(), Occupancy(s.bvh, s.box, cell),
+                        planes_of(s)});
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k) {
       add(a[i], static_cast<std::uint32_t>(a.size() + k), true, depth, spacing_a, reach);
       add(b[k], static_cast<std::uint32_t>(i), false, depth, spacing_b, reach);
     }
+  Vec3 furthest = Vec3::Zero();  // from each axis: parts that are long turn about their length with little effect
+  for (const Pin& p : pins_)
+    for (int d = 0; d < 3; ++d) furthest[d] = std::max(furthest[d], p.at.cross(Vec3::Unit(d)).norm());
+  scale_ << (kLever * furthest).cwiseMax(kLeastLever), Vec3::Ones();
 }
 
 void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, double spacing, double reach) {
@@ -115,12 +121,6 @@ bool borderless(const std::vector<Solid>& solids) {
   return std::all_of(solids.begin(), solids.end(), [](const Solid& s) { return edge_use(s.mesh).closed(); });
 }
 
-Vector6 Pinned::scale() const {
-  Vector6 scale;
-  scale << Vec3::Constant(kLever * radius_), Vec3::Ones();
-  return scale;
-}
-
 Stance::Stance(const Pinned& pinned, const Vector6& x)
     : pinned_(&pinned), turn_(rotation_from_vector(x.head<3>()).toRotationMatrix()), shift_(x.tail<3>()) {
   moved_ = shift_.norm() + pinned.radius() * (turn_ - Eigen::Matrix3d::Identity()).norm();
@@ -128,7 +128,8 @@ Stance::Stance(const Pinned& pinned, const Vector6& x)
 
 Vec3 Stance::seen(const Pin& pin) const {
   const Vec3 p = pin.of_a ? Vec3(turn_ * pin.at + shift_) : Vec3(turn_.transpose() * (pin.at - shift_));
-  return pinned_->faced(pin).to_local * Vec3(p + pinned_->center());
+  const Pinned::Faced& faced = pinned_->faced(pin);
+  return faced.turn * (p + pinned_->center()) + faced.to_local.t;
 }
 
 bool Stance::inside(const Pin& pin) const { return pinned_->faced(pin).occupied.inside(seen(pin)); }

@@ -31,7 +31,8 @@ class Pinned {
   };
   struct Faced {
     const Solid* solid;
-    Pose to_local;  ///< from the assembled frame
+    Pose to_local;         ///< from the assembled frame
+    Eigen::Matrix3d turn;  ///< of that
     Occupancy occupied;
     std::vector<Plane> planes;  ///< by triangle
   };
@@ -43,8 +44,8 @@ class Pinned {
   const Faced& faced(const Pin& pin) const { return faced_[pin.faced]; }
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }  ///< of `a` about the centre
-  /// About how far points of `a` move, in assembly units, for one of each coordinate.
-  Vector6 scale() const;
+  /// About how far pins move, in assembly units, for one of each coordinate.
+  const Vector6& scale() const { return scale_; }
 
  private:
   void add(const Solid& of, std::uint32_t faced, bool of_a, double depth, double spacing, double reach);
@@ -53,6 +54,7 @@ class Pinned {
   Eigen::Vector3d center_;
   double radius_ = 0;
   std::vector<Pin> pins_;
+  Vector6 scale_;
 };
 
 /// Have the surfaces no border? Only then does whatever gets inside pass through them, as pins would have to.

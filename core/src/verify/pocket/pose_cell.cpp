@@ -57,8 +57,8 @@ class View {
   }
 
   Spread spread(const Pin& pin) const {
-    const Pose& to_local = pinned_.faced(pin).to_local;
-    const Mat3 f = to_local.q.toRotationMatrix();
+    const Pinned::Faced& faced = pinned_.faced(pin);
+    const Mat3& f = faced.turn;
     Spread s;
     Vec3 p;
     if (pin.of_a) {
@@ -74,7 +74,7 @@ class View {
       s.rest = 0.5 * turn_reach_ * turn_reach_ * from.norm() + turn_reach_ * shift_reach_;
     }
     s.rest += kRounding;
-    s.at = to_local * Vec3(p + pinned_.center());
+    s.at = f * (p + pinned_.center()) + faced.to_local.t;
     s.half = s.slope.cwiseAbs() * half_;
     s.half.array() += s.rest;
     return s;

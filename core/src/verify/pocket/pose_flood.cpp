@@ -9,7 +9,7 @@ namespace {
 constexpr double kLeastExtent = 5e-4;    // assembly units: cells that are smaller are not divided
 constexpr double kSmall = 1.0 / 16;      // of the whole box: cells that tell something by their centres
 constexpr std::size_t kSeldom = 16;      // rounds: how often large ones are asked as well
-constexpr double kAbout = 0.5;           // cells so much smaller than others are divided later
+constexpr double kAbout = 0.8;           // cells so much smaller than others are divided later
 constexpr double kGrain = 0.05;          // assembly units: what a walk has reached is measured in grains of that size
 constexpr double kMostGrains = 5e5;      // of more a proof is not to be expected
 constexpr std::size_t kPause = 500;      // rounds after which the walk is sent again, twice as many each time in vain
