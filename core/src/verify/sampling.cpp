@@ -1,23 +1,30 @@
 #include "verify/sampling.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace dismantle::verify {
 namespace {
 
-constexpr std::size_t kLeastTimes = 24, kMostTimes = 48, kVertices = 96;
+constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
 
-void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, bool of_second, Finding& best) {
+/// Vertices of those triangles of `a` that are where `b` passes by, as it moves backwards seen from `a`.
+void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
+            bool of_second, Finding& best) {
   const std::size_t segments = motion.segments();
   const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
-  const std::size_t triangles = a.mesh.triangles.size();
+  std::vector<std::uint32_t> near;
+  a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
+  if (near.empty()) return;
+  std::sort(near.begin(), near.end());
   for (std::size_t i = 0; i < times; ++i) {
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
     // Another selection each time, so that together they cover more.
-    const std::size_t count = std::min(kVertices, triangles);
+    const std::size_t count = std::min(kVertices, near.size());
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t t = (k * triangles / count + i * 7919) % triangles;
+      const std::size_t t = near[(k * near.size() / count + i * 7919) % near.size()];
       const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));
       const Eigen::Vector3d x = place * p;
       if (!b.box.contains(x) || !b.bvh.inside(x)) continue;
@@ -32,8 +39,8 @@ void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, bool o
 Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward) {
   Finding best;
   best.answer = Answer::violated;
-  sample(a, b, forward, false, best);
-  sample(b, a, backward, true, best);
+  sample(a, b, forward, backward, false, best);
+  sample(b, a, backward, forward, true, best);
   return best;
 }
 

@@ -27,6 +27,7 @@ constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1
 constexpr double kWorthwhile = 1e-3;
 /// A rung is tried if the deepest point known takes no more than this share of it.
 constexpr double kRoom = 0.8;
+constexpr std::size_t kManySegments = 16;
 /// Budgets per pair of solids, in sweep tests: for passes(), for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
@@ -154,20 +155,30 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
 
   const std::size_t last = rungs.size() - 1;
-  for (bool first_try = true;; first_try = false) {
+  // Ways of many segments are close fits, of which low rungs are tried in vain: samples first.
+  bool sampled = forward.segments() >= kManySegments;
+  bool sample_tells = false;
+  Finding seen;
+  if (sampled) {
+    seen = verify::deepest_sample(x, y, forward, backward);
+    sample_tells = seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness);
+  }
+  for (;;) {
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
     const std::uint64_t patches = decides ? kFullPatches : kTryPatches;
     verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
                           allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
-    Finding f = verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    sample_tells = false;
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
     if (f.answer == Answer::exhausted && context.should_stop()) {
       result.interrupted = true;
       return false;
     }
-    if (first_try) {  // before more effort: how deep is it at least?
-      const Finding seen = verify::deepest_sample(x, y, forward, backward);
+    if (!sampled) {  // before more effort: how deep is it at least?
+      seen = verify::deepest_sample(x, y, forward, backward);
+      sampled = true;
       if (seen.depth > f.depth || f.answer != Answer::violated)
         if (seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness)) f = seen;
     }
