@@ -33,7 +33,8 @@ struct Verdict {
   PartId part = 0, other = 0;                       ///< `point` of `part` lies inside `other`
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled frame of `part`
   std::size_t instant = 0;                          ///< path index at (or just after) which it happened
-  std::string reason;
+  std::string reason{};
+  std::vector<Pose> poses{};  ///< of the moving parts when it happened; may be empty
 };
 
 struct PathQuery {

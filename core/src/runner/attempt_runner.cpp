@@ -149,6 +149,8 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
     if (j.check.violation) {
       const Violation& v = *j.check.violation;
       j.verdict.instant = j.written.given_instant(v.segment, v.u);
+      const auto &from = j.written.path.at(v.segment), &to = j.written.path.at(v.segment + 1);
+      for (std::size_t i = 0; i < from.size(); ++i) j.verdict.poses.push_back(screw_interpolate(from[i], to[i], v.u));
       const auto name = [&](PartId id) {
         return id < assembly_.parts.size() ? assembly_.parts[id].name : fmt::format("part {}", id);
       };

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "dismantle/geometry/triangle_bvh.h"
 #include "oracle_rig.h"
 
 namespace dismantle {
@@ -98,6 +99,12 @@ TEST(Oracle, TheJudgeSaysWhere) {
   EXPECT_EQ(said.part + said.other, 1u);
   EXPECT_EQ(said.instant, 1u);
   EXPECT_FALSE(said.reason.empty());
+  // Exactly there, not at the next instant.
+  ASSERT_EQ(said.poses.size(), 1u);
+  const PartId moving = 1;
+  const Eigen::Vector3d seen = said.part == moving ? said.poses[0] * said.point : said.poses[0].inverse() * said.point;
+  const Mesh& other = *s.assembly.parts[said.other].mesh;
+  EXPECT_LT(TriangleBvh(other).signed_distance(seen), -0.009);
 }
 
 TEST(Oracle, RefusesPathsThatAreNoPaths) {

@@ -18,7 +18,8 @@ constexpr int kRepairs = 4;          // tries to shorten the same way, after it 
 
 }  // namespace
 
-PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap)
+PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
+                   GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       context_(context),
@@ -26,7 +27,7 @@ PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunCont
       deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
                                          : context.deadline),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.cast, parameters.max_penetration, overlap) {
+      tolerance_(query.assembly, query.cast, parameters.max_penetration, overlap, cache) {
   const std::size_t count = query.cast.moving.size();
   for (std::size_t i = 0; i < count; ++i) {
     bodies_.push_back({world_->center(i), world_->radius(i)});
@@ -152,7 +153,7 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
     ++refused_;
     result.message = verdict.reason;
     if (!verdict.has_witness) break;
-    const auto& instant = path[std::min(verdict.instant, path.size() - 1)];
+    const auto& instant = verdict.poses.empty() ? path[std::min(verdict.instant, path.size() - 1)] : verdict.poses;
     at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
     if (tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault)) {
       cut_disallowed();
