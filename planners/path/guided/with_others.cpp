@@ -39,10 +39,12 @@ bool undecided(const PathResult& r) { return r.outcome == Outcome::depth_limit |
 
 class Others {
  public:
-  Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics, RunContext& context)
+  Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
+         tolerant_walk::GeometryCache& cache, RunContext& context)
       : query_(query),
         parameters_(parameters),
         tactics_(tactics),
+        cache_(cache),
         context_(context),
         thin_(free_space::overlaps_through(query)),
         steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
@@ -122,7 +124,7 @@ class Others {
     const std::uint64_t most = std::min(static_cast<std::uint64_t>(looks), steps_left_);
     squeezed_.outcome = Outcome::depth_limit;  // also where there is nothing left for it
     if (most > 0) {
-      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query_, context_);
+      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query_, context_, cache_);
       squeezed_ = walk.run(most);
       spend(walk.looks());
     }
@@ -152,7 +154,8 @@ class Others {
   /// True where that shows no more than some play.
   bool lead(tolerant_walk::Overlap overlap, const tolerant_walk::Parameters& parameters, double patience,
             unsigned most_detours) {
-    free_space::LedWalk walk(parameters, query_, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap);
+    free_space::LedWalk walk(parameters, query_, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
+                             cache_);
     if (walk.leads_out()) led_ = walk.run(steps_left_, patience, most_detours);
     spend(walk.looks());
     return undecided(led_) && walk.held();
@@ -176,6 +179,7 @@ class Others {
   const PathQuery& query_;
   const Parameters& parameters_;
   const push::Tactics& tactics_;
+  tolerant_walk::GeometryCache& cache_;
   RunContext& context_;
   const bool thin_;
   std::uint64_t steps_left_;
@@ -186,8 +190,8 @@ class Others {
 }  // namespace
 
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
-                            RunContext& context) {
-  Others others(query, parameters, tactics, context);
+                            tolerant_walk::GeometryCache& cache, RunContext& context) {
+  Others others(query, parameters, tactics, cache, context);
   return query.effort.max_depth > 0 ? others.under_depth_limit() : others.by_turns();
 }
 

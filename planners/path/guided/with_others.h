@@ -4,6 +4,7 @@
 
 #include "dismantle/path_planner.h"
 #include "dismantle/push/tactics.h"
+#include "dismantle/tolerant_walk/geometry_cache.h"
 #include "parameters.h"
 
 namespace dismantle::guided {
@@ -16,6 +17,6 @@ namespace dismantle::guided {
 /// Under a depth limit: the pushes, and then the walks in proportion to it, no forest. Counts of the walks and of the
 /// forest begin with "led_", "squeeze_" and "forest_".
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
-                            RunContext& context);
+                            tolerant_walk::GeometryCache& cache, RunContext& context);
 
 }  // namespace dismantle::guided

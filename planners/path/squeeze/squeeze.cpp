@@ -13,7 +13,7 @@ class Squeeze final : public PathPlanner {
   Capabilities needs() const noexcept override { return tolerant_walk::kNeeds; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
-    tolerant_walk::Walk walk(parameters_, query, context);
+    tolerant_walk::Walk walk(parameters_, query, context, cache_);
     return walk.run(limit(query.effort.max_depth));
   }
 
@@ -27,6 +27,7 @@ class Squeeze final : public PathPlanner {
   }
 
   tolerant_walk::Parameters parameters_;
+  tolerant_walk::GeometryCache cache_;
 };
 
 }  // namespace

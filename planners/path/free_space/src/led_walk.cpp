@@ -72,11 +72,11 @@ bool overlaps_through(const PathQuery& query) {
 }
 
 LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-                 std::size_t most_cells, tolerant_walk::Overlap overlap)
+                 std::size_t most_cells, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x1ed0a1c)),
-      tree_(parameters_, query, context, rng_, overlap),
+      tree_(parameters_, query, context, rng_, overlap, cache),
       body_(points_of(query)),
       ways_(query.assembly, query.cast.still, ball_of(body_), most_cells),
       leads_out_(have_ways()),

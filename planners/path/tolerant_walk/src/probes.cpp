@@ -189,6 +189,10 @@ void Probes::learn_from(const Probes& other) {
   }
 }
 
+std::size_t Probes::bytes() const {
+  return size() * sizeof(Probe) + nodes_.size() * sizeof(Node) + starts_.size() * sizeof(Probe::Start);
+}
+
 bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& asked) {
   const Eigen::Matrix3d r = place.q.toRotationMatrix();
   const auto violated = [&](const Probe& p) {

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/geometry/mesh_measure.h"
+
 namespace dismantle::tolerant_walk {
 namespace {
 
 constexpr double kAround = 0.1;  // assembly units: so far around the part distances are known; more than probes keep
 constexpr double kCoarse = 8;    // fine cells
 constexpr double kFar = 0.12;    // assembly units: further from the surface the coarse grid will do
-constexpr double kMostBlocks = 4e6;  // of which only those that are used take memory
+constexpr double kMostError = 0.8661;  // of a cell: what interpolation of distances is wrong by, at most
+constexpr double kMostBlocks = 4e6;    // of which only those that are used take memory
 
 Aabb grown(Aabb box) {
   box.inflate(kAround);
@@ -32,20 +35,23 @@ SolidField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
   known_.resize(count);
 }
 
-/// A place that is further from the surface than its neighbour has the sign of that.
-int SolidField::Grid::sign_from_neighbours(const Block& block, std::ptrdiff_t place) const {
+/// From one place to the next the distance changes by a cell at most; and the sign only where the surface is closer.
+SolidField::Grid::Known SolidField::Grid::from_neighbours(const Block& block, std::ptrdiff_t place) const {
   constexpr auto kEdge = static_cast<std::ptrdiff_t>(kBlock);
   const auto reach = static_cast<float>(1.01 * cell_);
+  Known known{0, std::numeric_limits<double>::infinity()};
   std::ptrdiff_t stride = 1;
   for (int axis = 0; axis < 3; ++axis, stride *= kEdge) {
     const std::ptrdiff_t along = place / stride % kEdge;
     for (const int step : {-1, 1}) {
       if (along + step < 0 || along + step >= kEdge) continue;
       const float value = block[static_cast<std::size_t>(place + step * stride)];
-      if (std::abs(value) > reach) return value < 0 ? -1 : 1;  // false for what is not known
+      if (std::isnan(value)) continue;
+      known.most = std::min(known.most, static_cast<double>(std::abs(value) + reach));
+      if (std::abs(value) > reach) known.sign = value < 0 ? -1 : 1;
     }
   }
-  return 0;
+  return known;
 }
 
 double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
@@ -66,6 +72,7 @@ double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
     if (field == nullptr) return std::numeric_limits<double>::quiet_NaN();
     block = std::make_unique<Block>();
     block->fill(std::numeric_limits<float>::quiet_NaN());
+    ++blocks_known_;
   }
   float* const v = block->data() + (i[2] * kBlock + i[1]) * kBlock + i[0];
   const auto interpolated = [&] {
@@ -86,8 +93,9 @@ double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       place[static_cast<Eigen::Index>(axis)] = static_cast<double>(b[axis] * static_cast<std::int64_t>(kBlock - 1) +
                                                                    static_cast<std::int64_t>(i[axis] + d[axis]));
-    known =
-        static_cast<float>(field->exact(box_.lo + cell_ * place, sign_from_neighbours(*block, &known - block->data())));
+    Known about = from_neighbours(*block, &known - block->data());
+    if (!field->closed_) about.sign = 0;  // it changes in free space, too
+    known = static_cast<float>(field->exact(box_.lo + cell_ * place, about.sign, about.most));
   }
   return interpolated();
 }
@@ -97,23 +105,35 @@ SolidField::SolidField(std::shared_ptr<const Mesh> mesh, double cell)
       bvh_(*mesh_),
       box_(mesh_->box()),
       around_(grown(box_)),
+      closed_(edge_use(*mesh_).closed()),
       coarse_(around_, kCoarse * cell),
-      fine_(around_, cell) {}
+      fine_(around_, cell),
+      surely_near_(kFar - kMostError * (coarse_.cell() + fine_.cell())) {}
 
-double SolidField::exact(const Eigen::Vector3d& p, int sign) const {
-  const double d = bvh_.closest(p).distance;
+double SolidField::exact(const Eigen::Vector3d& p, int sign, double most) const {
+  double d = bvh_.closest(p, most).distance;
+  if (!(d < most)) d = bvh_.closest(p).distance;
   const bool inside = sign != 0 ? sign < 0 : box_.contains(p) && bvh_.inside(p);
   return inside ? -d : d;
 }
 
-double SolidField::exactly(const Eigen::Vector3d& p) const { return exact(p, 0); }
+std::size_t SolidField::bytes() const {
+  // The hierarchy has about two nodes for each triangle.
+  return coarse_.bytes() + fine_.bytes() + bvh_.nodes().size() * (sizeof(TriangleBvh::Node) + sizeof(Triangle));
+}
+
+double SolidField::exactly(const Eigen::Vector3d& p) const {
+  return exact(p, 0, std::numeric_limits<double>::infinity());
+}
 
 double SolidField::at(const Eigen::Vector3d& p) {
   const double outside = around_.squared_distance(p);
   if (outside > 0) return kAround + std::sqrt(outside);
-  if (const double known = fine_.at(p, nullptr); !std::isnan(known)) return known;
+  const double known = fine_.at(p, nullptr);
+  if (std::abs(known) < surely_near_) return known;  // false for what is not known
   const double about = coarse_.at(p, this);
-  return std::abs(about) > kFar ? about : fine_.at(p, this);
+  if (std::abs(about) > kFar) return about;
+  return std::isnan(known) ? fine_.at(p, this) : known;
 }
 
 }  // namespace dismantle::tolerant_walk

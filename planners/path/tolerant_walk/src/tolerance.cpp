@@ -8,7 +8,6 @@
 namespace dismantle::tolerant_walk {
 namespace {
 
-constexpr double kCell = 0.01;            // assembly units: of the fields
 constexpr double kNear = 0.06;            // assembly units: where the parts are so near each other when assembled ...
 constexpr double kSpacing = 0.03;         // ... their samples are so far apart,
 constexpr std::size_t kSamples = 5'000;   // or so that there are no more of each part around the other,
@@ -24,8 +23,10 @@ double reach_of_overlap(double overlap) { return kLeastReach + kReach * overlap;
 
 }  // namespace
 
-Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap)
-    : assembly_(assembly), cast_(cast), max_penetration_(max_penetration), overlap_(overlap) {
+Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap,
+                     GeometryCache& cache)
+    : assembly_(assembly), cast_(cast), max_penetration_(max_penetration), overlap_(overlap), cache_(cache) {
+  cache_.make_room();
   for (const auto& m : cast_.moving) {
     const Mesh& mesh = *assembly.parts[m.part].mesh;
     Ball ball{mesh.box().center(), 0};
@@ -37,7 +38,7 @@ Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_pene
 
 SolidField& Tolerance::field(PartId part) {
   auto& known = fields_[part];
-  if (!known) known = std::make_unique<SolidField>(assembly_.parts[part].mesh, kCell);
+  if (!known) known = cache_.field(assembly_.parts[part].mesh);
   return *known;
 }
 
@@ -57,10 +58,9 @@ Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& sti
 /// `strict`: what is deeper at the start is excused near there.
 Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& still, const Allowance& deep,
                                   bool strict) {
-  const double reach = reach_of_overlap(allowed(moving.part, still.part).overlap);
-  const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
+  const double reach = strict ? reach_of_overlap(allowed(moving.part, still.part).overlap) : 0;
+  const auto make = [&](const PlacedPart& of, const PlacedPart& other, const Pose& to_part) {
     // Where the other stands, as seen from this one; dense there, sparse all over.
-    const Pose to_part = of.pose.inverse() * other.pose;
     Aabb near;
     for (const auto& v : hull_corners(assembly_.parts[other.part].mesh->vertices)) near.extend(to_part * v);
     near.inflate(kNear);
@@ -68,10 +68,17 @@ Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& st
     const Pose place = to_part.inverse();
     Probes all(field(of.part), deep, near, kSamples, kSpacing,
                [&](const Eigen::Vector3d& p) { return to_other.at(place * p) < kNear; });
-    all.take(Probes(field(of.part), deep, field(of.part).box(), kElsewhere, kSpacing,
-                    [](const Eigen::Vector3d&) { return true; }));
+    all.take(cache_.probes({field(of.part).mesh(), deep}, [&] {
+      return Probes(field(of.part), deep, field(of.part).box(), kElsewhere, kSpacing,
+                    [](const Eigen::Vector3d&) { return true; });
+    }));
     if (strict) all.excuse(place, to_other, reach);
     return all;
+  };
+  const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
+    const Pose to_part = of.pose.inverse() * other.pose;
+    const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, deep, reach);
+    return cache_.probes(key, [&] { return make(of, other, to_part); });
   };
   return {made(moving, still), made(still, moving), deep, strict, 0};
 }

@@ -32,11 +32,11 @@ const std::array<Vec3, 26>& directions() {
 
 }  // namespace
 
-Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& context)
+Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
-      tree_(parameters_, query, context, rng_, Overlap::everywhere) {}
+      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache) {}
 
 void Walk::note(std::uint32_t node) {
   for (std::size_t d = 0; d < furthest_.size(); ++d)

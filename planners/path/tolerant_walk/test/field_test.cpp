@@ -54,7 +54,8 @@ TEST(Tolerance, AgreesWithTheDepthOfThePair) {
     const double overlap = penetration_depth(plate, Pose{}, ground, Pose{}, 1e-4);
     if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
     const double most = 0.01;
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most, Overlap::everywhere);
+    GeometryCache cache;
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most, Overlap::everywhere, cache);
     for (int i = 0; i < 60; ++i) {
       const Eigen::Quaterniond q(Eigen::AngleAxisd(
           rng.uniform(-0.02, 0.02), turned.q * Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized()));
@@ -84,7 +85,8 @@ TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
     const Pose turned = random_pose(rng, 1);
     const Assembly assembly =
         assembly_of({boxes({block(1, -1, -1, 3, 1, 1)}), boxes({block(0, -2, -2, 0.06, 2, 2)})}, turned);
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere);
+    GeometryCache cache;
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
     for (double x = -0.2; x > -2.9; x -= 0.1) {
       const bool through = x < -0.95 && x > -2.98;
       EXPECT_EQ(tolerance.allows({turned.q * Vector3d(x, 0, 0), Eigen::Quaterniond::Identity()}), !through) << x;
@@ -102,8 +104,9 @@ TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
     Assembly assembly = assembly_of({rod, still});
     assembly.overlaps.push_back({0, 1, penetration_depth(rod, Pose{}, still, Pose{}, 1e-4)});
     const Cast cast{{{0, Pose{}}}, {{1, Pose{}}}};
-    Tolerance near_start(assembly, cast, 0.01, Overlap::near_start),
-        everywhere(assembly, cast, 0.01, Overlap::everywhere);
+    GeometryCache cache;
+    Tolerance near_start(assembly, cast, 0.01, Overlap::near_start, cache),
+        everywhere(assembly, cast, 0.01, Overlap::everywhere, cache);
     const auto at = [&](double y, double z) {
       return Pose{turned.q * Vector3d(0, y, z), Eigen::Quaterniond::Identity()};
     };
@@ -125,7 +128,8 @@ TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
 TEST(Tolerance, AimsAtLessWhereTheJudgeRefusesAgain) {
   Assembly assembly = assembly_of({boxes({block(-1, -1, -0.02, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
   assembly.overlaps.push_back({0, 1, 0.02});
-  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::near_start);
+  GeometryCache cache;
+  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::near_start, cache);
   const Pose at{Vector3d(0.5, 0, 0.014), Eigen::Quaterniond::Identity()};  // 0.006 deep
   EXPECT_TRUE(tolerance.allows(at));
   EXPECT_FALSE(tolerance.learn(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
@@ -135,9 +139,53 @@ TEST(Tolerance, AimsAtLessWhereTheJudgeRefusesAgain) {
   EXPECT_TRUE(tolerance.allows(Pose{}));
 }
 
+/// What is kept tells the same as what is computed anew, whatever was asked, and learned, before; with room for
+/// nothing, too. Parts with one mesh have one field.
+TEST(GeometryCache, ChangesNoAnswer) {
+  Rng rng(12);
+  const auto plate = std::make_shared<Mesh>(boxes({block(-0.5, -0.4, -0.02, 0.5, 0.4, 0.2)})),
+             ground = std::make_shared<Mesh>(boxes({block(-1, -1, -1, 1, 1, 0), block(-1, 0.5, 0, 1, 1, 1)}));
+  Assembly assembly = assembly_of({*plate, *ground, *plate});
+  assembly.parts[0].mesh = assembly.parts[2].mesh = plate;
+  assembly.parts[1].mesh = ground;
+  assembly.overlaps.push_back({0, 1, 0.02});
+  GeometryCache kept, no_room(0);
+  int allowed = 0, all = 0;
+  for (int search = 0; search < 6; ++search) {
+    const PartId moving = search % 2 == 0 ? 0 : 2;
+    const Pose start = search < 4 ? Pose{} : random_pose(rng, 0.1);
+    const Cast cast{{{moving, start}}, {{1, Pose{}}}};
+    const Overlap overlap = search % 3 == 0 ? Overlap::near_start : Overlap::everywhere;
+    GeometryCache fresh;
+    Tolerance anew(assembly, cast, 0.01, overlap, fresh);
+    Tolerance known(assembly, cast, 0.01, overlap, kept), poor(assembly, cast, 0.01, overlap, no_room);
+    for (int i = 0; i < 300; ++i) {
+      if (i == 200)
+        for (auto* tolerance : {&anew, &known, &poor}) tolerance->learn(moving, 1, Vector3d(0.5, 0.4, -0.02), Pose{});
+      const Pose at{Vector3d(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), rng.uniform(-0.03, 0.05)),
+                    Eigen::Quaterniond(Eigen::AngleAxisd(rng.uniform(-0.05, 0.05), Vector3d::UnitX()))};
+      const bool is = anew.allows(at);
+      EXPECT_EQ(known.allows(at), is);
+      EXPECT_EQ(poor.allows(at), is);
+      allowed += is;
+      ++all;
+    }
+    EXPECT_EQ(anew.asked(), known.asked());
+  }
+  EXPECT_GT(allowed, all / 20);
+  EXPECT_LT(allowed, all - all / 20);
+  EXPECT_EQ(kept.field(plate), kept.field(assembly.parts[2].mesh));
+  const std::size_t before = kept.bytes();
+  kept.make_room();
+  EXPECT_EQ(kept.bytes(), before);
+  no_room.make_room();
+  EXPECT_EQ(no_room.bytes(), 0U);
+}
+
 TEST(Tolerance, LearnsAPlace) {
   const Assembly assembly = assembly_of({boxes({block(-1, -1, 0, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
-  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere);
+  GeometryCache cache;
+  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
   const Pose sunk{Vector3d(0, 0, -0.007), Eigen::Quaterniond::Identity()};
   EXPECT_TRUE(tolerance.allows(sunk));
   tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), sunk);

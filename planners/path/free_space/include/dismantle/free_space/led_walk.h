@@ -28,7 +28,7 @@ class LedWalk {
   /// All outlive this. Several moving parts move as one rigid body. The grid has about `most_cells`. Overlaps near the
   /// start only are for what overlaps_through().
   LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-          std::size_t most_cells, tolerant_walk::Overlap overlap);
+          std::size_t most_cells, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
   bool leads_out() const { return leads_out_; }

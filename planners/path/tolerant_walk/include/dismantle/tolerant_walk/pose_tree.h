@@ -29,7 +29,8 @@ class PoseTree {
   };
 
   /// All three outlive this.
-  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap);
+  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
+           GeometryCache& cache);
 
   const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }

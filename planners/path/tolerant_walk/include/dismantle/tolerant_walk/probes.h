@@ -53,6 +53,7 @@ class Probes {
   /// Those that are too deep when at `place` may be a little deeper than that within `reach` of where they are there.
   void excuse(const Pose& place, SolidField& other, double reach);
   std::size_t size() const { return probes_.size() + added_.size(); }
+  std::size_t bytes() const;  ///< about so much memory
 
  private:
   struct Node {

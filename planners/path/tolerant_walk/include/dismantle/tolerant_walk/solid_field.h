@@ -14,7 +14,8 @@
 namespace dismantle::tolerant_walk {
 
 /// Two grids, one for near the surface and a coarse one that says where that is. Interpolated, so not exact: within
-/// about a third of a cell at edges. Memory follows use. Not safe to use from several threads.
+/// about a third of a cell at edges. What it says does not depend on what was asked before. Memory follows use. Not
+/// safe to use from several threads.
 class SolidField {
  public:
   SolidField(std::shared_ptr<const Mesh> mesh, double cell);
@@ -27,6 +28,7 @@ class SolidField {
   const TriangleBvh& bvh() const { return bvh_; }
   const Mesh& mesh() const { return *mesh_; }
   const Aabb& box() const { return box_; }  ///< of the part
+  std::size_t bytes() const;                ///< about so much memory
 
  private:
   class Grid {
@@ -35,24 +37,33 @@ class SolidField {
     /// Without a field only what is known already; else not a number.
     double at(const Eigen::Vector3d& p, const SolidField* field);
     double cell() const { return cell_; }
+    std::size_t bytes() const { return known_.size() * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
 
    private:
     static constexpr std::size_t kBlock = 9;  // places along the edge of a block, its last ones those of the next, too
     using Block = std::array<float, kBlock * kBlock * kBlock>;
-    int sign_from_neighbours(const Block& block, std::ptrdiff_t place) const;
+    struct Known {
+      int sign = 0;  ///< 0: not known
+      double most;   ///< distance from the surface
+    };
+    Known from_neighbours(const Block& block, std::ptrdiff_t place) const;
 
     Aabb box_;
     double cell_, inverse_cell_ = 0;
     std::array<std::int64_t, 3> blocks_{};
     std::vector<std::unique_ptr<Block>> known_;
+    std::size_t blocks_known_ = 0;
   };
-  static constexpr double kError = 0.35;                   // of a cell
-  double exact(const Eigen::Vector3d& p, int sign) const;  ///< sign 0: not known
+  static constexpr double kError = 0.35;  // of a cell
+  /// `sign`: 0 if not known. `most`: the distance is less, mostly.
+  double exact(const Eigen::Vector3d& p, int sign, double most) const;
 
   std::shared_ptr<const Mesh> mesh_;
   TriangleBvh bvh_;
   Aabb box_, around_;
+  bool closed_;
   Grid coarse_, fine_;
+  double surely_near_;  ///< less than that in the fine grid: the coarse one cannot say that it is far
 };
 
 }  // namespace dismantle::tolerant_walk

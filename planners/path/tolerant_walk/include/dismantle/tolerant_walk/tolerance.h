@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "dismantle/simulator.h"
-#include "dismantle/tolerant_walk/probes.h"
-#include "dismantle/tolerant_walk/solid_field.h"
+#include "dismantle/tolerant_walk/geometry_cache.h"
 
 namespace dismantle::tolerant_walk {
 
@@ -23,8 +22,8 @@ enum class Overlap { everywhere, near_start };
 /// near each other. Not safe to use from several threads.
 class Tolerance {
  public:
-  /// `assembly` must outlive it.
-  Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap);
+  /// `assembly` and `cache` must outlive it.
+  Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap, GeometryCache& cache);
 
   /// `displacement` acts on all moving parts where the cast has them.
   bool allows(const Pose& displacement);
@@ -64,7 +63,8 @@ class Tolerance {
   };
   std::vector<Ball> balls_;  // by moving part
   std::vector<Aabb> boxes_;  // by still part, its assembled frame
-  std::map<PartId, std::unique_ptr<SolidField>> fields_;
+  GeometryCache& cache_;
+  std::map<PartId, std::shared_ptr<SolidField>> fields_;
   std::map<std::pair<PartId, PartId>, Pair> pairs_;  // moving, still
   std::optional<PartId> in_way_;
   std::uint64_t asked_ = 0;

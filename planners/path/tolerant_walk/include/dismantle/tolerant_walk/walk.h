@@ -16,7 +16,7 @@ inline constexpr Capabilities kNeeds{};
 class Walk {
  public:
   /// All three outlive this. Several moving parts move as one rigid body.
-  Walk(const Parameters& parameters, const PathQuery& query, RunContext& context);
+  Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache);
 
   /// Goes on until so many poses were looked at in all. `depth_limit`: that is the case; `exhausted`: the judge has
   /// refused too much.
