@@ -33,6 +33,9 @@ target_compile_options(dismantle_settings INTERFACE
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
 # The same source must give the same floating-point results in every build type of one compiler.
 target_compile_options(dismantle_settings INTERFACE -ffp-contract=off)
+# Nobody replaces a function of a library from outside, so calls within one need not go through its table.
+target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
+target_link_options(dismantle_settings INTERFACE -Wl,-Bsymbolic-functions)
 if(DISMANTLE_CCACHE)
   target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
