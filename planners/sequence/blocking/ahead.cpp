@@ -4,6 +4,11 @@
 #include "blocking/taking_apart.h"
 
 namespace dismantle::blocking {
+namespace {
+
+constexpr unsigned kDepthForProofAhead = 2;  // of a search that was in vain
+
+}  // namespace
 
 /// Hints the search that is asked for now, those that follow it in its round, those of the groups that wait, and the
 /// next round's.
@@ -23,16 +28,22 @@ void TakingApart::prefetch(const Group& group, const Attempt& now, const std::ve
     cheap_first(again, group.depth + 1);
     add_waiting(group, group.depth + 1, again, ahead);
   }
-  if (ahead.size() > most) ahead.resize(most);
+  // Proofs come first: whether they are needed may change, but not what they say.
+  std::size_t threads = context_.threads;
+  if (confinements_ahead_) {
+    confinements_ahead_->begin(likely_to_be_confined(group), threads - 1, context_);
+    threads -= std::min(threads - 1, confinements_ahead_->working());
+  }
+  const std::size_t left = threads > 1 ? 1 + kAheadPerThread * threads : 1;
+  if (ahead.size() > left) ahead.resize(left);
   oracle_.prefetch(ahead, context_);
-  if (ahead.size() == 1 && confinements_ahead_)
-    confinements_ahead_->begin(pairs_to_confine(), context_.threads - 1, context_);
 }
 
 /// What the judge says of a pair; meanwhile other pairs have the other threads.
-std::optional<Confinement> TakingApart::confined(PartId a, PartId b) {
-  if (context_.threads > 1) oracle_.prefetch({}, context_);
-  return confinements_ahead_->answer(std::minmax(a, b), pairs_to_confine(), context_);
+std::optional<Confinement> TakingApart::confined(const Group& group, PartId a, PartId b, double share) {
+  if (context_.threads < 2) return oracle_.judge()->confined(a, b, context_, share);
+  oracle_.prefetch({}, context_);
+  return confinements_ahead_->answer({std::min(a, b), std::max(a, b), share}, likely_to_be_confined(group), context_);
 }
 
 /// The next searches of the groups that wait.
@@ -53,16 +64,33 @@ void TakingApart::add_waiting(const Group& group, unsigned depth, const std::vec
   }
 }
 
-/// Of the groups that wait for that.
-std::vector<std::pair<PartId, PartId>> TakingApart::pairs_to_confine() const {
-  std::vector<std::pair<PartId, PartId>> pairs;
-  for (const Group& g : groups_) {
-    if (!g.searches_done || g.units.size() != 2) continue;
-    for (const PartId a : units_[g.units[0]])
-      for (const PartId b : units_[g.units[1]])
-        if (const std::pair<PartId, PartId> pair = std::minmax(a, b); !confined_.contains(pair)) pairs.push_back(pair);
-  }
-  return pairs;
+/// What may be asked about pairs, the likeliest first: of groups that wait for just that; of parts that were searched
+/// for some depth and have one other in their way; of other groups of two.
+std::vector<ConfinementsAhead::Question> TakingApart::likely_to_be_confined(const Group& now) const {
+  std::vector<ConfinementsAhead::Question> all;
+  if (!relations_ || !params_.cages) return all;
+  std::vector<const Group*> groups{&now};
+  for (const Group& g : groups_) groups.push_back(&g);
+  const auto add = [&](UnitId u, UnitId v, double share, const std::set<std::pair<PartId, PartId>>& asked) {
+    for (const PartId a : units_[u])
+      for (const PartId b : units_[v])
+        if (!asked.contains(std::minmax(a, b))) all.push_back({std::min(a, b), std::max(a, b), share});
+  };
+  const auto pairs_that = [&](bool searched) {
+    for (const Group* g : groups) {
+      if (g->units.size() != 2 || g->searches_done != searched) continue;
+      const UnitId u = g->units[0], v = g->units[1];
+      if (searched || wants_depth(u) || wants_depth(v)) add(u, v, kShareAtLast, confined_);
+    }
+  };
+  pairs_that(true);
+  for (const Group* g : groups)
+    for (const UnitId u : g->units) {
+      if (g->units.size() == 2 || !wants_depth(u) || tried_.at(units_[u].front()).depth < kDepthForProofAhead) continue;
+      if (const std::optional<UnitId> v = alone_in_the_way(*g, u)) add(u, *v, kShareForSure, sure_);
+    }
+  pairs_that(false);
+  return all;
 }
 
 }  // namespace dismantle::blocking

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "barred_shaft.h"
+#include "blocking/confinements_ahead.h"
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
 #include "held_shapes.h"
@@ -17,11 +19,20 @@ namespace {
 
 PathResult helpless(const PathQuery&, RunContext&) { return fake::outcome(Outcome::exhausted); }
 
-RunResult take_apart(const Assembly& assembly, unsigned threads = 1, RunOptions options = {}) {
+/// As if it touched all that is there, and might find more a little deeper.
+PathResult shallow(const PathQuery& query, RunContext&) {
+  PathResult r = fake::outcome(query.effort.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
+  for (const PlacedPart& p : query.cast.still) r.blocked_by.push_back(p.part);
+  return r;
+}
+
+template <class Planner = decltype(&helpless)>
+RunResult take_apart(const Assembly& assembly, unsigned threads = 1, RunOptions options = {},
+                     Planner planner = &helpless) {
   RunContext context;
   context.threads = threads;
   RunResult r =
-      run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(BlockingParams{})), options, context);
+      run(assembly, fake::ingredients(planner, std::make_shared<Blocking>(BlockingParams{})), options, context);
   const PlanCheck check = check_plan(r.plan, assembly, options.verify, context);
   EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
   return r;
@@ -128,6 +139,44 @@ TEST(Blocking, EachOfSeveralPairsIsProvedToHoldEachOther) {
   for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
 }
 
+/// Whatever was begun before, and however much of it was dropped.
+TEST(ConfinementsAhead, TellsWhatTheJudgeDoes) {
+  const Assembly assembly = cased_pairs(2);
+  const Verifier judge(assembly, {});
+  using Question = blocking::ConfinementsAhead::Question;
+  std::vector<Question> all;
+  std::map<Question, std::optional<Confinement>> truth;
+  std::size_t held = 0;
+  for (const auto& [a, b] : {std::pair<PartId, PartId>{0, 1}, {2, 3}, {1, 2}})
+    for (const double share : {0.5, 1.0}) {
+      all.push_back({a, b, share});
+      truth[all.back()] = judge.confined(a, b, {}, share);
+      held += truth[all.back()].has_value();
+    }
+  EXPECT_EQ(held, 4u);
+  Rng rng(4);
+  for (int trial = 0; trial < 4; ++trial) {
+    blocking::ConfinementsAhead ahead(judge);
+    RunContext context;
+    context.threads = 1 + static_cast<unsigned>(trial % 3);
+    for (int k = 0; k < 6; ++k) {
+      std::vector<Question> wanted;
+      for (const Question& q : all)
+        if (rng.uniform() < 0.5) wanted.push_back(q);
+      ahead.begin(wanted, context.threads - 1, context);
+      EXPECT_LT(ahead.working(), context.threads);
+      if (rng.uniform() < 0.5) continue;
+      const Question& q = all[rng.below(all.size())];
+      const auto said = ahead.answer(q, wanted, context);
+      ASSERT_EQ(said.has_value(), truth[q].has_value());
+      if (!said) continue;
+      EXPECT_EQ(said->cells, truth[q]->cells);
+      EXPECT_EQ(said->depth, truth[q]->depth);
+      EXPECT_EQ(said->shift, truth[q]->shift);
+    }
+  }
+}
+
 TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
   for (const Assembly& assembly :
        {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube(), cased_pairs(3)}) {
@@ -143,6 +192,19 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
     EXPECT_EQ(plans.size(), 1u);
     EXPECT_EQ(relations.size(), 1u) << "what was looked at ahead is not counted";
   }
+}
+
+/// Where searches go on for some depth, proofs are begun long before they are asked for.
+TEST(Blocking, ProofsAheadChangeNothing) {
+  std::set<std::string> plans;
+  for (const unsigned threads : {1U, 2U, 3U}) {
+    RunResult r = take_apart(cased_pairs(2), threads, {}, &shallow);
+    EXPECT_EQ(r.sequence_counts["held"], 2);
+    for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
+    for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
+    plans.insert(to_json(r.plan));
+  }
+  EXPECT_EQ(plans.size(), 1u);
 }
 
 /// Two rails side by side in a channel that is open at one end. Before it stands a latch, whose round shaft turns in a

@@ -1,11 +1,13 @@
 /// Proofs that pairs hold each other, some of them sought on other threads before they are asked for.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <future>
+#include <list>
 #include <map>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "dismantle/verify/verifier.h"
 
@@ -14,7 +16,12 @@ namespace dismantle::blocking {
 /// What the judge says of a pair is a fact about the two, so it does not matter who finds it, and when. One caller.
 class ConfinementsAhead {
  public:
-  using Pair = std::pair<PartId, PartId>;
+  /// Of Verifier::confined.
+  struct Question {
+    PartId a, b;  ///< a < b
+    double share;
+    auto operator<=>(const Question&) const = default;
+  };
 
   /// `judge` must outlive this.
   explicit ConfinementsAhead(const Verifier& judge) : judge_(judge) {}
@@ -23,20 +30,25 @@ class ConfinementsAhead {
   ConfinementsAhead(const ConfinementsAhead&) = delete;
   ConfinementsAhead& operator=(const ConfinementsAhead&) = delete;
 
-  /// Begins with the first of `pairs`, as long as so many threads or fewer are at work here.
-  void begin(std::span<const Pair> pairs, std::size_t threads, const RunContext& context);
-  /// Verifier::confined; with more than one thread, the others work on the first of `next` meanwhile.
-  std::optional<Confinement> answer(const Pair& pair, std::span<const Pair> next, const RunContext& context);
+  /// Begins with the first of `wanted`, the likeliest to be asked first, as long as less than so many threads are at
+  /// work here. What is not among them any more is told to stop.
+  void begin(std::span<const Question> wanted, std::size_t threads, const RunContext& context);
+  /// With more than one thread, the others work on the first of `next` meanwhile.
+  std::optional<Confinement> answer(const Question& question, std::span<const Question> next,
+                                    const RunContext& context);
+  std::size_t working() const;  ///< threads that are at work here
 
  private:
   struct Job {
     CancelToken cancel;
     std::future<std::optional<Confinement>> found;
+    bool works() const;
   };
-  std::size_t working() const;
+  void drop_all_but(std::span<const Question> wanted);
 
   const Verifier& judge_;
-  std::map<Pair, Job> jobs_;
+  std::map<Question, Job> jobs_;
+  std::list<Job> dropped_;  // which come to an end
 };
 
 }  // namespace dismantle::blocking

@@ -10,9 +10,8 @@ namespace {
 constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
 constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
 constexpr std::size_t kFlatProofs = 30;   // likewise, up to ten seconds each
-constexpr unsigned kDepthForFlat = 2;     // of a search that was in vain
 constexpr std::size_t kSureProofs = 6;    // likewise, up to half a minute each
-constexpr unsigned kDepthForSure = 4;     // as above
+constexpr unsigned kDepthForSure = 4;     // of a search that was in vain
 constexpr std::size_t kInterlocked = 8;   // parts: the effort grows with the cube of their number
 
 }  // namespace
@@ -47,15 +46,13 @@ bool TakingApart::join_held(Group& group) {
   return false;
 }
 
-/// Like join_held(), with a proof that is dear. A search that was in vain may be, too, and the next one takes twice as
-/// long: it comes before that, for the part and the larger ones that it touched.
+/// Like join_held(), with a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes
+/// after the first that was in vain, for the part and the larger ones that it touched.
 bool TakingApart::join_flat(Group& group) {
   const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
   for (const UnitId u : group.units) {
     const auto tried = tried_.find(units_[u].front());
     if (tried == tried_.end()) continue;
-    const unsigned depth = tried->second.depth;  // 0: without limit
-    if (depth > 0 && depth < kDepthForFlat) continue;
     const bool pair = group.units.size() == 2;
     const std::vector<PartId> touched =
         pair ? units_[group.units[group.units[0] == u ? 1 : 0]] : tried->second.blocked_by;
@@ -93,7 +90,7 @@ bool TakingApart::join_confined_for_sure(Group& group) {
         if (stop() || sure_.size() == kSureProofs) return false;
         if (!sure_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-        const auto confinement = oracle_.judge()->confined(a, b, context_, 1);
+        const auto confinement = confined(group, a, b, kShareForSure);
         if (!confinement) continue;
         join_parts(group, {a, b}, describe(*confinement, assembly_));
         return true;
@@ -128,7 +125,7 @@ bool TakingApart::join_confined(Group& group) {
         if (!confined_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
         ++confinements_;
         context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-        const auto confinement = confined(a, b);
+        const auto confinement = confined(group, a, b, kShareAtLast);
         if (!confinement) continue;
         join_parts(group, {a, b}, describe(*confinement, assembly_));
         return true;

@@ -57,6 +57,8 @@ class TakingApart {
   static constexpr UnitId kUnknown = static_cast<UnitId>(-1);
   static constexpr unsigned kDeepestPair = 64;       ///< of the searches for pairs while other pairs wait
   static constexpr std::size_t kAheadPerThread = 2;  ///< attempts that are hinted
+  /// Of what ways may cut in, in proofs that pairs hold each other: those before long searches, and those after all.
+  static constexpr double kShareForSure = 1, kShareAtLast = 0.5;
 
   // taking_apart.cpp: order of things, bookkeeping
   void dismantle(Group group);
@@ -131,8 +133,8 @@ class TakingApart {
   void add_waiting(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                    std::vector<Attempt>& ahead) const;
   void add_others(std::vector<Attempt>& ahead) const;
-  std::optional<Confinement> confined(PartId a, PartId b);
-  std::vector<std::pair<PartId, PartId>> pairs_to_confine() const;
+  std::optional<Confinement> confined(const Group& group, PartId a, PartId b, double share);
+  std::vector<ConfinementsAhead::Question> likely_to_be_confined(const Group& now) const;
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
   unsigned deepest(const Group& group) const;
 

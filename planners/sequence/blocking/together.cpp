@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kMostAtOnce = 3;   // parts
 constexpr std::size_t kCandidates = 12;  // sets that are moved a little, for one group as it stands
 constexpr std::size_t kSearched = 2;     // ... and of those in which several parts moved, so many are searched for more
-constexpr unsigned kDepths[] = {1, 4};   // of these two rounds
-constexpr double kMoved = 0.1;           // assembly units; less is play
+constexpr unsigned kDepths[] = {1, 1, 4};  // of the rounds: pairs, all, all that moved
+constexpr unsigned kRounds = 3;
+constexpr double kMoved = 0.1;  // assembly units; less is play
 
 /// How far the part has come from where it was, turns included, as seen on its box.
 double way_of(const Mesh& mesh, const Pose& from, const Pose& to) {
@@ -89,8 +90,9 @@ bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
   const PathResult& result = answer.result;
   const auto count = result.counts.find("steps");
   const auto steps = static_cast<std::uint64_t>(count == result.counts.end() ? 0 : count->second);
-  context_.log(LogLevel::debug, "moving '" + name + "' and " + std::to_string(units.size() - 1) +
-                                    " more at once to depth " + std::to_string(asked->max_depth) + ": " +
+  std::string names;
+  for (const UnitId u : units) names += (names.empty() ? "'" : "', '") + assembly_.parts[units_[u].front()].name;
+  context_.log(LogLevel::debug, "moving " + names + "' at once to depth " + std::to_string(asked->max_depth) + ": " +
                                     std::string(to_string(result.outcome)) + ", " + std::to_string(answer.seconds) +
                                     " s, " + std::to_string(steps) + " steps " + result.message);
   if (is_success(result.outcome)) {
@@ -114,17 +116,19 @@ bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
   return false;
 }
 
-/// Two rounds: every set a little; then those in which more than one part moved deeper, once single parts were searched
-/// for deeper, too.
+/// Three rounds. Pairs a little, before single parts are searched deeper; after that larger sets, which are dear; then
+/// those in which more than one part moved deeper.
 bool TakingApart::together(Group& group) {
-  const unsigned rounds = group.searched_out ? 2 : std::min(group.depth - 1, 2U);
+  const unsigned rounds = group.searched_out || group.depth > 2 ? kRounds : group.depth - 1;
   if (none_at_once_ || group.at_once >= rounds) return false;
   const std::vector<std::vector<UnitId>> sets = interlocked(group);
   while (group.at_once < rounds) {
     ++group.at_once;
     std::vector<std::vector<UnitId>> list;
     for (const auto& set : sets)
-      if (worth_moving(group, set) && (group.at_once == 1 || list.size() < kSearched)) list.push_back(set);
+      if (worth_moving(group, set) && (group.at_once > 1 || set.size() == 2) &&
+          (group.at_once < kRounds || list.size() < kSearched))
+        list.push_back(set);
     for (std::size_t k = 0; k < list.size(); ++k) {
       if (stop() || none_at_once_) return false;
       if (together(group, list[k], {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()})) return true;
