@@ -9,22 +9,26 @@ namespace {
 
 constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
 
-/// Vertices of those triangles of `a` that are where `b` passes by, as it moves backwards seen from `a`.
+/// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
+/// backwards seen from `a`. To find these takes longer than all of a short look.
 void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, Finding& best) {
   const std::size_t segments = motion.segments();
   const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
+  const bool all = times == kLeastTimes;
   std::vector<std::uint32_t> near;
-  a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
-  if (near.empty()) return;
-  std::sort(near.begin(), near.end());
+  if (!all) {
+    a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
+    std::sort(near.begin(), near.end());
+  }
+  const std::size_t triangles = all ? a.mesh.triangles.size() : near.size();
   for (std::size_t i = 0; i < times; ++i) {
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
     // Another selection each time, so that together they cover more.
-    const std::size_t count = std::min(kVertices, near.size());
+    const std::size_t count = std::min(kVertices, triangles);
     for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t t = near[(k * near.size() / count + i * 7919) % near.size()];
+      const std::size_t chosen = (k * triangles / count + i * 7919) % triangles, t = all ? chosen : near[chosen];
       const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));
       const Eigen::Vector3d x = place * p;
       if (!b.box.contains(x) || !b.bvh.inside(x)) continue;

@@ -155,8 +155,9 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
 
   const std::size_t last = rungs.size() - 1;
-  // Ways of many segments are close fits, of which low rungs are tried in vain: samples first.
-  bool sampled = forward.segments() >= kManySegments;
+  // Ways out of many segments are close fits, of which low rungs are tried in vain: samples first.
+  bool sampled = forward.segments() >= kManySegments &&
+                 box_along(x.box, {poses_b.front().inverse() * poses_a.front()}).overlaps(y.box);
   bool sample_tells = false;
   Finding seen;
   if (sampled) {
