@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "dismantle/crew.h"
 #include "dismantle/errors.h"
 #include "dismantle/run_context.h"
 
@@ -20,31 +21,63 @@ inline void stop_if_asked(const RunContext& context, const char* doing) {
   throw Error(std::string(context.cancel.cancelled() ? "interrupted" : "out of time") + " while " + doing);
 }
 
-/// Calls work(i) for i in [0, n) on up to `threads` threads, until stop(). Of several exceptions the one with the
-/// lowest index is thrown, as if the loop had been serial.
+/// The indices of a loop, taken by one thread after the other until stop().
 template <class Work, class Stop>
-void on_threads(std::size_t n, unsigned threads, Work&& work, Stop&& stop) {
-  std::atomic<std::size_t> next{0};
-  std::vector<std::exception_ptr> errors(n);
-  const auto run = [&] {
-    for (std::size_t i = next++; i < n && !stop(); i = next++) {
+class Loop {
+ public:
+  Loop(std::size_t n, Work& work, Stop& stop) : n_(n), work_(work), stop_(stop), errors_(n) {}
+  void run() {
+    for (std::size_t i = next_++; i < n_ && !stop_(); i = next_++) {
       try {
-        work(i);
+        work_(i);
       } catch (...) {
-        errors[i] = std::current_exception();  // thrown again below
+        errors_[i] = std::current_exception();  // thrown by check()
       }
     }
-  };
+  }
+  /// Of several exceptions the one with the lowest index is thrown, as if the loop had been serial.
+  void check() const {
+    for (const auto& error : errors_)
+      if (error) std::rethrow_exception(error);
+  }
+
+ private:
+  const std::size_t n_;
+  Work& work_;
+  Stop& stop_;
+  std::atomic<std::size_t> next_{0};
+  std::vector<std::exception_ptr> errors_;
+};
+
+/// Calls work(i) for i in [0, n) on up to `threads` threads, until stop(). Exceptions: see Loop.
+template <class Work, class Stop>
+void on_threads(std::size_t n, unsigned threads, Work&& work, Stop&& stop) {
+  Loop loop(n, work, stop);
   {
     std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < std::min<std::size_t>(threads, n); ++i) helpers.emplace_back(run);
-    run();
+    for (std::size_t i = 1; i < std::min<std::size_t>(threads, n); ++i) helpers.emplace_back([&] { loop.run(); });
+    loop.run();
   }
-  for (const auto& error : errors)
-    if (error) std::rethrow_exception(error);
+  loop.check();
 }
 
-/// Calls work(i) for i in [0, n) on up to context.threads threads; `doing` names it in progress and errors.
+/// Likewise, with those of the context's crew that are idle, or on up to context.threads threads where it has none.
+template <class Work, class Stop>
+void on_threads(std::size_t n, const RunContext& context, Work&& work, Stop&& stop) {
+  if (!context.crew) return on_threads(n, context.threads, work, stop);
+  Loop loop(n, work, stop);
+  {
+    std::vector<Crew::Offer> helpers;  // who come too late are not needed
+    for (std::size_t i = 1; i < std::min<std::size_t>(context.crew->threads(), n); ++i)
+      helpers.push_back(context.crew->offer([&] { loop.run(); }, Crew::Rank::part));
+    loop.run();
+    for (auto& helper : helpers)
+      if (!helper.withdraw()) helper.wait();
+  }
+  loop.check();
+}
+
+/// Calls work(i) for i in [0, n) on the threads of the context; `doing` names it in progress and errors.
 /// Exceptions as in on_threads; when told to stop it throws.
 template <class Work, class Name>
 void parallel_for(std::size_t n, const RunContext& context, const char* doing, Work&& work, Name&& name) {
@@ -63,7 +96,7 @@ void parallel_for(std::size_t n, const RunContext& context, const char* doing, W
     }
     report(i);
   };
-  on_threads(n, context.threads, step, [&] { return context.should_stop(); });
+  on_threads(n, context, step, [&] { return context.should_stop(); });
   stop_if_asked(context, doing);
 }
 

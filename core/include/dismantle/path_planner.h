@@ -43,7 +43,7 @@ struct PathQuery {
   const Prepared& prepared;
   Cast cast;
   Effort effort;
-  /// Judges a finished path. Never empty. Planners call it with every path that they would return.
+  /// Judges a finished path. Never empty. Planners call it with every path that they would return, from any thread.
   std::function<Verdict(const Path&)> judge;
   /// Empty: the moving parts are to come apart from the still ones, as one group. Else as Attempt::leaving: each moves
   /// in its own way, until one of these is apart from all other parts of the cast. World::separated does not tell that.

@@ -43,10 +43,10 @@ class DISMANTLE_API Rng {
  public:
   explicit Rng(std::uint64_t seed = 1);
   std::uint64_t next();
-  double uniform();                       ///< [0, 1)
-  double uniform(double lo, double hi);   ///< [lo, hi)
-  std::uint64_t below(std::uint64_t n);   ///< [0, n), n > 0, unbiased
-  double normal();                        ///< mean 0, variance 1
+  double uniform();                      ///< [0, 1)
+  double uniform(double lo, double hi);  ///< [lo, hi)
+  std::uint64_t below(std::uint64_t n);  ///< [0, n), n > 0, unbiased
+  double normal();                       ///< mean 0, variance 1
   /// Independent generator for a named purpose: does not depend on what was drawn from this one before.
   Rng fork(std::uint64_t stream) const;
 
@@ -54,6 +54,8 @@ class DISMANTLE_API Rng {
   std::uint64_t seed_;
   std::uint64_t s_[4];
 };
+
+class Crew;
 
 enum class LogLevel { debug, info, warning, error };
 
@@ -70,9 +72,10 @@ struct RunContext {
   Deadline deadline;
   CancelToken cancel;
   Rng rng{1};
-  unsigned threads = 1;  ///< >= 1; results never depend on it
-  std::function<void(const ProgressEvent&)> on_progress;            ///< may be empty; called from one thread at a time
-  std::function<void(LogLevel, std::string_view)> on_log;           ///< may be empty; likewise
+  unsigned threads = 1;                                    ///< >= 1, that may be started; results never depend on it
+  std::shared_ptr<Crew> crew;                              ///< whose idle threads may help, started or not; may be null
+  std::function<void(const ProgressEvent&)> on_progress;   ///< may be empty; called from one thread at a time
+  std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; likewise
 
   bool should_stop() const { return cancel.cancelled() || deadline.passed(); }
   void progress(std::string_view phase, std::size_t done, std::size_t total, std::string_view detail = {}) const {

@@ -299,7 +299,7 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
   }
   std::atomic<std::size_t> next{0};
   on_threads(
-      threads, static_cast<unsigned>(threads),
+      threads, context,
       [&](std::size_t thread) {
         for (std::size_t k = next++; k < ways.size(); k = next++) one(k, *planners_[thread]);
       },

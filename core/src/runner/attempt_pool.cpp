@@ -14,13 +14,17 @@ constexpr std::chrono::milliseconds kLookAgain{5};
 
 }  // namespace
 
-AttemptPool::AttemptPool(unsigned workers, Compute compute, const RunContext& context)
-    : compute_(std::move(compute)), deadline_(context.deadline) {
-  workers_.reserve(workers);
-  for (unsigned i = 0; i < workers; ++i) workers_.emplace_back([this, i] { work(i); });
+AttemptPool::AttemptPool(std::shared_ptr<Crew> crew, Compute compute, const RunContext& context)
+    : compute_(std::move(compute)), deadline_(context.deadline), crew_(std::move(crew)) {
+  for (unsigned i = 0; i < crew_->threads(); ++i) workers_.emplace_back([this, i] { work(i); });
+  crew_->when_idle([this] {
+    const std::lock_guard lock(mutex_);  // whoever is about to wait will do so before it is told
+    work_there_.notify_all();
+  });
 }
 
 AttemptPool::~AttemptPool() {
+  crew_->when_idle(nullptr);
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -44,10 +48,12 @@ void AttemptPool::work(unsigned index) {
     RunContext context;
     context.deadline = job->deadline;
     context.cancel = job->cancel;
+    context.crew = crew_;
     std::vector<LogLine> log;
     context.on_log = [&log](LogLevel level, std::string_view text) { log.push_back({level, std::string(text)}); };
     lock.unlock();
     ComputedAttempt computed = compute_(index, job->attempt, key, context);
+    if (job->has_own_place) crew_->leave();
     lock.lock();
     --running_;
     job->running = false;
@@ -58,7 +64,13 @@ void AttemptPool::work(unsigned index) {
   }
 }
 
-bool AttemptPool::may_begin() const { return !queue_.empty() && running_ + (caller_waits_ ? 0 : 1) < workers_.size(); }
+/// True: the first in the queue has a place.
+bool AttemptPool::may_begin() {
+  if (queue_.empty()) return false;
+  Job& job = *jobs_.at(queue_.front());
+  job.has_own_place = !job.asked;
+  return job.asked || crew_->try_enter();
+}
 
 void AttemptPool::hint(std::vector<std::pair<AttemptKey, Attempt>> attempts) {
   {
@@ -115,10 +127,14 @@ std::shared_ptr<AttemptPool::Job> AttemptPool::demand(const AttemptKey& key, con
 
 PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, const RunContext& context) {
   std::unique_lock lock(mutex_);
-  caller_waits_ = true;
-  work_there_.notify_all();
   while (true) {
     const std::shared_ptr<Job> job = demand(key, attempt, context);
+    const bool my_place_is_free = job->running;  // it has its own
+    if (my_place_is_free) {
+      lock.unlock();
+      crew_->leave();
+      lock.lock();
+    }
     while (!job->done) {
       job_ended_.wait_for(lock, kLookAgain, [&job] { return job->done; });
       if (job->done || !context.should_stop()) continue;
@@ -129,6 +145,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
       job->result.computed.interrupted = true;
       job->result.computed.answer.result.outcome = Outcome::cancelled;
     }
+    if (my_place_is_free) crew_->enter();
     PooledAttempt result = std::move(job->result);
     jobs_.erase(key);
     // Interrupted for a reason that is not the asker's (it had been computed ahead and was given up): once more.
@@ -137,7 +154,6 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
       result.computed.answer.result.outcome = Outcome::timeout;
       result.computed.answer.result.message = "the time limit of the whole run passed during the attempt";
     }
-    caller_waits_ = false;
     return result;
   }
 }

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/crew.h"
 #include "runner/attempt_runner.h"
 
 namespace dismantle {
@@ -27,16 +28,16 @@ struct PooledAttempt {
   std::vector<LogLine> log;  ///< what the attempt logged, for the thread that asked to pass on
 };
 
-/// Never more attempts at once than there are workers, and one less while nobody waits for an answer. An answer depends
-/// on nothing but its question: what was computed ahead is the same as what would be computed when asked, and what was
-/// interrupted is forgotten.
+/// What is asked for has the place of the one who waits for it; what is computed ahead takes those that nobody has. An
+/// answer depends on nothing but its question: what was computed ahead is the same as what would be computed when
+/// asked, and what was interrupted is forgotten.
 class AttemptPool {
  public:
   /// Computes on worker `index`; throws nothing.
   using Compute = std::function<ComputedAttempt(unsigned index, const Attempt&, const AttemptKey&, const RunContext&)>;
 
-  /// `context`: deadline for what is computed ahead.
-  AttemptPool(unsigned workers, Compute compute, const RunContext& context);
+  /// As many workers as the crew has threads. `context`: deadline for what is computed ahead.
+  AttemptPool(std::shared_ptr<Crew> crew, Compute compute, const RunContext& context);
   /// Cancels what is running and waits for it.
   ~AttemptPool();
   AttemptPool(const AttemptPool&) = delete;
@@ -55,6 +56,7 @@ class AttemptPool {
     bool running = false;
     bool done = false;
     bool asked = false;
+    bool has_own_place = false;
     std::uint64_t begun = 0;  ///< order of beginning
     Deadline deadline;
     CancelToken cancel;
@@ -63,18 +65,18 @@ class AttemptPool {
   using Jobs = std::map<AttemptKey, std::shared_ptr<Job>>;
 
   void work(unsigned index);
-  bool may_begin() const;
+  bool may_begin();
   void make_room();
   std::shared_ptr<Job> demand(const AttemptKey& key, const Attempt& attempt, const RunContext& context);
 
   Compute compute_;
   Deadline deadline_;
+  const std::shared_ptr<Crew> crew_;
   mutable std::mutex mutex_;
   std::condition_variable work_there_, job_ended_;
   Jobs jobs_;
   std::deque<AttemptKey> queue_;
   unsigned running_ = 0;
-  bool caller_waits_ = false;  ///< else it works itself, and one worker less begins something
   std::uint64_t begun_ = 0;
   bool stop_ = false;
   std::vector<std::thread> workers_;

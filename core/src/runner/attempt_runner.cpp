@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -116,9 +117,9 @@ const Lock* AttemptRunner::locked(const Attempt& attempt) const {
 }
 
 /// Two parts, before a search that takes longer than looking whether they hold each other.
-std::optional<Cage> AttemptRunner::caged(const Attempt& attempt) const {
+std::optional<Cage> AttemptRunner::caged(const Attempt& attempt, const RunContext& context) const {
   if (!worth_a_proof(attempt) || attempt.moving.size() != 1 || attempt.still.size() != 1) return std::nullopt;
-  return verifier_.caged(attempt.moving.front().part, attempt.still.front().part);
+  return verifier_.caged(attempt.moving.front().part, attempt.still.front().part, context);
 }
 
 /// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
@@ -225,14 +226,18 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                    fmt::format("path planner '{}' does not move several parts each in its own way", planner_id_));
   RunContext own = context;
   const Effort effort{attempt.max_depth, path_steps_, path_timeout_};
+  std::mutex last_guard;  // planners may ask from several threads
   const PathQuery query{assembly_,
                         simulator_,
                         prepared_,
                         {attempt.moving, attempt.still},
                         effort,
                         [&](const Path& path) {
-                          last = judge(attempt, path, run);
-                          return last.verdict;
+                          Judgement judgement = judge(attempt, path, run);
+                          Verdict verdict = judgement.verdict;
+                          const std::scoped_lock lock(last_guard);
+                          last = std::move(judgement);
+                          return verdict;
                         },
                         attempt.leaving};
   return planner.plan(query, own);
@@ -260,7 +265,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       result = failure(Outcome::exhausted, describe(*enclosure, assembly_));
       result.blocked_by =
           holds(attempt.moving, enclosure->inside) ? enclosure->around : std::vector<PartId>{enclosure->inside};
-    } else if (const auto cage = caged(attempt)) {
+    } else if (const auto cage = caged(attempt, context)) {
       result = failure(Outcome::exhausted, describe(*cage, assembly_));
       result.blocked_by = {attempt.still.front().part};
     } else {

@@ -33,10 +33,10 @@ Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredi
       constraints_(options.constraints),
       make_planner_(ingredients.path_planner),
       runner_(assembly, prepared, ingredients, options, verifier, context.rng),
-      planners_(std::max(1u, context.threads)) {
+      planners_(context.threads > 1 && context.crew ? context.crew->threads() : std::max(1u, context.threads)) {
   if (context.threads > 1)
     pool_ = std::make_unique<AttemptPool>(
-        context.threads,
+        context.crew ? context.crew : std::make_shared<Crew>(context.threads),
         [this](unsigned worker, const Attempt& a, const AttemptKey& key, const RunContext& c) {
           return compute(worker, a, key, c);
         },

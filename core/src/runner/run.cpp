@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/crew.h"
 #include "dismantle/errors.h"
 #include "dismantle/runner.h"
 #include "runner/assembler.h"
@@ -174,6 +175,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
+  if (own.threads > 1 && !own.crew) own.crew = std::make_shared<Crew>(own.threads);
 
   RunResult result;
   Clock::time_point begin = Clock::now();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "dismantle/run_context.h"
 #include "verify/solid.h"
 
 namespace dismantle::verify {
@@ -15,6 +16,6 @@ struct InnerBall {
 };
 
 /// Balls with radii above `least` (> 0) along the middle of the solid, the largest first.
-std::vector<InnerBall> middle_of(const Solid& solid, double least);
+std::vector<InnerBall> middle_of(const Solid& solid, double least, const RunContext& context);
 
 }  // namespace dismantle::verify

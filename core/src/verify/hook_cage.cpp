@@ -3,11 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
+#include "parallel.h"
 #include "verify/patch.h"
 #include "verify/section.h"
 
@@ -347,37 +349,44 @@ std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& node
   return list;
 }
 
+/// On one side of the disc that a node is on: a bend that cannot pass it.
+std::optional<Bend> bend_on_side(const Solid& bar, const Solid& around, double depth, const std::vector<Node>& nodes,
+                                 const Joined& joined, const Loop& loop, std::size_t node, bool above) {
+  std::vector<Corner> corners;
+  std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
+  near.resize(std::min(near.size(), kNear));
+  for (const std::size_t n : near)
+    if (auto corner = glance(bar, nodes[n], depth)) corners.push_back(std::move(*corner));
+  std::stable_sort(corners.begin(), corners.end(),
+                   [](const Corner& a, const Corner& b) { return a.worth() > b.worth(); });
+  corners.resize(std::min(corners.size(), kBends), Corner{});
+  for (const Corner& corner : corners) {
+    const auto bend = refined(bar, corner, depth);
+    // Refining must not have taken the corner to the other side: the line would cross the disc twice.
+    if (bend && !crosses(loop, corner.node.at, bend->corner) && cannot_pass(loop, around, *bend)) return bend;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
-                                  double depth) {
+                                  double depth, const RunContext& context) {
   const std::vector<Node> nodes = nodes_of(middle, depth);
   if (nodes.size() < 8) return std::nullopt;
   const Joined joined = join(nodes);
   const Surface surface(around);
   for (const auto& [loop, node] : holes(surface, around, nodes)) {
-    HookCage cage{nodes[node].at, loop.diameter, {}};
-    int bent = 0;
-    for (const bool above : {false, true}) {
-      std::vector<Corner> corners;
-      std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
-      near.resize(std::min(near.size(), kNear));
-      for (const std::size_t n : near)
-        if (auto corner = glance(bar, nodes[n], depth)) corners.push_back(std::move(*corner));
-      std::stable_sort(corners.begin(), corners.end(),
-                       [](const Corner& a, const Corner& b) { return a.worth() > b.worth(); });
-      corners.resize(std::min(corners.size(), kBends), Corner{});
-      for (const Corner& corner : corners) {
-        const auto bend = refined(bar, corner, depth);
-        // Refining must not have taken the corner to the other side: the line would cross the disc twice.
-        if (!bend || crosses(loop, corner.node.at, bend->corner) || !cannot_pass(loop, around, *bend)) continue;
-        cage.bends[above ? 1 : 0] = *bend;
-        ++bent;
-        break;
-      }
-      if (bent == 0) break;
-    }
-    if (bent == 2) return cage;
+    std::array<std::optional<Bend>, 2> bends;
+    std::atomic<bool> passes{false};
+    on_threads(
+        bends.size(), context,
+        [&, &hole = loop, at = node](std::size_t side) {
+          bends[side] = bend_on_side(bar, around, depth, nodes, joined, hole, at, side == 1);
+          if (!bends[side]) passes = true;
+        },
+        [&] { return passes.load(); });
+    if (bends[0] && bends[1]) return HookCage{nodes[node].at, loop.diameter, {*bends[0], *bends[1]}};
   }
   return std::nullopt;
 }

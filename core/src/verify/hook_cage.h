@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/run_context.h"
 #include "verify/bar_middle.h"
 #include "verify/solid.h"
 
@@ -36,6 +37,6 @@ struct HookCage {
 /// leaves it certain directions (found by covering all places and directions with cells), and no two of these are so
 /// far apart as the two lines are.
 std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
-                                  double depth);
+                                  double depth, const RunContext& context);
 
 }  // namespace dismantle::verify

@@ -70,18 +70,19 @@ std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& 
   return found;
 }
 
-const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part) const {
+const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part,
+                                                                              const RunContext& context) const {
   const std::scoped_lock guard(middles_guard);
   auto& known = middles.at(part);
   if (!known) {
     known.emplace();
     for (const auto& solid : bodies.at(part).solids)
-      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration));
+      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration, context));
   }
   return *known;
 }
 
-std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
+std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b, const RunContext& context) const {
   const double depth = (overlap(a, b) + options.max_penetration) * (1 + 1e-6);
   constexpr std::size_t kRings = 2;
   Aabb near = bodies.at(a).box;
@@ -101,18 +102,19 @@ std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b) const {
   for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
     for (std::size_t i = 0; i < bodies[inside].solids.size(); ++i)
       for (const auto& y : bodies[other].solids)
-        if (const auto cage = verify::hook_cage(bodies[inside].solids[i], middles_of(inside)[i], y, depth))
+        if (const auto cage =
+                verify::hook_cage(bodies[inside].solids[i], middles_of(inside, context)[i], y, depth, context))
           return Cage{Cage::Kind::hook, inside, other, cage->hole, 0, cage->width};
   return std::nullopt;
 }
 
-std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
+std::optional<Cage> Verifier::caged(PartId a, PartId b, const RunContext& context) const {
   if (a > b) std::swap(a, b);
   {
     const std::scoped_lock guard(impl_->cages_guard);
     if (const auto known = impl_->cages.find({a, b}); known != impl_->cages.end()) return known->second;
   }
-  const auto found = impl_->caged(a, b);
+  const auto found = impl_->caged(a, b, context);
   const std::scoped_lock guard(impl_->cages_guard);
   return impl_->cages.try_emplace({a, b}, found).first->second;
 }
@@ -120,7 +122,7 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b) const {
 std::optional<Cage> Verifier::caged_flat(PartId inside, PartId other, const RunContext& context) const {
   const auto& bodies = impl_->bodies;
   const double depth = (impl_->overlap(inside, other) + impl_->options.max_penetration) * (1 + 1e-6);
-  const auto& middles = impl_->middles_of(inside);
+  const auto& middles = impl_->middles_of(inside, context);
   for (std::size_t i = 0; i < middles.size(); ++i)
     for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], middles[i], depth, 1))
       if (verify::disc_cage(disc, bodies.at(other).solids, context))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -27,13 +28,13 @@ constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1
 constexpr double kWorthwhile = 1e-3;
 /// A rung is tried if the deepest point known takes no more than this share of it.
 constexpr double kRoom = 0.8;
-constexpr std::size_t kManySegments = 16;
+constexpr std::size_t kManySegments = 16;  // of a way that is looked at in samples first
 /// Budgets per pair of solids, in sweep tests: for passes(), for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
 constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
 /// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
-/// more patches.
+/// more patches, where it matters.
 constexpr std::uint64_t kForBuried = 5;
 
 std::vector<double> rungs_up_to(double most) {
@@ -96,37 +97,42 @@ bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
   return around.overlaps(b.swept);
 }
 
-/// Pair after pair, each from the rung that those before it have raised. Threads look at several at once, from the rung
-/// of the first; where that was raised meanwhile, the pair is looked at again. So it is as if there were one.
+/// Pair after pair, each from the rung that those before it have raised. Idle threads look at later ones meanwhile,
+/// from the rung that is known then; where that was raised since, the pair is looked at again. So it is as if there
+/// were one.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
-  struct Ahead {
-    bool passed = false;
-    std::size_t rung = 0;
+  struct Look {
+    bool done = false, passed = false;
+    std::size_t from = 0, rung = 0;
     MotionCheck found;
   };
-  const std::size_t wave = context.threads > 1 ? 2 * context.threads : 1;
+  const auto look = [&](std::size_t k, std::size_t from) {
+    Look l{true, false, from, from, {}};
+    l.passed = check(*pairs[k].first, *pairs[k].second, context, l.rung, l.found);
+    return l;
+  };
+  std::vector<Look> looks(pairs.size());
+  std::atomic<std::size_t> known{0};
+  std::atomic<bool> failed{false};
+  on_threads(
+      pairs.size(), context,
+      [&](std::size_t k) {
+        looks[k] = look(k, known);
+        if (!looks[k].passed) failed = true;
+        for (std::size_t r = known; r < looks[k].rung && !known.compare_exchange_weak(r, looks[k].rung);) {
+        }
+      },
+      [&] { return failed.load(); });
   std::size_t rung = 0;
-  for (std::size_t first = 0; first < pairs.size(); first += wave) {
-    std::vector<Ahead> ahead(std::min(wave, pairs.size() - first));
-    const std::size_t from = rung;
-    const auto look = [&](std::size_t k, Ahead& a) {
-      a.passed = check(*pairs[first + k].first, *pairs[first + k].second, context, a.rung, a.found);
-    };
-    on_threads(
-        ahead.size(), context.threads,
-        [&](std::size_t k) {
-          look(k, ahead[k] = {false, from, {}});
-        },
-        [] { return false; });
-    for (std::size_t k = 0; k < ahead.size(); ++k) {
-      if (rung != from) look(k, ahead[k] = {false, rung, {}});
-      rung = ahead[k].rung;
-      result.tests += ahead[k].found.tests;
-      if (ahead[k].passed) continue;
-      result.violation = ahead[k].found.violation;
-      result.interrupted = ahead[k].found.interrupted;
-      return;
-    }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Look& l = looks[k];
+    if (!l.done || l.from != rung) l = look(k, rung);
+    rung = l.rung;
+    result.tests += l.found.tests;
+    if (l.passed) continue;
+    result.violation = l.found.violation;
+    result.interrupted = l.found.interrupted;
+    return;
   }
   result.valid = true;
   result.max_penetration = rungs[rung];
@@ -168,7 +174,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     const bool decides = rung == last || rungs[rung] == kWorthwhile;
     const std::uint64_t patches = decides ? kFullPatches : kTryPatches;
     verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
-                          allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
+                          decides && allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
     Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
     sample_tells = false;
     result.tests += budget.tests_done;

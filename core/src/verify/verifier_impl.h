@@ -36,8 +36,8 @@ struct Verifier::Impl {
   verify::Ball ball_of(PartId part) const;
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
 
-  const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part) const;
-  std::optional<Cage> caged(PartId a, PartId b) const;
+  const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part, const RunContext& context) const;
+  std::optional<Cage> caged(PartId a, PartId b, const RunContext& context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
   void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
   bool near(const Actor& a, const Actor& b) const;

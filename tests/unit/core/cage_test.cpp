@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "dismantle/crew.h"
 #include "dismantle/verify/explanations.h"
 #include "dismantle/verify/verifier.h"
 #include "held_shapes.h"
@@ -22,9 +23,17 @@ constexpr double kAllowed = 0.01;
 
 std::optional<Cage> look(const Mesh& a, const Mesh& b, Rng& rng) {
   const Pose turned = random_pose(rng, 2);
-  const Verifier verifier(assembly_of({moved(a, turned), moved(b, turned)}), {kAllowed});
+  const Assembly assembly = assembly_of({moved(a, turned), moved(b, turned)});
+  const Verifier verifier(assembly, {kAllowed});
   const auto cage = verifier.caged(0, 1);
   EXPECT_EQ(cage.has_value(), verifier.caged(1, 0).has_value());
+  RunContext helped;
+  helped.crew = std::make_shared<Crew>(3);
+  const auto same = Verifier(assembly, {kAllowed}).caged(0, 1, helped);
+  EXPECT_EQ(cage.has_value(), same.has_value());
+  if (cage && same) {
+    EXPECT_EQ(describe(*cage, assembly), describe(*same, assembly)) << "whoever helps";
+  }
   return cage;
 }
 

@@ -2,6 +2,7 @@
 // they have and wherever the assembly stands.
 #include <gtest/gtest.h>
 
+#include "dismantle/crew.h"
 #include "dismantle/verify/explanations.h"
 #include "dismantle/verify/verifier.h"
 #include "held_shapes.h"
@@ -154,7 +155,7 @@ TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
   const Verifier verifier = judge_of(any_case(rng, 0.1), Pose{});
   const auto one = verifier.confined(0, 1, {});
   RunContext context;
-  context.threads = 2;
+  context.crew = std::make_shared<Crew>(2);
   const auto two = verifier.confined(1, 0, context);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->inside, two->inside);

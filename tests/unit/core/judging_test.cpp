@@ -1,6 +1,7 @@
 // The judge on several threads, and told to stop.
 #include <gtest/gtest.h>
 
+#include "dismantle/crew.h"
 #include "dismantle/verify/verifier.h"
 #include "test_shapes.h"
 
@@ -35,6 +36,7 @@ TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
       RunContext context;
       context.threads = threads;
+      if (threads > 2) context.crew = std::make_shared<Crew>(threads);  // else threads of its own
       const Verifier verifier(row.assembly, {0.01}, threads);
       const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
       if (threads == 1) {
@@ -62,6 +64,7 @@ TEST(Judging, ToldToStopItSaysSoAndNothingElse) {
   for (const unsigned threads : {1U, 2U}) {
     RunContext context;
     context.threads = threads;
+    if (threads > 1) context.crew = std::make_shared<Crew>(threads);
     context.cancel.cancel();
     const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
     EXPECT_FALSE(check.valid);

@@ -58,7 +58,7 @@ Mesh chamber(double x, double y, double about_z, double about_x) {
 
 std::optional<verify::DiscCage> look(const Mesh& plate, const Mesh& around, const RunContext& context = {}) {
   const auto bodies = verify::split_into_solids(plate);
-  const auto discs = verify::discs_in(bodies.at(0), verify::middle_of(bodies.at(0), kDepth), kDepth, 1);
+  const auto discs = verify::discs_in(bodies.at(0), verify::middle_of(bodies.at(0), kDepth, {}), kDepth, 1);
   if (discs.empty()) return std::nullopt;
   return verify::disc_cage(discs[0], verify::split_into_solids(around), context);
 }

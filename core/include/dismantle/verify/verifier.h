@@ -137,7 +137,7 @@ class DISMANTLE_API Verifier {
   const std::vector<Lock>& locks() const;
   /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
   /// no motion within the limits leads out of it. Fractions of a second up to a few.
-  std::optional<Cage> caged(PartId a, PartId b) const;
+  std::optional<Cage> caged(PartId a, PartId b, const RunContext& context = {}) const;
   /// The same for a large flat piece within `inside`; seconds up to ten, so it is not part of caged(). Nothing when
   /// told to stop.
   std::optional<Cage> caged_flat(PartId inside, PartId other, const RunContext& context) const;

@@ -22,11 +22,11 @@ bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all
 
 }  // namespace
 
-PoseFlood::PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, Contractor& contractor)
+PoseFlood::PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, SideBySide& both)
     : pinned_(pinned),
       walk_(walk),
       limits_(limits),
-      contractor_(contractor),
+      both_(both),
       in_use_(pinned, walk.met()),
       scale_(pinned.scale()),
       box_(walk, scale_),
@@ -183,7 +183,8 @@ void PoseFlood::divide(std::uint32_t node) {
   Cell above = below;
   below.hi[d] = above.lo[d] = below.center()[d];
   below.asked = above.asked = false;
-  contractor_(below, above, in_use_.list());
+  const PinList& in_use = in_use_.list();
+  both_([&] { contract(below, pinned_, in_use); }, [&] { contract(above, pinned_, in_use); });
   const CellPlace first = place(below), second = place(above);
   cells_.divide(node, {std::move(below), first}, {std::move(above), second});
 }

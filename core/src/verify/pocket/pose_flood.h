@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "dismantle/run_context.h"
+#include "side_by_side.h"
 #include "verify/cell_graph.h"
-#include "verify/pocket/contractor.h"
 #include "verify/pocket/pin_walk.h"
 #include "verify/pocket/pins_in_use.h"
 #include "verify/pocket/pose_box.h"
@@ -28,7 +28,7 @@ class PoseFlood {
 
   /// Begins with a box that holds what the walk has reached, and with the pins that it met; more are taken as they are
   /// needed. The walk is sent further where ways lead to.
-  PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, Contractor& contractor);
+  PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, SideBySide& both);
 
   /// Makes so many divisions at most.
   End run(std::size_t most, const RunContext& context);
@@ -59,7 +59,7 @@ class PoseFlood {
   const Pinned& pinned_;
   PinWalk& walk_;
   Limits limits_;
-  Contractor& contractor_;
+  SideBySide& both_;
   PinsInUse in_use_;
   Vector6 scale_;
   PoseBox box_;
