@@ -19,7 +19,7 @@ class Guided final : public PathPlanner {
     // Walk and forest move a group as one.
     const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0 || parameters_.lead_looks > 0) &&
                         parameters_.motion == push::Motion::automatic && can_grow(query) && query.leaving.empty();
-    return others ? plan_with_others(query, parameters_, tactics_, cache_, context)
+    return others ? plan_with_others(query, parameters_, tactics_, cache_, aside_, context)
                   : push::plan(query, tactics_, context);
   }
 
@@ -31,7 +31,7 @@ class Guided final : public PathPlanner {
 
   Parameters parameters_;
   push::Tactics tactics_;
-  tolerant_walk::GeometryCache cache_;
+  tolerant_walk::GeometryCache cache_, aside_{std::size_t{128} << 20};
 };
 
 }  // namespace

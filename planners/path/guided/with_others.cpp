@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "dismantle/crew.h"
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/push/plan.h"
 #include "dismantle/tolerant_walk/walk.h"
@@ -53,21 +54,33 @@ class Others {
     limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
   }
 
-  PathResult under_depth_limit() {
+  /// The walk that is led, and then the rest, which an idle thread may begin meanwhile.
+  PathResult under_depth_limit(tolerant_walk::GeometryCache& aside) {
     const unsigned depth = query_.effort.max_depth;
     if (depth >= kLeastDepthOfLarge || (depth >= kLeastDepthOfLead && !is_large(query_))) {
+      RunContext own = context_;
+      own.cancel = CancelToken();
+      own.on_progress = nullptr;
+      own.on_log = nullptr;
+      Others rest(query_, parameters_, tactics_, aside, own);
+      std::optional<Crew::Offer> offer;
+      if (context_.crew && limits_.steps_left == nullptr)
+        offer = context_.crew->offer([&] { rest.push_and_walk(); }, Crew::Rank::part);
       lead(depth <= kLeastDepthOfLead ? 1 : 0);
-      if (!undecided(led_)) return together(led_);
+      if (!undecided(led_)) {
+        own.cancel.cancel();
+        return together(led_);
+      }
+      if (offer && !offer->withdraw()) {
+        offer->wait(context_, own.cancel);
+        pushes_ = rest.pushes_;
+        squeezed_ = rest.squeezed_;
+        walked_ = rest.walked_;
+        return pushed_or_walked();
+      }
     }
-    pushes_ = push::plan(query_, tactics_, context_);
-    spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
-    if (!undecided(pushes_)) return together(pushes_);
-    // Ways that the judge refused lead out, and only cut a little too deep.
-    const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
-    if (!nearly && depth < kLeastDepth) return together(pushes_);
-    const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(depth, kDeepSearch);
-    walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
-    return together(undecided(squeezed_) ? pushes_ : squeezed_);
+    push_and_walk();
+    return pushed_or_walked();
   }
 
   PathResult by_turns() {
@@ -109,6 +122,21 @@ class Others {
   }
 
  private:
+  void push_and_walk() {
+    const unsigned depth = query_.effort.max_depth;
+    pushes_ = push::plan(query_, tactics_, context_);
+    spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
+    if (!undecided(pushes_)) return;
+    // Ways that the judge refused lead out, and only cut a little too deep.
+    const bool nearly = pushes_.outcome == Outcome::exhausted && pushes_.counts["refused"] > 0;
+    if (!nearly && depth < kLeastDepth) return;
+    const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(depth, kDeepSearch);
+    walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
+    walked_ = true;
+  }
+
+  PathResult pushed_or_walked() const { return together(walked_ && !undecided(squeezed_) ? squeezed_ : pushes_); }
+
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
   static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
   static constexpr unsigned kMostDetours = 8;
@@ -185,14 +213,16 @@ class Others {
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
   PathResult pushes_, led_, squeezed_, forest_;
+  bool walked_ = false;  // after pushes in vain
 };
 
 }  // namespace
 
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
-                            tolerant_walk::GeometryCache& cache, RunContext& context) {
+                            tolerant_walk::GeometryCache& cache, tolerant_walk::GeometryCache& aside,
+                            RunContext& context) {
   Others others(query, parameters, tactics, cache, context);
-  return query.effort.max_depth > 0 ? others.under_depth_limit() : others.by_turns();
+  return query.effort.max_depth > 0 ? others.under_depth_limit(aside) : others.by_turns();
 }
 
 }  // namespace dismantle::guided

@@ -11,12 +11,13 @@ namespace dismantle::guided {
 
 /// The search over pushes alone for `forest_after` steps. If they are in vain, one led walk (if free space leads out)
 /// and one as in `squeeze`. Then the forest and the pushes go on in turns of the same length, each twice as long as the
-/// last. Ends when one of them has found a way, the effort is used up, or none has anything
-/// left to try (`exhausted`).
+/// last. Ends when one of them has found a way, the effort is used up, or none has anything left to try (`exhausted`).
 ///
-/// Under a depth limit: the pushes, and then the walks in proportion to it, no forest. Counts of the walks and of the
-/// forest begin with "led_", "squeeze_" and "forest_".
+/// Under a depth limit, from some depth on: the walk that is led, the pushes and the other walk, in proportion to it;
+/// no forest. An idle thread of the context's crew may begin with the pushes during the first, with the cache `aside`.
+/// Counts of the walks and of the forest begin with "led_", "squeeze_" and "forest_".
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
-                            tolerant_walk::GeometryCache& cache, RunContext& context);
+                            tolerant_walk::GeometryCache& cache, tolerant_walk::GeometryCache& aside,
+                            RunContext& context);
 
 }  // namespace dismantle::guided

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "dismantle/crew.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/registry.h"
 #include "dismantle/verify/verdict.h"
@@ -27,7 +29,8 @@ struct Table {
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
   std::shared_ptr<const Prepared> prepared;
   Verifier verifier;
-  std::size_t judged = 0;
+  std::atomic<std::size_t> judged = 0;
+  std::shared_ptr<Crew> crew;  ///< whose idle threads may help
 
   explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
     RunContext context;
@@ -49,6 +52,7 @@ struct Table {
           .push_back({part.id, Pose{}});
     RunContext context;
     context.rng = Rng(seed);
+    context.crew = crew;
     const auto judge = [&](const Path& path) {
       ++judged;
       Verdict v = verdict_of(verifier.check_motion(moving, cast.still, path));

@@ -59,6 +59,24 @@ TEST(LedWalk, TakesAPlateOutOfAMaze) {
   }
 }
 
+/// An idle thread begins with what comes after the walk.
+TEST(LedWalk, TheSameWhereOthersHelp) {
+  const ParamSet few = {{"lead_looks", std::int64_t{500}}, {"squeeze_looks", std::int64_t{1000}}};
+  for (const double gap : {0.75, 0.0})
+    for (const unsigned depth : {2U, 3U, 4U}) {
+      Table table(maze(gap));
+      const PathResult alone = table.plan("guided", few, 1, 0, depth);
+      table.crew = std::make_shared<Crew>(3);
+      const PathResult helped = table.plan("guided", few, 1, 0, depth);
+      EXPECT_EQ(helped.outcome, alone.outcome);
+      EXPECT_EQ(helped.counts, alone.counts);
+      EXPECT_EQ(helped.blocked_by, alone.blocked_by);
+      EXPECT_EQ(helped.message, alone.message);
+      ASSERT_EQ(helped.path.size(), alone.path.size());
+      for (std::size_t k = 0; k < alone.path.size(); ++k) EXPECT_EQ(helped.path[k][0].t, alone.path[k][0].t);
+    }
+}
+
 TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
   Table table(maze(0));
   const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
