@@ -8,7 +8,7 @@
 #include <set>
 
 #include "barred_shaft.h"
-#include "blocking/confinements_ahead.h"
+#include "blocking/proofs_ahead.h"
 #include "dismantle/plan/check_plan.h"
 #include "fake_planning.h"
 #include "held_shapes.h"
@@ -140,39 +140,36 @@ TEST(Blocking, EachOfSeveralPairsIsProvedToHoldEachOther) {
 }
 
 /// Whatever was begun before, and however much of it was dropped.
-TEST(ConfinementsAhead, TellsWhatTheJudgeDoes) {
+TEST(ProofsAhead, TellWhatTheJudgeDoes) {
+  using Question = blocking::HoldQuestion;
   const Assembly assembly = cased_pairs(2);
   const Verifier judge(assembly, {});
-  using Question = blocking::ConfinementsAhead::Question;
   std::vector<Question> all;
-  std::map<Question, std::optional<Confinement>> truth;
-  std::size_t held = 0;
+  std::map<Question, std::optional<std::string>> truth;
+  std::map<Question::Kind, std::size_t> held;
   for (const auto& [a, b] : {std::pair<PartId, PartId>{0, 1}, {2, 3}, {1, 2}})
-    for (const double share : {0.5, 1.0}) {
-      all.push_back({a, b, share});
-      truth[all.back()] = judge.confined(a, b, {}, share);
-      held += truth[all.back()].has_value();
+    for (const Question::Kind kind : {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_for_sure,
+                                      Question::Kind::confined_at_last}) {
+      all.push_back(Question::of_pair(kind, a, b));
+      truth[all.back()] = blocking::ProofsAhead(judge, assembly).answer(all.back(), {}, {});
+      held[kind] += truth[all.back()].has_value();
     }
-  EXPECT_EQ(held, 4u);
+  EXPECT_EQ(held[Question::Kind::confined_at_last], 2u);
+  EXPECT_EQ(held[Question::Kind::confined_for_sure], 2u);
   Rng rng(4);
   for (int trial = 0; trial < 4; ++trial) {
-    blocking::ConfinementsAhead ahead(judge);
     RunContext context;
     context.threads = 1 + static_cast<unsigned>(trial % 3);
-    for (int k = 0; k < 6; ++k) {
+    if (context.threads > 1) context.crew = std::make_shared<Crew>(context.threads);
+    blocking::ProofsAhead ahead(judge, assembly);
+    for (int k = 0; k < 8; ++k) {
       std::vector<Question> wanted;
       for (const Question& q : all)
         if (rng.uniform() < 0.5) wanted.push_back(q);
-      ahead.begin(wanted, context.threads - 1, context);
-      EXPECT_LT(ahead.working(), context.threads);
+      ahead.begin(wanted, context);
       if (rng.uniform() < 0.5) continue;
       const Question& q = all[rng.below(all.size())];
-      const auto said = ahead.answer(q, wanted, context);
-      ASSERT_EQ(said.has_value(), truth[q].has_value());
-      if (!said) continue;
-      EXPECT_EQ(said->cells, truth[q]->cells);
-      EXPECT_EQ(said->depth, truth[q]->depth);
-      EXPECT_EQ(said->shift, truth[q]->shift);
+      ASSERT_EQ(ahead.answer(q, wanted, context), truth[q]);
     }
   }
 }

@@ -7,12 +7,23 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kProofs = 120;      // pairs of a run that are looked at closely, up to a second or two each
-constexpr std::size_t kConfinements = 8;  // likewise, up to half a minute each
-constexpr std::size_t kFlatProofs = 30;   // likewise, up to ten seconds each
-constexpr std::size_t kSureProofs = 6;    // likewise, up to half a minute each
-constexpr unsigned kDepthForSure = 4;     // of a search that was in vain
-constexpr std::size_t kInterlocked = 8;   // parts: the effort grows with the cube of their number
+/// Of a run.
+std::size_t most_proofs(HoldQuestion::Kind kind) {
+  switch (kind) {
+    case HoldQuestion::Kind::cage:
+      return 120;  // up to a second or two each
+    case HoldQuestion::Kind::flat:
+      return 30;  // up to ten seconds each
+    case HoldQuestion::Kind::confined_for_sure:
+      return 6;  // up to half a minute each
+    case HoldQuestion::Kind::confined_at_last:
+      break;
+  }
+  return 8;  // likewise
+}
+
+constexpr unsigned kDepthForSure = 4;    // of a search that was in vain
+constexpr std::size_t kInterlocked = 8;  // parts: the effort grows with the cube of their number
 
 }  // namespace
 
@@ -25,50 +36,58 @@ bool TakingApart::passes_straight(PartId a, PartId b) {
   });
 }
 
-/// Looks for a pair of the group that is proved to hold each other, and makes one unit of the two. Each pair is looked
-/// at once in a run.
-bool TakingApart::join_held(Group& group) {
-  for (std::size_t i = 0; i < group.units.size(); ++i)
-    for (std::size_t k = i + 1; k < group.units.size(); ++k) {
-      const UnitId u = group.units[i], v = group.units[k];
-      for (const PartId a : units_[u])
-        for (const PartId b : units_[v]) {
-          if (stop() || proofs_ == kProofs) return false;
-          if (!looked_at_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
-          ++proofs_;
-          context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-          const auto cage = oracle_.judge()->caged(a, b);
-          if (!cage) continue;
-          join_parts(group, {a, b}, describe(*cage, assembly_));
-          return true;
-        }
-    }
+/// Asks about pairs, each once in a run, until one is proved to hold each other; makes one unit of the two.
+bool TakingApart::join_first(Group& group, const std::vector<HoldQuestion>& questions) {
+  std::vector<HoldQuestion> open;
+  for (const HoldQuestion& q : questions) {
+    if (asked_.contains(q) || std::find(open.begin(), open.end(), q) != open.end()) continue;
+    if (stop()) return false;
+    if (!passes_straight(q.a, q.b))
+      open.push_back(q);
+    else
+      asked_.insert(q);
+  }
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const HoldQuestion& q = open[k];
+    if (stop() || proofs_[q.kind] == most_proofs(q.kind)) return false;
+    ++proofs_[q.kind];
+    asked_.insert(q);
+    context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[q.a].name);
+    const auto why = proved(group, q, std::span(open).subspan(k + 1));
+    if (!why) continue;
+    join_parts(group, {q.a, q.b}, *why);
+    return true;
+  }
   return false;
 }
 
-/// Like join_held(), with a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes
-/// after the first that was in vain, for the part and the larger ones that it touched.
-bool TakingApart::join_flat(Group& group) {
+bool TakingApart::join_held(Group& group) {
+  std::vector<HoldQuestion> questions;
+  for (std::size_t i = 0; i < group.units.size(); ++i)
+    for (std::size_t k = i + 1; k < group.units.size(); ++k)
+      add_questions(HoldQuestion::Kind::cage, group.units[i], group.units[k], questions);
+  return join_first(group, questions);
+}
+
+/// With a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes after the first
+/// that was in vain, for the part and the larger ones that it touched.
+bool TakingApart::join_flat(Group& group) { return join_first(group, flat_questions(group)); }
+
+std::vector<HoldQuestion> TakingApart::flat_questions(const Group& group) const {
   const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
+  std::vector<HoldQuestion> questions;
   for (const UnitId u : group.units) {
     const auto tried = tried_.find(units_[u].front());
     if (tried == tried_.end()) continue;
     const bool pair = group.units.size() == 2;
-    const std::vector<PartId> touched =
+    const std::vector<PartId>& touched =
         pair ? units_[group.units[group.units[0] == u ? 1 : 0]] : tried->second.blocked_by;
     for (const PartId id : units_[u])
-      for (const PartId other : touched) {
-        if (!in_group(group, unit_of_[other]) || unit_of_[other] == u || !(size(other) > size(id))) continue;
-        if (stop() || flat_.size() == kFlatProofs) return false;
-        if (!flat_.insert({id, other}).second || passes_straight(id, other)) continue;
-        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[id].name);
-        const auto cage = oracle_.judge()->caged_flat(id, other, context_);
-        if (!cage) continue;
-        join_parts(group, {id, other}, describe(*cage, assembly_));
-        return true;
-      }
+      for (const PartId other : touched)
+        if (in_group(group, unit_of_[other]) && unit_of_[other] != u && size(other) > size(id))
+          questions.push_back({HoldQuestion::Kind::flat, id, other});
   }
-  return false;
+  return questions;
 }
 
 /// Is it one more search until join_confined_for_sure()? Of what was joined, or may not leave, none will be made.
@@ -79,24 +98,15 @@ bool TakingApart::close_to_proof(const Group& group) const {
          });
 }
 
-/// Likewise, before searches of a part that has only one other in its way get very long.
+/// Before searches of a part that has only one other in its way get very long.
 bool TakingApart::join_confined_for_sure(Group& group) {
+  std::vector<HoldQuestion> questions;
   for (const UnitId u : group.units) {
     if (!wants_depth(u) || tried_.at(units_[u].front()).depth < kDepthForSure) continue;
-    const std::optional<UnitId> v = alone_in_the_way(group, u);
-    if (!v) continue;
-    for (const PartId a : units_[u])
-      for (const PartId b : units_[*v]) {
-        if (stop() || sure_.size() == kSureProofs) return false;
-        if (!sure_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
-        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-        const auto confinement = confined(group, a, b, kShareForSure);
-        if (!confinement) continue;
-        join_parts(group, {a, b}, describe(*confinement, assembly_));
-        return true;
-      }
+    if (const std::optional<UnitId> v = alone_in_the_way(group, u))
+      add_questions(HoldQuestion::Kind::confined_for_sure, u, *v, questions);
   }
-  return false;
+  return join_first(group, questions);
 }
 
 /// After all searches, and where no part can slide for good: do all of them hold each other in place? As with
@@ -116,22 +126,17 @@ bool TakingApart::join_interlocked(Group& group) {
 /// After all searches: the only one that is known to be in a part's way, does it hold it? That proof is for motions
 /// that cut in less than ways may, so it comes last.
 bool TakingApart::join_confined(Group& group) {
-  for (const UnitId u : group.units) {
-    const std::optional<UnitId> v = alone_in_the_way(group, u);
-    if (!v) continue;
-    for (const PartId a : units_[u])
-      for (const PartId b : units_[*v]) {
-        if (stop() || confinements_ == kConfinements) return false;
-        if (!confined_.insert(std::minmax(a, b)).second || passes_straight(a, b)) continue;
-        ++confinements_;
-        context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[a].name);
-        const auto confinement = confined(group, a, b, kShareAtLast);
-        if (!confinement) continue;
-        join_parts(group, {a, b}, describe(*confinement, assembly_));
-        return true;
-      }
-  }
-  return false;
+  std::vector<HoldQuestion> questions;
+  for (const UnitId u : group.units)
+    if (const std::optional<UnitId> v = alone_in_the_way(group, u))
+      add_questions(HoldQuestion::Kind::confined_at_last, u, *v, questions);
+  return join_first(group, questions);
+}
+
+void TakingApart::add_questions(HoldQuestion::Kind kind, UnitId u, UnitId v,
+                                std::vector<HoldQuestion>& questions) const {
+  for (const PartId a : units_[u])
+    for (const PartId b : units_[v]) questions.push_back(HoldQuestion::of_pair(kind, a, b));
 }
 
 /// The unit that all parts belong to which the last search for a way of `unit` touched; of two, the other.

@@ -1,81 +1,94 @@
-#include "blocking/confinements_ahead.h"
+#include "blocking/proofs_ahead.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
+#include <vector>
+
+#include "dismantle/verify/explanations.h"
 
 namespace dismantle::blocking {
 namespace {
 
-// The caller's flag and deadline cannot wake a sleeper, so they are looked at this often. Affects how soon an
-// interruption is noticed, never an answer.
-constexpr std::chrono::milliseconds kLookAgain{5};
+using Kind = HoldQuestion::Kind;
+
+/// Of what ways may cut in.
+constexpr double kShareForSure = 1, kShareAtLast = 0.5;
+constexpr std::size_t kOffered = 4;  // at a time
 
 }  // namespace
 
-ConfinementsAhead::~ConfinementsAhead() {
-  drop_all_but({});
-  for (const Job& job : dropped_) job.found.wait();
+ProofsAhead::~ProofsAhead() { drop_all_but({}); }  // the offers wait for their ends
+
+std::optional<std::string> ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
+  const auto why = [&](const auto& found) -> std::optional<std::string> {
+    if (!found) return std::nullopt;
+    return describe(*found, assembly_);
+  };
+  switch (q.kind) {
+    case Kind::cage:
+      return why(judge_.caged(q.a, q.b, context));
+    case Kind::flat:
+      return why(judge_.caged_flat(q.a, q.b, context));
+    case Kind::confined_for_sure:
+      return why(judge_.confined(q.a, q.b, context, kShareForSure));
+    case Kind::confined_at_last:
+      break;
+  }
+  return why(judge_.confined(q.a, q.b, context, kShareAtLast));
 }
 
-bool ConfinementsAhead::Job::works() const {
-  return found.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-}
-
-std::size_t ConfinementsAhead::working() const {
+std::size_t ProofsAhead::open() const {
   return static_cast<std::size_t>(
-      std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return job.second.works(); }) +
-      std::count_if(dropped_.begin(), dropped_.end(), [](const Job& job) { return job.works(); }));
+      std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return !job.second.offer.done(); }) +
+      std::count_if(dropped_.begin(), dropped_.end(), [](const Job& job) { return !job.offer.done(); }));
 }
 
 /// What is known stays.
-void ConfinementsAhead::drop_all_but(std::span<const Question> wanted) {
+void ProofsAhead::drop_all_but(std::span<const HoldQuestion> wanted) {
   for (auto job = jobs_.begin(); job != jobs_.end();) {
-    if (!job->second.works() || std::find(wanted.begin(), wanted.end(), job->first) != wanted.end()) {
+    if (job->second.offer.done() || std::find(wanted.begin(), wanted.end(), job->first) != wanted.end()) {
       ++job;
       continue;
     }
     job->second.cancel.cancel();
-    dropped_.push_back(std::move(job->second));
+    if (!job->second.offer.withdraw()) dropped_.push_back(std::move(job->second));
     job = jobs_.erase(job);
   }
-  std::erase_if(dropped_, [](const Job& job) { return !job.works(); });
+  std::erase_if(dropped_, [](const Job& job) { return job.offer.done(); });
 }
 
-void ConfinementsAhead::begin(std::span<const Question> wanted, std::size_t threads, const RunContext& context) {
+void ProofsAhead::begin(std::span<const HoldQuestion> wanted, const RunContext& context) {
   drop_all_but(wanted);
-  for (const Question& question : wanted) {
-    if (working() >= threads) return;
+  if (!context.crew) return;
+  for (const HoldQuestion& question : wanted) {
+    if (open() >= kOffered) return;
     if (jobs_.contains(question)) continue;
     RunContext own;
     own.deadline = context.deadline;
-    own.threads = 1;
-    auto found = std::async(std::launch::async, [this, question, own] {
-      return judge_.confined(question.a, question.b, own, question.share);
-    });
-    jobs_.emplace(question, Job{own.cancel, std::move(found)});
+    own.crew = context.crew;
+    auto why = std::make_shared<std::optional<std::string>>();
+    Crew::Offer offer =
+        context.crew->offer([this, question, own, why] { *why = ask(question, own); }, Crew::Rank::ahead);
+    jobs_.emplace(question, Job{own.cancel, std::move(why), std::move(offer)});
   }
 }
 
-std::optional<Confinement> ConfinementsAhead::answer(const Question& question, std::span<const Question> next,
-                                                     const RunContext& context) {
-  std::vector<Question> wanted{question};
+std::optional<std::string> ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
+                                               const RunContext& context) {
+  std::vector<HoldQuestion> wanted{question};
   wanted.insert(wanted.end(), next.begin(), next.end());
   drop_all_but(wanted);
   const auto known = jobs_.find(question);
-  if (known == jobs_.end()) {
-    begin(next, context.threads - 1, context);
-    RunContext own = context;
-    own.threads = working() == 0 ? context.threads : 1;
-    return judge_.confined(question.a, question.b, own, question.share);
+  if (known == jobs_.end() || known->second.offer.withdraw()) {
+    if (known != jobs_.end()) jobs_.erase(known);
+    begin(next, context);
+    return ask(question, context);
   }
-  Job& job = known->second;
-  begin(wanted, job.works() ? context.threads : context.threads - 1, context);  // the caller only waits
-  while (job.found.wait_for(kLookAgain) != std::future_status::ready)
-    if (context.should_stop()) job.cancel.cancel();
-  Job ended = std::move(job);
+  Job job = std::move(known->second);
   jobs_.erase(known);
-  return ended.found.get();
+  begin(next, context);
+  job.offer.wait(context, job.cancel);
+  return *job.why;
 }
 
 }  // namespace dismantle::blocking

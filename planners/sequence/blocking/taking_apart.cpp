@@ -57,7 +57,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   all.first = true;
   watched_.resize(units_.size());
   groups_.push_back(std::move(all));
-  if (oracle.judge() != nullptr) confinements_ahead_ = std::make_unique<ConfinementsAhead>(*oracle.judge());
+  if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(*oracle.judge(), assembly);
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
     relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_, context.threads);

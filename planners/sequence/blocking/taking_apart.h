@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "blocking/blocking.h"
-#include "blocking/confinements_ahead.h"
+#include "blocking/proofs_ahead.h"
 #include "blocking/relations.h"
 #include "blocking/slides.h"
 #include "blocking/turns.h"
@@ -56,9 +56,7 @@ class TakingApart {
   };
   static constexpr UnitId kUnknown = static_cast<UnitId>(-1);
   static constexpr unsigned kDeepestPair = 64;       ///< of the searches for pairs while other pairs wait
-  static constexpr std::size_t kAheadPerThread = 2;  ///< attempts that are hinted
-  /// Of what ways may cut in, in proofs that pairs hold each other: those before long searches, and those after all.
-  static constexpr double kShareForSure = 1, kShareAtLast = 0.5;
+  static constexpr std::size_t kAheadPerThread = 4;  ///< attempts that are hinted
 
   // taking_apart.cpp: order of things, bookkeeping
   void dismantle(Group group);
@@ -88,12 +86,15 @@ class TakingApart {
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
 
   // holding.cpp: parts that are proved to hold each other
+  bool join_first(Group& group, const std::vector<HoldQuestion>& questions);
   bool join_held(Group& group);
   bool join_flat(Group& group);
+  std::vector<HoldQuestion> flat_questions(const Group& group) const;
   bool join_interlocked(Group& group);
   bool join_confined(Group& group);
   bool close_to_proof(const Group& group) const;
   bool join_confined_for_sure(Group& group);
+  void add_questions(HoldQuestion::Kind kind, UnitId u, UnitId v, std::vector<HoldQuestion>& questions) const;
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
   void join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why);
   void join(Group& group, UnitId u, UnitId v);
@@ -133,8 +134,14 @@ class TakingApart {
   void add_waiting(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                    std::vector<Attempt>& ahead) const;
   void add_others(std::vector<Attempt>& ahead) const;
-  std::optional<Confinement> confined(const Group& group, PartId a, PartId b, double share);
-  std::vector<ConfinementsAhead::Question> likely_to_be_confined(const Group& now) const;
+  bool likely_to_leave(const Group& group, const Attempt& now) const;
+  void add_next(const Group& group, const Attempt& now, const std::vector<UnitId>& next,
+                std::vector<Attempt>& ahead) const;
+  void add_after(const Group& group, const Attempt& now, std::vector<Attempt>& ahead) const;
+  std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
+                                    std::span<const HoldQuestion> next);
+  bool known_to_block(PartId a, PartId b) const;
+  std::vector<HoldQuestion> likely_proofs(const Group& now) const;
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
   unsigned deepest(const Group& group) const;
 
@@ -144,19 +151,16 @@ class TakingApart {
   SequenceObserver& observer_;
   RunContext& context_;
   std::vector<std::vector<PartId>> units_;
-  std::vector<UnitId> unit_of_;                    // by part
-  std::vector<bool> locked_;                       // by part: into another of its unit
-  std::map<PartId, Unsolved> held_;                // of those: held by another without overlap, and why
-  std::set<std::pair<PartId, PartId>> looked_at_;  // pairs that were asked about for that
-  std::set<std::pair<PartId, PartId>> confined_;   // likewise, after all searches
-  std::set<std::pair<PartId, PartId>> sure_;       // likewise, for motions that cut in as deep as ways may
-  std::set<std::vector<PartId>> interlocked_;      // likewise three and more
-  std::set<std::pair<PartId, PartId>> flat_;       // likewise, after a deep search
-  std::size_t proofs_ = 0, confinements_ = 0;
-  std::unique_ptr<ConfinementsAhead> confinements_ahead_;  // null without a judge
-  std::vector<Pose> poses_;                                // by part
-  std::vector<std::size_t> turn_;                          // by part: the rotation in poses_, as relations_ names it
-  std::deque<Group> groups_;                               // waiting
+  std::vector<UnitId> unit_of_;      // by part
+  std::vector<bool> locked_;         // by part: into another of its unit
+  std::map<PartId, Unsolved> held_;  // of those: held by another without overlap, and why
+  std::set<HoldQuestion> asked_;     // or not worth asking
+  std::map<HoldQuestion::Kind, std::size_t> proofs_;
+  std::set<std::vector<PartId>> interlocked_;  // three and more that were asked about
+  std::unique_ptr<ProofsAhead> proofs_ahead_;  // null without a judge
+  std::vector<Pose> poses_;                    // by part
+  std::vector<std::size_t> turn_;              // by part: the rotation in poses_, as relations_ names it
+  std::deque<Group> groups_;                   // waiting
   std::vector<Removal> removals_;
   std::size_t out_ = 0;  // removals that parted a group; one less than units, when all are apart
   std::vector<Unsolved> unsolved_;
