@@ -42,17 +42,7 @@ class Others {
  public:
   Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
          tolerant_walk::GeometryCache& cache, RunContext& context)
-      : query_(query),
-        parameters_(parameters),
-        tactics_(tactics),
-        cache_(cache),
-        context_(context),
-        thin_(free_space::overlaps_through(query)),
-        steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
-    limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
-    limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
-    limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
-  }
+      : Others(query, parameters, tactics, cache, context, free_space::overlaps_through(query)) {}
 
   /// The walk that is led, and then the rest, which an idle thread may begin meanwhile.
   PathResult under_depth_limit(tolerant_walk::GeometryCache& aside) {
@@ -62,10 +52,12 @@ class Others {
       own.cancel = CancelToken();
       own.on_progress = nullptr;
       own.on_log = nullptr;
-      Others rest(query_, parameters_, tactics_, aside, own);
+      std::optional<Others> rest;
       std::optional<Crew::Offer> offer;
-      if (context_.crew && limits_.steps_left == nullptr)
-        offer = context_.crew->offer([&] { rest.push_and_walk(); }, Crew::Rank::part);
+      if (context_.crew && limits_.steps_left == nullptr) {
+        rest.emplace(Others(query_, parameters_, tactics_, aside, own, thin_));
+        offer = context_.crew->offer([&] { rest->push_and_walk(); }, Crew::Rank::part);
+      }
       lead(depth <= kLeastDepthOfLead ? 1 : 0);
       if (!undecided(led_)) {
         own.cancel.cancel();
@@ -73,9 +65,9 @@ class Others {
       }
       if (offer && !offer->withdraw()) {
         offer->wait(context_, own.cancel);
-        pushes_ = rest.pushes_;
-        squeezed_ = rest.squeezed_;
-        walked_ = rest.walked_;
+        pushes_ = rest->pushes_;
+        squeezed_ = rest->squeezed_;
+        walked_ = rest->walked_;
         return pushed_or_walked();
       }
     }
@@ -122,6 +114,20 @@ class Others {
   }
 
  private:
+  Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
+         tolerant_walk::GeometryCache& cache, RunContext& context, bool thin)
+      : query_(query),
+        parameters_(parameters),
+        tactics_(tactics),
+        cache_(cache),
+        context_(context),
+        thin_(thin),
+        steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
+    limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
+    limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
+    limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
+  }
+
   void push_and_walk() {
     const unsigned depth = query_.effort.max_depth;
     pushes_ = push::plan(query_, tactics_, context_);

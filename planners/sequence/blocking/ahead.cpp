@@ -10,19 +10,32 @@ constexpr unsigned kDepthForProofAhead = 2;  // of a search that was in vain
 
 }  // namespace
 
-/// Hints the search that is asked for now, and what comes after it, the likeliest first: what follows if the part
-/// leaves, or if not, and what other groups wait for, which does not depend on that.
+/// Hints the search that is asked for now, and what comes after it: what other groups wait for, which does not depend
+/// on what is found now, and what follows here, either way; if the part is likely to stay, that first.
 void TakingApart::prefetch(const Group& group, const Attempt& now, const std::vector<UnitId>& next) const {
   std::vector<Attempt> ahead{now};
-  const bool leaves = likely_to_leave(group, now);
-  if (!leaves) add_next(group, now, next, ahead);
-  add_others(ahead);
-  add_after(group, now, ahead);
-  if (leaves) add_next(group, now, next, ahead);
+  const std::vector<Attempt> if_out = next_if_out(group, now), if_not = next_if_not(group, now, next);
+  if (likely_to_leave(group, now)) {
+    add_others(ahead);
+    for (std::size_t k = 0; k < std::max(if_out.size(), if_not.size()); ++k)
+      for (const auto* list : {&if_out, &if_not})
+        if (k < list->size()) ahead.push_back((*list)[k]);
+  } else {
+    ahead.insert(ahead.end(), if_not.begin(), if_not.end());
+    add_others(ahead);
+    ahead.insert(ahead.end(), if_out.begin(), if_out.end());
+  }
   const std::size_t most = 1 + kAheadPerThread * context_.threads;
   if (ahead.size() > most) ahead.resize(most);
   // Proofs come first: whether they are needed may change, but not what they say.
   if (proofs_ahead_) proofs_ahead_->begin(likely_proofs(group), context_);
+  oracle_.prefetch(ahead, context_);
+}
+
+/// The part that was searched is out: what was hinted for the case that it stays is of no more use.
+void TakingApart::drop_hints_if_in(const Group& group, const Attempt& now) const {
+  std::vector<Attempt> ahead = next_if_out(group, now);
+  add_others(ahead);
   oracle_.prefetch(ahead, context_);
 }
 
@@ -34,38 +47,48 @@ bool TakingApart::likely_to_leave(const Group& group, const Attempt& now) const 
 }
 
 /// Those that follow in its round, and the next round's.
-void TakingApart::add_next(const Group& group, const Attempt& now, const std::vector<UnitId>& next,
-                           std::vector<Attempt>& ahead) const {
-  const std::size_t most = ahead.size() + kAheadPerThread * context_.threads;
-  for (std::size_t k = 0; k < next.size() && ahead.size() < most; ++k) {
-    ahead.push_back(question(group, {next[k]}));
-    ahead.back().max_depth = now.max_depth;
-  }
-  if (group.searched_out) return;
+std::vector<Attempt> TakingApart::next_if_not(const Group& group, const Attempt& now,
+                                              const std::vector<UnitId>& next) const {
+  std::vector<Attempt> ahead;
+  add_searches(group, now.max_depth, next, ahead);
+  if (group.searched_out) return ahead;
   if (group.units.size() == 2) {
     add_waiting(group, 2 * group.pair_depth, group.units, ahead);
   } else if (now.max_depth == group.depth && group.depth < deepest(group)) {
-    std::vector<UnitId> again;
-    for (const UnitId u : group.units)
-      if (wants_depth(u) && tried_.at(units_[u].front()).depth == group.depth) again.push_back(u);
-    cheap_first(again, group.depth + 1);
-    add_waiting(group, group.depth + 1, again, ahead);
+    add_next_round(group, ahead);
   }
+  return ahead;
 }
 
-/// The searches of its round, without the part that is searched now.
-void TakingApart::add_after(const Group& group, const Attempt& now, std::vector<Attempt>& ahead) const {
-  if (group.units.size() < 3 || group.searched_out || now.max_depth != group.depth) return;
+/// What is left to search of its round, without the part that is searched now, and the next round's.
+std::vector<Attempt> TakingApart::next_if_out(const Group& group, const Attempt& now) const {
+  std::vector<Attempt> ahead;
+  if (group.units.size() < 3 || group.searched_out || now.max_depth != group.depth) return ahead;
   Group left = group;
   std::erase(left.units, unit_of_[now.moving.front().part]);
   std::vector<UnitId> list;
   for (const UnitId u : left.units)
     if (units_[u].size() == 1 && may_leave(left, {u}) && worth_trying(left, u, left.depth)) list.push_back(u);
   cheap_first(list, left.depth);
-  const std::size_t most = ahead.size() + kAheadPerThread * context_.threads;
-  for (std::size_t k = 0; k < list.size() && ahead.size() < most; ++k) {
-    ahead.push_back(question(left, {list[k]}));
-    ahead.back().max_depth = left.depth;
+  add_searches(left, left.depth, list, ahead);
+  if (left.depth < deepest(left)) add_next_round(left, ahead);
+  return ahead;
+}
+
+void TakingApart::add_next_round(const Group& group, std::vector<Attempt>& ahead) const {
+  std::vector<UnitId> again;
+  for (const UnitId u : group.units)
+    if (wants_depth(u) && tried_.at(units_[u].front()).depth == group.depth) again.push_back(u);
+  cheap_first(again, group.depth + 1);
+  add_waiting(group, group.depth + 1, again, ahead);
+}
+
+/// No more than idle threads may come to.
+void TakingApart::add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
+                               std::vector<Attempt>& ahead) const {
+  for (std::size_t k = 0; k < std::min(units.size(), kAheadPerThread * context_.threads); ++k) {
+    ahead.push_back(question(group, {units[k]}));
+    ahead.back().max_depth = depth;
   }
 }
 

@@ -137,6 +137,7 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
                                     std::to_string(depth) + ": " + std::string(to_string(result.outcome)) + ", " +
                                     std::to_string(answer.seconds) + " s");
   if (is_success(result.outcome)) {
+    if (context_.threads > 1) drop_hints_if_in(group, question_now);
     const unsigned reached = group.depth;
     book(group, {unit}, question_now, answer);
     group.depth = reached;

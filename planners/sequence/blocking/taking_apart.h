@@ -134,10 +134,13 @@ class TakingApart {
   void add_waiting(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                    std::vector<Attempt>& ahead) const;
   void add_others(std::vector<Attempt>& ahead) const;
+  void drop_hints_if_in(const Group& group, const Attempt& now) const;
   bool likely_to_leave(const Group& group, const Attempt& now) const;
-  void add_next(const Group& group, const Attempt& now, const std::vector<UnitId>& next,
-                std::vector<Attempt>& ahead) const;
-  void add_after(const Group& group, const Attempt& now, std::vector<Attempt>& ahead) const;
+  std::vector<Attempt> next_if_not(const Group& group, const Attempt& now, const std::vector<UnitId>& next) const;
+  std::vector<Attempt> next_if_out(const Group& group, const Attempt& now) const;
+  void add_next_round(const Group& group, std::vector<Attempt>& ahead) const;
+  void add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
+                    std::vector<Attempt>& ahead) const;
   std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
                                     std::span<const HoldQuestion> next);
   bool known_to_block(PartId a, PartId b) const;
