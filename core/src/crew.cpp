@@ -27,6 +27,7 @@ struct Crew::Impl {
   std::condition_variable place_or_work, work_ended;
   std::deque<std::shared_ptr<Work>> parts, ahead;
   unsigned working = 1;
+  bool untold = false;  // a place was left to an offer, and nobody has it yet
   bool stop = false;
   std::mutex idle_mutex;  // taken before `mutex`, or alone
   std::function<void()> idle;
@@ -57,7 +58,7 @@ struct Crew::Impl {
     {
       const std::scoped_lock lock(mutex);
       --working;
-      offered = offers();
+      untold = offered = offers();
     }
     if (offered)
       place_or_work.notify_one();
@@ -78,6 +79,7 @@ struct Crew::Impl {
       const std::shared_ptr<Work> work = next();
       work->state = Work::State::running;
       ++working;
+      untold = false;
       lock.unlock();
       try {
         work->run();
@@ -108,12 +110,18 @@ Crew::Offer::~Offer() {
 }
 
 bool Crew::Offer::withdraw() {
-  const std::scoped_lock lock(crew_->mutex);
-  if (work_->state == Work::State::withdrawn) return true;
-  if (work_->state != Work::State::offered) return false;
-  std::erase(crew_->parts, work_);
-  std::erase(crew_->ahead, work_);
-  work_->state = Work::State::withdrawn;
+  bool tell = false;
+  {
+    const std::scoped_lock lock(crew_->mutex);
+    if (work_->state == Work::State::withdrawn) return true;
+    if (work_->state != Work::State::offered) return false;
+    std::erase(crew_->parts, work_);
+    std::erase(crew_->ahead, work_);
+    work_->state = Work::State::withdrawn;
+    tell = crew_->untold && !crew_->offers();
+    if (tell) crew_->untold = false;
+  }
+  if (tell) crew_->tell_idle();
   return true;
 }
 

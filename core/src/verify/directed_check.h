@@ -54,6 +54,7 @@ struct Budget {
     return true;
   }
   bool spend_tests(std::uint64_t count) {
+    if (context != nullptr && context->should_stop()) tests_left = 0;
     const std::uint64_t spent = std::min(count, tests_left);
     tests_left -= spent;
     tests_done += spent;

@@ -67,7 +67,6 @@ class Others {
         offer->wait(context_, own.cancel);
         pushes_ = rest->pushes_;
         squeezed_ = rest->squeezed_;
-        walked_ = rest->walked_;
         return pushed_or_walked();
       }
     }
@@ -123,6 +122,7 @@ class Others {
         context_(context),
         thin_(thin),
         steps_left_(query.effort.max_steps > 0 ? query.effort.max_steps : kUnlimited) {
+    squeezed_.outcome = Outcome::depth_limit;  // as long as there is no walk, or nothing is left for it
     limits_.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
     limits_.steps_left = query.effort.max_steps > 0 ? &steps_left_ : nullptr;
     limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
@@ -138,10 +138,11 @@ class Others {
     if (!nearly && depth < kLeastDepth) return;
     const unsigned halvings = nearly ? 0 : kDeepSearch - std::min(depth, kDeepSearch);
     walk(std::ldexp(static_cast<double>(parameters_.squeeze_looks), -static_cast<int>(halvings)));
-    walked_ = true;
   }
 
-  PathResult pushed_or_walked() const { return together(walked_ && !undecided(squeezed_) ? squeezed_ : pushes_); }
+  PathResult pushed_or_walked() const {
+    return together(undecided(pushes_) && !undecided(squeezed_) ? squeezed_ : pushes_);
+  }
 
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
   static constexpr unsigned kDeepSearch = 8;  // that deep and deeper: a whole walk
@@ -156,7 +157,6 @@ class Others {
   /// Looks count as steps.
   void walk(double looks) {
     const std::uint64_t most = std::min(static_cast<std::uint64_t>(looks), steps_left_);
-    squeezed_.outcome = Outcome::depth_limit;  // also where there is nothing left for it
     if (most > 0) {
       tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query_, context_, cache_);
       squeezed_ = walk.run(most);
@@ -219,7 +219,6 @@ class Others {
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
   PathResult pushes_, led_, squeezed_, forest_;
-  bool walked_ = false;  // after pushes in vain
 };
 
 }  // namespace

@@ -10,8 +10,8 @@ constexpr unsigned kDepthForProofAhead = 2;  // of a search that was in vain
 
 }  // namespace
 
-/// Hints the search that is asked for now, and what comes after it: what other groups wait for, which does not depend
-/// on what is found now, and what follows here, either way; if the part is likely to stay, that first.
+/// Puts before idle threads: the search that is asked for now, what other groups wait for, which does not depend on its
+/// outcome, and what follows here, either way; if the part is likely to stay, that first.
 void TakingApart::prefetch(const Group& group, const Attempt& now, const std::vector<UnitId>& next) const {
   std::vector<Attempt> ahead{now};
   const std::vector<Attempt> if_out = next_if_out(group, now), if_not = next_if_not(group, now, next);

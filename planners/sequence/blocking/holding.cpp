@@ -41,7 +41,7 @@ bool TakingApart::join_first(Group& group, const std::vector<HoldQuestion>& ques
   std::vector<HoldQuestion> open;
   for (const HoldQuestion& q : questions) {
     if (asked_.contains(q) || std::find(open.begin(), open.end(), q) != open.end()) continue;
-    if (stop()) return false;
+    if (stop() || proofs_[q.kind] == most_proofs(q.kind)) return false;
     if (!passes_straight(q.a, q.b))
       open.push_back(q);
     else

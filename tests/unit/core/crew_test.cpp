@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <chrono>
 #include <latch>
 #include <memory>
 #include <stdexcept>
@@ -51,7 +50,7 @@ TEST(Crew, NoMoreAreAtWorkThanThereArePlaces) {
       const unsigned now = ++working;
       for (unsigned m = most; m < now && !most.compare_exchange_weak(m, now);) {
       }
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      for (int k = 0; k < 10; ++k) std::this_thread::yield();
       --working;
     };
     std::atomic<bool> stop{false};
@@ -63,7 +62,7 @@ TEST(Crew, NoMoreAreAtWorkThanThereArePlaces) {
         }
     });
     std::vector<Crew::Offer> offers;
-    for (int k = 0; k < 100; ++k) offers.push_back(crew.offer(work, Rank::ahead));
+    for (int k = 0; k < 20; ++k) offers.push_back(crew.offer(work, Rank::ahead));
     while (!offers.back().done()) std::this_thread::yield();
     stop = true;
     other.join();
@@ -128,8 +127,8 @@ TEST(Crew, TellsWhenThereIsAPlaceAndNoOffer) {
   crew.enter();
   crew.leave();
   EXPECT_GE(told, 1);
-  Crew::Offer offer = crew.offer([] {}, Rank::part);
   const int before = told;
+  Crew::Offer offer = crew.offer([] {}, Rank::part);
   offer.wait();
   while (told == before) std::this_thread::yield();
   crew.when_idle(nullptr);
@@ -137,6 +136,23 @@ TEST(Crew, TellsWhenThereIsAPlaceAndNoOffer) {
   crew.enter();
   crew.leave();
   EXPECT_EQ(told, at_last);
+}
+
+/// A place is left while something is offered, and that is withdrawn before anybody has taken it: others are told.
+TEST(Crew, TellsOfAPlaceWhenAnOfferIsWithdrawn) {
+  for (int trial = 0; trial < 200; ++trial) {
+    Crew crew(2);
+    std::atomic<int> told{0};
+    crew.enter();  // both places are taken
+    std::atomic<bool> done{false};
+    Crew::Offer offer = crew.offer([&] { done = true; }, Rank::part);
+    crew.when_idle([&] { ++told; });
+    crew.leave();
+    if (!offer.withdraw()) offer.wait();
+    while (told == 0) std::this_thread::yield();
+    crew.when_idle(nullptr);
+    EXPECT_GE(told, 1);
+  }
 }
 
 TEST(Crew, OffersMayOutliveIt) {
