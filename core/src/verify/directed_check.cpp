@@ -41,7 +41,8 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       limits_(limits),
       budget_(budget),
       patch_of_(a.mesh.triangles.size(), kNone),
-      unclear_(a.mesh.triangles.size(), std::numeric_limits<double>::infinity()) {}
+      unclear_(
+          std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())) {}
 
 Finding DirectedCheck::run() {
   std::size_t done = 0;
@@ -139,22 +140,29 @@ UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, d
   return {b_.bvh, winding, ring, cell};
 }
 
+DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Placement& start, std::size_t from,
+                                            std::size_t to, std::uint32_t patch) const {
+  const Patch& p = patches_[patch];
+  Glance seen{true, false, 0};
+  seen.clear = other.clear_of(placed(start, moved_by_vertices(p, allowed(p) * kShare)), from, to, seen.cells);
+  return seen;
+}
+
 /// Takes what is certified off the list. False: the check failed.
 bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
                                    List& list) {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
+  const std::vector<Glance> known = glances(other, winding, from, to, list);
   List rest;
-  for (const std::uint32_t id : list) {
-    const Patch& patch = patches_[id];
-    std::uint64_t cells = 0;
-    const bool clear =
-        other.clear_of(placed(start, moved_by_vertices(patch, allowed(patch) * kShare)), from, to, cells);
-    if (!budget_.spend_tests(1 + cells / kCellsOfTest))
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Patch& patch = patches_[list[k]];
+    const Glance seen = k < known.size() && known[k].done ? known[k] : glance(other, start, from, to, list[k]);
+    if (!budget_.spend_tests(1 + seen.cells / kCellsOfTest))
       return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
-    if (clear)
-      pieces_.push_back({id, static_cast<double>(from), static_cast<double>(to)});
+    if (seen.clear)
+      pieces_.push_back({list[k], static_cast<double>(from), static_cast<double>(to)});
     else
-      rest.push_back(id);
+      rest.push_back(list[k]);
   }
   list = std::move(rest);
   return true;
@@ -174,14 +182,24 @@ bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std:
 
 bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {
   List later;
+  if (!settle_all(i, std::move(list), vertex_rule, later)) return false;
+  if (later.empty()) return true;
+  const double m = middle(i);
+  return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
+}
+
+bool DirectedCheck::settle_all(const Interval& i, List list, bool vertex_rule, List& later) {
+  return has_help() ? settle_shared(i, list, vertex_rule, later)
+                    : settle_in_turn(i, std::move(list), vertex_rule, later);
+}
+
+bool DirectedCheck::settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later) {
   while (!list.empty()) {
     const std::uint32_t id = list.back();
     list.pop_back();
     if (!settle(i, id, vertex_rule, list, later)) return false;
   }
-  if (later.empty()) return true;
-  const double m = middle(i);
-  return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
+  return true;
 }
 
 bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved, bool& far) {
@@ -192,7 +210,7 @@ bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved
 
 /// Along a close fit a triangle fails at the same bend again and again: do not ask where it did shortly before.
 bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
-  return i.s1 - i.s0 <= kShortest || margin < unclear_[triangle];
+  return i.s1 - i.s0 <= kShortest || margin < (*unclear_)[triangle];
 }
 
 bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
@@ -210,10 +228,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
     if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
       if (!far) pieces_.push_back({id, i.s0, i.s1});
-      unclear_[patch.triangle] *= kForget;
+      (*unclear_)[patch.triangle] *= kForget;
       return true;
     }
-    if (bent) unclear_[patch.triangle] = margin;  // and no other rule holds there
+    if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
   }
   if (bent) {  // too bent to be judged as straight
     later.push_back(id);

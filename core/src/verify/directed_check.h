@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "dismantle/run_context.h"
@@ -62,7 +63,8 @@ struct Budget {
   }
 };
 
-/// The surface of `a` against `b`. One object per question.
+/// The surface of `a` against `b`. One object per question. Idle threads of the crew in the budget's context help; what
+/// is found, and what that takes, does not depend on them.
 class DirectedCheck {
  public:
   DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
@@ -93,6 +95,23 @@ class DirectedCheck {
   bool clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List& list);
   UnrolledMesh unrolled(const Winding& winding, const List& list, double cell) const;
   bool process(const Interval& i, List list, bool vertex_rule);
+  bool settle_all(const Interval& i, List list, bool vertex_rule, List& later);
+  bool settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later);
+  // directed_share.cpp: with idle threads
+  struct Share;
+  DirectedCheck(const DirectedCheck& whole, const List& list, Budget& budget);
+  bool has_help() const;
+  std::vector<List> cut(const List& list) const;
+  bool settle_shared(const Interval& i, const List& list, bool vertex_rule, List& later);
+  bool take_over(Share& share, List& later);
+  struct Glance {
+    bool done = false, clear = false;
+    std::uint64_t cells = 0;
+  };
+  std::vector<Glance> glances(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                              const List& list) const;
+  Glance glance(const UnrolledMesh& other, const Placement& start, std::size_t from, std::size_t to,
+                std::uint32_t patch) const;
   bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
   bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
@@ -108,7 +127,8 @@ class DirectedCheck {
   Budget& budget_;
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
-  std::vector<double> unclear_;          // by triangle of A: margins from there on were in vain lately
+  /// By triangle of A: margins from there on were in vain lately. Of all shares; no two have patches of one triangle.
+  std::shared_ptr<std::vector<double>> unclear_;
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;
   Finding finding_;

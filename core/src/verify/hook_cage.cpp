@@ -235,24 +235,36 @@ struct Cap {
 /// With the corner anywhere on the disc of `loop`: directions in which a line of the bend may lead.
 class Ways {
  public:
-  Ways(const Loop& loop, const Solid& around, const Bend& bend)
+  Ways(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context)
       : loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
-    for (int level = 0; level <= kFinest; ++level) places_.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
-    for (int face = 0; face < 6; ++face) cover(Cap(face, 0, 0, 0));
+    std::vector<Places> begin;  // by level
+    for (int level = 0; level <= kFinest; ++level) begin.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
+    std::array<Face, 6> faces;
+    on_threads(
+        faces.size(), context,
+        [&](std::size_t k) {
+          faces[k].places = begin;
+          cover(Cap(static_cast<int>(k), 0, 0, 0), faces[k]);
+        },
+        [&] { return gave_up(); });
+    for (const Face& face : faces) found_.insert(found_.end(), face.found.begin(), face.found.end());
   }
+  /// All of them, unless it gave up.
   const std::vector<Cap>& directions() const { return found_; }
-  bool gave_up() const { return found_.size() > kMostCaps || looks_ > kMostLooks; }
+  /// By what all faces take together, so it does not matter which are looked at first.
+  bool gave_up() const { return caps_ > kMostCaps || looks_ > kMostLooks; }
 
  private:
   struct Places {
     double edge;
     std::vector<Vec3> centers;
   };
+  struct Face {  // of a cube of directions
+    std::vector<Places> places;
+    std::vector<Cap> found;
+  };
 
-  double room(const Vec3& p, double limit) {
-    ++looks_;
-    return around_.bvh.closest(to_local_ * p, limit).distance;
-  }
+  double room(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
 
   /// Squares of the disc in some of which the corner is.
   Places places(double edge) {
@@ -271,6 +283,7 @@ class Ways {
         const double needed = bend_.keep[0] - half_diagonal(edge);
         // A square that is not within the curve, and whose centre is further from it than its corners are, has no
         // point within.
+        looks_ += 2;
         if (!loop_.around(p) && room(p, half_diagonal(edge) * 1.0001) > half_diagonal(edge)) continue;
         if (room(p, std::max(needed, 0.0)) >= needed) result.centers.push_back(p);
       }
@@ -278,43 +291,47 @@ class Ways {
   }
   static double half_diagonal(double edge) { return std::numbers::sqrt2 / 2 * edge; }
 
-  bool possible(const Cap& cap) {
-    Places& places = places_[static_cast<std::size_t>(cap.level)];
-    for (Vec3& c : places.centers) {
-      bool free = true;
+  bool possible(const Cap& cap, Face& face) {
+    Places& places = face.places[static_cast<std::size_t>(cap.level)];
+    std::uint64_t looks = 0;
+    bool free = false;
+    for (std::size_t at = 0; at < places.centers.size() && !free; ++at) {
+      free = true;
       for (std::size_t k = bend_.keep.size(); k-- > 1 && free;) {
         const double s = static_cast<double>(k) * bend_.step;
         const double needed = bend_.keep[k] - half_diagonal(places.edge) - s * cap.radius;
-        if (needed > 0) free = room(c + s * cap.center, needed) >= needed;
+        if (!(needed > 0)) continue;
+        free = room(places.centers[at] + s * cap.center, needed) >= needed;
+        ++looks;
       }
-      if (!free) continue;
-      std::swap(c, places.centers.front());  // the next direction is near this one
-      return true;
+      if (free) std::swap(places.centers[at], places.centers.front());  // the next direction is near this one
     }
-    return false;
+    looks_ += looks;
+    return free;
   }
 
-  void cover(const Cap& cap) {
-    if (gave_up() || !possible(cap)) return;
+  void cover(const Cap& cap, Face& face) {
+    if (gave_up() || !possible(cap, face)) return;
     if (cap.level == kFinest) {
-      found_.push_back(cap);
+      face.found.push_back(cap);
+      ++caps_;
       return;
     }
-    for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2));
+    for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2), face);
   }
 
   const Loop& loop_;
   const Solid& around_;
   const Bend& bend_;
   Pose to_local_;
-  std::vector<Places> places_;  ///< by level
   std::vector<Cap> found_;
-  std::uint64_t looks_ = 0;
+  std::atomic<std::size_t> caps_{0};
+  std::atomic<std::uint64_t> looks_{0};
 };
 
 /// Can the corner never be on the disc?
-bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend) {
-  const Ways ways(loop, around, bend);
+bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context) {
+  const Ways ways(loop, around, bend, context);
   if (ways.gave_up()) return false;
   const double apart = (bend.along[0] - bend.along[1]).norm();
   for (const Cap& a : ways.directions())
@@ -351,7 +368,8 @@ std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& node
 
 /// On one side of the disc that a node is on: a bend that cannot pass it.
 std::optional<Bend> bend_on_side(const Solid& bar, const Solid& around, double depth, const std::vector<Node>& nodes,
-                                 const Joined& joined, const Loop& loop, std::size_t node, bool above) {
+                                 const Joined& joined, const Loop& loop, std::size_t node, bool above,
+                                 const RunContext& context) {
   std::vector<Corner> corners;
   std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
   near.resize(std::min(near.size(), kNear));
@@ -363,7 +381,7 @@ std::optional<Bend> bend_on_side(const Solid& bar, const Solid& around, double d
   for (const Corner& corner : corners) {
     const auto bend = refined(bar, corner, depth);
     // Refining must not have taken the corner to the other side: the line would cross the disc twice.
-    if (bend && !crosses(loop, corner.node.at, bend->corner) && cannot_pass(loop, around, *bend)) return bend;
+    if (bend && !crosses(loop, corner.node.at, bend->corner) && cannot_pass(loop, around, *bend, context)) return bend;
   }
   return std::nullopt;
 }
@@ -382,7 +400,7 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>
     on_threads(
         bends.size(), context,
         [&, &hole = loop, at = node](std::size_t side) {
-          bends[side] = bend_on_side(bar, around, depth, nodes, joined, hole, at, side == 1);
+          bends[side] = bend_on_side(bar, around, depth, nodes, joined, hole, at, side == 1, context);
           if (!bends[side]) passes = true;
         },
         [&] { return passes.load(); });

@@ -23,6 +23,7 @@ class Ahead {
     if (budget.context == nullptr || !budget.context->crew) return;
     if (a.mesh.triangles.size() + b.mesh.triangles.size() < kMany) return;
     own_.deadline = budget.context->deadline;
+    own_.crew = budget.context->crew;
     budget_.context = &own_;
     offer_ = budget.context->crew->offer([&, limits] { found_ = DirectedCheck(a, b, motion, limits, budget_).run(); },
                                          Crew::Rank::part);

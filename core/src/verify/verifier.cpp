@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -292,33 +291,32 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
   return true;
 }
 
+verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,
+                                            const std::vector<PlacedPart>& rest) const {
+  const auto placed = [&](const std::vector<PlacedPart>& parts) {
+    std::vector<verify::PlacedHull> hulls;
+    for (const auto& p : parts) {
+      const Body& body = bodies.at(p.part);
+      hulls.push_back({meshes[p.part].get(), &body.box, &body.corners, p.pose});
+    }
+    return hulls;
+  };
+  return {placed(group), placed(rest)};
+}
+
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {
-  if (group.empty() || rest.empty()) return true;
-  const auto corners = [&](const std::vector<PlacedPart>& parts) {
-    std::vector<Vec3> points;
-    for (const auto& p : parts)
-      for (const auto& c : impl_->bodies.at(p.part).corners) points.push_back(p.pose * c);
-    return points;
-  };
-  // qhull leaves out points that are within rounding of a face: the last word is on all vertices.
-  const auto parted_across = [&](const Vec3& normal) {
-    double top = -std::numeric_limits<double>::infinity(), bottom = -top;
-    for (const auto& p : group)
-      for (const auto& v : impl_->meshes[p.part]->vertices) top = std::max(top, normal.dot(p.pose * v));
-    for (const auto& p : rest)
-      for (const auto& v : impl_->meshes[p.part]->vertices) bottom = std::min(bottom, normal.dot(p.pose * v));
-    return bottom > top;
-  };
-  const std::vector<Vec3> ours = corners(group), theirs = corners(rest);
-  Aabb box, other;
-  for (const Vec3& c : ours) box.extend(c);
-  for (const Vec3& c : theirs) other.extend(c);
-  for (int k = 0; k < 3; ++k)  // most leave along an axis
-    for (const double side : {1.0, -1.0})
-      if ((side > 0 ? box.hi[k] < other.lo[k] : box.lo[k] > other.hi[k]) && parted_across(side * Vec3::Unit(k)))
-        return true;
-  const auto found = separate(ours, theirs);
-  return found && parted_across(found->normal);
+  return impl_->hulls_of(group, rest).after(Vec3::Zero());
+}
+
+double Verifier::way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
+                           const Vec3& direction, double most, int halvings) const {
+  verify::HullsApart hulls = impl_->hulls_of(group, rest);
+  double within = 0, out = most;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (within + out);
+    (hulls.after(middle * direction) ? out : within) = middle;
+  }
+  return out;
 }
 
 }  // namespace dismantle

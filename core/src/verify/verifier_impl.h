@@ -10,6 +10,7 @@
 
 #include "dismantle/verify/verifier.h"
 #include "verify/bar_middle.h"
+#include "verify/hulls_apart.h"
 #include "verify/shut_in.h"
 #include "verify/solid.h"
 
@@ -35,6 +36,7 @@ struct Verifier::Impl {
   std::optional<Lock> locking_point(const InitialOverlap& overlap) const;
   verify::Ball ball_of(PartId part) const;
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
+  verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
 
   const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part, const RunContext& context) const;
   std::optional<Cage> caged(PartId a, PartId b, const RunContext& context) const;

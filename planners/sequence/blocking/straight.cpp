@@ -172,20 +172,14 @@ std::optional<std::size_t> TakingApart::free_direction(const Group& group, UnitI
 bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::size_t direction) {
   const Attempt attempt = question(group, units);
   const Eigen::Vector3d& d = directions_.all[direction];
-  const auto moved = [&](double way) {
-    std::vector<PlacedPart> parts = attempt.moving;
-    for (auto& p : parts) p.pose.t += way * d;
-    return parts;
-  };
-  double within = 0, out = way_out(group, units, direction) + kBeyond;
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (within + out);
-    (oracle_.judge()->apart(moved(middle), attempt.still) ? out : within) = middle;
-  }
-  out += kClear;
+  const double out = oracle_.judge()->way_apart(attempt.moving, attempt.still, d,
+                                                way_out(group, units, direction) + kBeyond, kHalvings) +
+                     kClear;
   Path way(2);
-  for (const auto& p : attempt.moving) way[0].push_back(p.pose);
-  for (const auto& p : moved(out)) way[1].push_back(p.pose);
+  for (const auto& p : attempt.moving) {
+    way[0].push_back(p.pose);
+    way[1].push_back({p.pose.t + out * d, p.pose.q});
+  }
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[attempt.moving.front().part].name);
   const AttemptResult& answer = oracle_.propose(attempt, way, context_);
   context_.log(LogLevel::debug, "straight way of '" + assembly_.parts[attempt.moving.front().part].name + "' and " +

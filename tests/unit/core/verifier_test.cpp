@@ -49,6 +49,47 @@ TEST(Verifier, FreeMotionIsAcceptedWithATinyBound) {
   EXPECT_FALSE(c.violation.has_value());
 }
 
+/// Groups of boxes, turned or not: where the way ends, the hulls are apart, and a little before they are not.
+TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
+  Rng rng(21);
+  int found = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    std::vector<Mesh> meshes;
+    std::vector<PlacedPart> group, rest;
+    const bool turned = trial % 2 == 0;
+    for (PartId id = 0; id < 7; ++id) {
+      const Vec3 lo = random_vector(rng, -2, 1);
+      meshes.push_back(shapes::refine(shapes::box(lo, lo + random_vector(rng, 0.2, 1)), 1));
+      (id < 3 ? group : rest).push_back({id, turned ? random_pose(rng, 0.5) : shift(random_vector(rng, -0.5, 0.5))});
+    }
+    const Verifier verifier(assembly_of(meshes), {0.01});
+    const Vec3 d = trial % 3 == 0 ? Vec3(Vec3::Unit(trial % 9 / 3)) : Vec3(random_vector(rng, -1, 1).normalized());
+    const auto apart_after = [&](double way) {
+      std::vector<PlacedPart> moved = group;
+      for (auto& p : moved) p.pose.t += way * d;
+      return verifier.apart(moved, rest);
+    };
+    constexpr double kMost = 20;
+    constexpr int kHalvings = 12;
+    const double way = verifier.way_apart(group, rest, d, kMost, kHalvings);
+    EXPECT_TRUE(apart_after(way));
+    if (const double before = way - 1.5 * kMost / (1 << kHalvings); before > 0) {
+      EXPECT_FALSE(apart_after(before)) << way;
+      ++found;
+    }
+    // By all vertices: no plane across the way parts them before.
+    double top = -1e9, bottom = 1e9;
+    for (const auto& p : group)
+      for (const auto& v : meshes[p.part].vertices) top = std::max(top, -d.dot(p.pose * v));
+    for (const auto& p : rest)
+      for (const auto& v : meshes[p.part].vertices) bottom = std::min(bottom, -d.dot(p.pose * v));
+    EXPECT_LE(way, std::max(0.0, top - bottom) + 2 * kMost / (1 << kHalvings));
+  }
+  EXPECT_GT(found, 40);
+  const Verifier verifier(assembly_of({kCube, kCube}), {0.01});
+  EXPECT_LT(verifier.way_apart({{0, Pose{}}}, {}, Vec3::UnitX(), 5, 10), 0.01) << "nothing is in the way";
+}
+
 TEST(Verifier, KissingSlideIsOneCheapSweep) {
   Rng rng(1);
   // A peg with no clearance at all in its pocket, noise of 1e-7 on the peg, turned at random.
