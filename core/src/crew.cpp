@@ -16,6 +16,8 @@ struct Crew::Work {
   enum class State : char { offered, running, done, withdrawn };
   std::function<void()> run;
   State state = State::offered;
+  bool awaited = false;      // by one who has left his place
+  bool hands_place = false;  // which he gets when it is done, before anybody else
   std::exception_ptr error;
 };
 
@@ -53,10 +55,15 @@ struct Crew::Impl {
     idle();
   }
 
-  void leave() {
+  /// To wait for `awaited`, if given, which must not be done.
+  void leave(Work* awaited = nullptr) {
     bool offered = false;
     {
       const std::scoped_lock lock(mutex);
+      if (awaited != nullptr) {
+        if (awaited->state == Work::State::done) return;
+        awaited->awaited = true;
+      }
       --working;
       untold = offered = offers();
     }
@@ -79,8 +86,9 @@ struct Crew::Impl {
       const std::shared_ptr<Work> work = next();
       work->state = Work::State::running;
       ++working;
-      untold = false;
+      const bool tell = std::exchange(untold, false) && place() && !offers();
       lock.unlock();
+      if (tell) tell_idle();
       try {
         work->run();
       } catch (...) {
@@ -89,7 +97,9 @@ struct Crew::Impl {
       work->run = nullptr;  // and what it holds
       lock.lock();
       work->state = Work::State::done;
+      work->hands_place = work->awaited;
       work_ended.notify_all();
+      if (work->hands_place) continue;
       lock.unlock();
       leave();
       lock.lock();
@@ -135,22 +145,28 @@ bool Crew::Offer::done() const {
   return work_->state == Work::State::done;
 }
 
-bool Crew::Offer::wait_for(std::chrono::milliseconds most) {
-  if (done()) return true;
-  crew_->leave();
-  bool is_done = false;
-  {
-    std::unique_lock lock(crew_->mutex);
-    is_done = crew_->work_ended.wait_for(lock, most, [this] { return work_->state == Work::State::done; });
+/// Asks `goes_on` so often; until it is done, or that says no.
+void Crew::Offer::await(std::chrono::milliseconds often, const std::function<bool()>& goes_on) {
+  crew_->leave(work_.get());
+  std::unique_lock lock(crew_->mutex);
+  while (!crew_->work_ended.wait_for(lock, often, [this] { return work_->state == Work::State::done; })) {
+    lock.unlock();
+    const bool on = goes_on();
+    lock.lock();
+    if (!on) break;
   }
-  crew_->enter();
-  return is_done;
+  if (work_->awaited && !work_->hands_place) ++crew_->working;
+  work_->awaited = work_->hands_place = false;
+}
+
+bool Crew::Offer::wait_for(std::chrono::milliseconds most) {
+  await(most, [] { return false; });
+  return done();
 }
 
 void Crew::Offer::wait() {
   constexpr std::chrono::milliseconds kLong{1000};
-  while (!wait_for(kLong)) {
-  }
+  await(kLong, [] { return true; });
   if (work_->error) std::rethrow_exception(work_->error);
 }
 
@@ -158,9 +174,11 @@ void Crew::Offer::wait(const RunContext& context, const CancelToken& cancel) {
   // The caller's flag and deadline cannot wake a sleeper, so they are looked at this often. Affects how soon an
   // interruption is noticed, never an answer.
   constexpr std::chrono::milliseconds kLookAgain{5};
-  while (!wait_for(kLookAgain))
+  await(kLookAgain, [&] {
     if (context.should_stop()) cancel.cancel();
-  wait();
+    return true;
+  });
+  if (work_->error) std::rethrow_exception(work_->error);
 }
 
 Crew::Crew(unsigned threads) {

@@ -30,7 +30,8 @@ class DISMANTLE_API Crew {
     /// Begun and not ended.
     bool running() const;
     bool done() const;
-    /// For its end, so long at most; the caller's place is free meanwhile. True: it is done.
+    /// For its end, so long at most; the caller's place is free meanwhile, and the caller gets that of the thread that
+    /// did it. True: it is done.
     bool wait_for(std::chrono::milliseconds most);
     /// Until it is done. Throws what the work threw.
     void wait();
@@ -40,6 +41,7 @@ class DISMANTLE_API Crew {
    private:
     friend class Crew;
     Offer(std::shared_ptr<Impl> crew, std::shared_ptr<Work> work) : crew_(std::move(crew)), work_(std::move(work)) {}
+    void await(std::chrono::milliseconds often, const std::function<bool()>& goes_on);
     std::shared_ptr<Impl> crew_;
     std::shared_ptr<Work> work_;
   };

@@ -53,8 +53,13 @@ void AttemptPool::work(unsigned index) {
     context.on_log = [&log](LogLevel level, std::string_view text) { log.push_back({level, std::string(text)}); };
     lock.unlock();
     ComputedAttempt computed = compute_(index, job->attempt, key, context);
-    if (job->has_own_place) crew_->leave();
     lock.lock();
+    job->hands_place = job->has_own_place && job->awaited;
+    if (job->has_own_place && !job->hands_place) {
+      lock.unlock();
+      crew_->leave();
+      lock.lock();
+    }
     --running_;
     job->running = false;
     job->done = true;
@@ -131,6 +136,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
     const std::shared_ptr<Job> job = demand(key, attempt, context);
     const bool my_place_is_free = job->running;  // it has its own
     if (my_place_is_free) {
+      job->awaited = true;
       lock.unlock();
       crew_->leave();
       lock.lock();
@@ -145,7 +151,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
       job->result.computed.interrupted = true;
       job->result.computed.answer.result.outcome = Outcome::cancelled;
     }
-    if (my_place_is_free) crew_->enter();
+    if (my_place_is_free && !job->hands_place) crew_->enter();
     PooledAttempt result = std::move(job->result);
     jobs_.erase(key);
     // Interrupted for a reason that is not the asker's (it had been computed ahead and was given up): once more.

@@ -57,7 +57,9 @@ class AttemptPool {
     bool done = false;
     bool asked = false;
     bool has_own_place = false;
-    std::uint64_t begun = 0;  ///< order of beginning
+    bool awaited = false;      ///< by one who has left his place ...
+    bool hands_place = false;  ///< ... and gets that of the worker, before others can take it
+    std::uint64_t begun = 0;   ///< order of beginning
     Deadline deadline;
     CancelToken cancel;
     PooledAttempt result;

@@ -138,6 +138,43 @@ TEST(Crew, TellsWhenThereIsAPlaceAndNoOffer) {
   EXPECT_EQ(told, at_last);
 }
 
+/// Who waits gets the place of the thread that he waited for: there are never more at work than places, though others
+/// stand ready to take what becomes free.
+TEST(Crew, HandsItsPlaceToWhoWaits) {
+  Crew crew(2);
+  std::atomic<int> working{1}, most{1};
+  const auto enter = [&] {
+    const int now = ++working;
+    for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) {
+    }
+  };
+  for (int round = 0; round < 300; ++round) {
+    std::atomic<bool> begun{false};
+    std::vector<Crew::Offer> ahead;
+    Crew::Offer part = crew.offer(
+        [&] {
+          enter();
+          begun = true;
+          for (int k = 0; k < 50; ++k) std::this_thread::yield();
+          --working;
+        },
+        Rank::part);
+    while (!begun) std::this_thread::yield();
+    for (int k = 0; k < 2; ++k)
+      ahead.push_back(crew.offer(
+          [&] {
+            enter();
+            for (int n = 0; n < 200; ++n) std::this_thread::yield();
+            --working;
+          },
+          Rank::ahead));
+    --working;
+    part.wait();
+    enter();
+  }
+  EXPECT_LE(most, 2);
+}
+
 /// A place is left while something is offered, and that is withdrawn before anybody has taken it: others are told.
 TEST(Crew, TellsOfAPlaceWhenAnOfferIsWithdrawn) {
   for (int trial = 0; trial < 200; ++trial) {
