@@ -1,5 +1,6 @@
 // What every path planner must obey, with its default parameters, on the first simulator that has what it needs.
 #include <functional>
+#include <thread>
 
 #include "counting_simulator.h"
 #include "small_assemblies.h"
@@ -175,6 +176,34 @@ TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
     if (GetParam() == "bfs" || GetParam() == "guided") {
       EXPECT_EQ(run.result.outcome, Outcome::solved) << small_assemblies()[which].name;
     }
+  }
+}
+
+/// One that says that it may be used by several threads finds on each what it finds alone.
+TEST_P(PathPlannerContract, AConcurrentOneIsNotConfusedByOthers) {
+  const auto shared = make();
+  if (!shared->is_concurrent()) GTEST_SKIP() << "each thread has its own";
+  const auto planned = [](PathPlanner& planner, std::size_t which) {
+    const Small& small = small_assemblies()[which];
+    const Cast cast = small.cast();
+    const PathQuery query{
+        small.assembly, *ready()->simulator,    *ready()->prepared[which],
+        cast,           {.max_steps = kPlenty}, [&](const Path& path) { return verify(small, cast, path); }};
+    RunContext context;
+    return planner.plan(query, context);
+  };
+  const std::size_t count = small_assemblies().size();
+  std::vector<PathResult> alone(count), together(2 * count);
+  for (std::size_t k = 0; k < count; ++k) alone[k] = planned(*make(), k);
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t k = 0; k < together.size(); ++k)
+      threads.emplace_back([&, k] { together[k] = planned(*shared, k % count); });
+  }
+  for (std::size_t k = 0; k < together.size(); ++k) {
+    EXPECT_EQ(together[k].outcome, alone[k % count].outcome);
+    EXPECT_TRUE(same(together[k].path, alone[k % count].path));
+    EXPECT_EQ(together[k].counts, alone[k % count].counts);
   }
 }
 

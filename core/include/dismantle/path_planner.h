@@ -69,6 +69,9 @@ class DISMANTLE_API PathPlanner {
   virtual Capabilities needs() const noexcept = 0;
   /// True: plan() answers queries with PathQuery::leaving. Others are never given one.
   virtual bool moves_each_its_way() const noexcept { return false; }
+  /// True: plan() may be called from several threads at the same time. Then one object serves all threads of a run, and
+  /// what it has computed for one search is there for all; else each thread has its own.
+  virtual bool is_concurrent() const noexcept { return false; }
   virtual PathResult plan(const PathQuery& query, RunContext& context) = 0;
 };
 

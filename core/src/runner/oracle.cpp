@@ -50,8 +50,9 @@ ComputedAttempt Oracle::compute(unsigned worker, const Attempt& attempt, const A
   if (!planner) {
     try {
       const std::lock_guard lock(planner_mutex_);
-      planner = make_planner_();
+      planner = for_all_ ? for_all_ : make_planner_();
       if (!planner) problem = "nothing was made";
+      if (planner && planner->is_concurrent()) for_all_ = planner;
     } catch (const std::exception& e) {
       problem = e.what();
     } catch (...) {

@@ -63,7 +63,8 @@ class Oracle final : public PathOracle {
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
   std::mutex planner_mutex_;                            ///< the factory need not be safe to call from several threads
-  std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone
+  std::shared_ptr<PathPlanner> for_all_;                ///< one that is concurrent
+  std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone, or for_all_
   std::unique_ptr<AttemptPool> pool_;                   ///< last: its threads use all of the above
 };
 

@@ -14,12 +14,13 @@ class Guided final : public PathPlanner {
 
   Capabilities needs() const noexcept override { return push::required(); }
   bool moves_each_its_way() const noexcept override { return true; }
+  bool is_concurrent() const noexcept override { return true; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     // Walk and forest move a group as one.
     const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0 || parameters_.lead_looks > 0) &&
                         parameters_.motion == push::Motion::automatic && can_grow(query) && query.leaving.empty();
-    return others ? plan_with_others(query, parameters_, tactics_, cache_, aside_, context)
+    return others ? plan_with_others(query, parameters_, tactics_, cache_, context)
                   : push::plan(query, tactics_, context);
   }
 
@@ -31,7 +32,7 @@ class Guided final : public PathPlanner {
 
   Parameters parameters_;
   push::Tactics tactics_;
-  tolerant_walk::GeometryCache cache_, aside_{std::size_t{128} << 20};
+  tolerant_walk::GeometryCache cache_;
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ class Others {
       : Others(query, parameters, tactics, cache, context, free_space::overlaps_through(query)) {}
 
   /// The walk that is led, and then the rest, which an idle thread may begin meanwhile.
-  PathResult under_depth_limit(tolerant_walk::GeometryCache& aside) {
+  PathResult under_depth_limit() {
     const unsigned depth = query_.effort.max_depth;
     if (depth >= kLeastDepthOfLarge || (depth >= kLeastDepthOfLead && !is_large(query_))) {
       RunContext own = context_;
@@ -55,7 +55,7 @@ class Others {
       std::optional<Others> rest;
       std::optional<Crew::Offer> offer;
       if (context_.crew && limits_.steps_left == nullptr) {
-        rest.emplace(Others(query_, parameters_, tactics_, aside, own, thin_));
+        rest.emplace(Others(query_, parameters_, tactics_, cache_, own, thin_));
         offer = context_.crew->offer([&] { rest->push_and_walk(); }, Crew::Rank::part);
       }
       lead(depth <= kLeastDepthOfLead ? 1 : 0);
@@ -224,10 +224,9 @@ class Others {
 }  // namespace
 
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
-                            tolerant_walk::GeometryCache& cache, tolerant_walk::GeometryCache& aside,
-                            RunContext& context) {
+                            tolerant_walk::GeometryCache& cache, RunContext& context) {
   Others others(query, parameters, tactics, cache, context);
-  return query.effort.max_depth > 0 ? others.under_depth_limit(aside) : others.by_turns();
+  return query.effort.max_depth > 0 ? others.under_depth_limit() : others.by_turns();
 }
 
 }  // namespace dismantle::guided

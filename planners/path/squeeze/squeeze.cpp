@@ -11,6 +11,7 @@ class Squeeze final : public PathPlanner {
  public:
   explicit Squeeze(const tolerant_walk::Parameters& parameters) : parameters_(parameters) {}
   Capabilities needs() const noexcept override { return tolerant_walk::kNeeds; }
+  bool is_concurrent() const noexcept override { return true; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     tolerant_walk::Walk walk(parameters_, query, context, cache_);

@@ -219,6 +219,46 @@ TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
   EXPECT_EQ(crowd.most, 2);
 }
 
+/// One that may be used by all threads is made once and used by them at the same time; others are each thread's own.
+TEST(Oracle, AConcurrentPlannerServesAllThreads) {
+  for (const bool concurrent : {true, false}) {
+    std::atomic<int> made{0};
+    Crowd crowd;
+    class Patient final : public PathPlanner {
+     public:
+      Patient(bool is, Crowd& crowd) : concurrent_(is), crowd_(crowd) {}
+      Capabilities needs() const noexcept override { return {}; }
+      bool is_concurrent() const noexcept override { return concurrent_; }
+      PathResult plan(const PathQuery& q, RunContext& c) override {
+        crowd_.enter();
+        for (int k = 0; k < 1'000'000 && crowd_.most < 2; ++k) std::this_thread::yield();
+        PathResult r = fake::push(q, c);
+        --crowd_.now;
+        return r;
+      }
+
+     private:
+      const bool concurrent_;
+      Crowd& crowd_;
+    };
+    Ingredients parts = fake::ingredients(fake::push);
+    parts.path_planner = [&] {
+      ++made;
+      return std::make_shared<Patient>(concurrent, crowd);
+    };
+    Rig s(fake::row(8), parts, 3);
+    std::vector<Attempt> hints;
+    for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
+    s.oracle->prefetch(hints, s.context);
+    for (const auto& h : hints) EXPECT_EQ(s.ask(h).result.outcome, Outcome::solved);
+    EXPECT_GE(crowd.most, 2);
+    if (concurrent)
+      EXPECT_EQ(made, 1);
+    else
+      EXPECT_GE(made, 2);
+  }
+}
+
 /// Part 0 never ends by itself.
 PathResult endless(const PathQuery& q, RunContext& c) {
   if (q.cast.moving[0].part != 0) return fake::push(q, c);

@@ -1,5 +1,7 @@
 #include "dismantle/tolerant_walk/geometry_cache.h"
 
+#include <utility>
+
 namespace dismantle::tolerant_walk {
 namespace {
 
@@ -19,26 +21,38 @@ GeometryCache::Pair::Pair(const Mesh& of, const Allowance& allowance) : Pair(of,
 }
 
 void GeometryCache::make_room() {
-  if (bytes() <= most_bytes_) return;
+  const std::scoped_lock lock(mutex_);
+  if (bytes_under_lock() <= most_bytes_) return;
   probes_.clear();
   fields_.clear();
 }
 
 std::shared_ptr<SolidField> GeometryCache::field(const std::shared_ptr<const Mesh>& mesh) {
+  const std::scoped_lock lock(mutex_);
   auto& known = fields_[mesh.get()];
   if (!known) known = std::make_shared<SolidField>(mesh, kCell);
   return known;
 }
 
-const Probes& GeometryCache::probes(const Pair& pair, const std::function<Probes()>& make) {
-  const auto known = probes_.find(pair);
-  return known != probes_.end() ? known->second : probes_.emplace(pair, make()).first->second;
+std::shared_ptr<const Probes> GeometryCache::probes(const Pair& pair, const std::function<Probes()>& make) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto known = probes_.find(pair); known != probes_.end()) return known->second;
+  }
+  auto made = std::make_shared<const Probes>(make());
+  const std::scoped_lock lock(mutex_);
+  return probes_.try_emplace(pair, std::move(made)).first->second;  // another thread may have been first
 }
 
 std::size_t GeometryCache::bytes() const {
+  const std::scoped_lock lock(mutex_);
+  return bytes_under_lock();
+}
+
+std::size_t GeometryCache::bytes_under_lock() const {
   std::size_t sum = 0;
   for (const auto& [mesh, field] : fields_) sum += field->bytes();
-  for (const auto& [pair, probes] : probes_) sum += probes.bytes();
+  for (const auto& [pair, probes] : probes_) sum += probes->bytes();
   return sum;
 }
 

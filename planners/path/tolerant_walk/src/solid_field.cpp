@@ -27,12 +27,24 @@ SolidField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
   const double blocks = (box_.size() / (kCells * cell_)).array().ceil().prod();
   if (blocks > kMostBlocks) cell_ *= std::cbrt(blocks / kMostBlocks);
   inverse_cell_ = 1 / cell_;
-  std::size_t count = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     blocks_[k] = static_cast<std::int64_t>(box_.size()[static_cast<Eigen::Index>(k)] / (kCells * cell_)) + 1;
-    count *= static_cast<std::size_t>(blocks_[k]);
+    count_ *= static_cast<std::size_t>(blocks_[k]);
   }
-  known_.resize(count);
+  known_ = std::make_unique<std::atomic<Block*>[]>(count_);
+}
+
+SolidField::Grid::~Grid() {
+  for (std::size_t k = 0; k < count_; ++k) delete known_[k].load(std::memory_order_relaxed);
+}
+
+SolidField::Grid::Block& SolidField::Grid::make(std::atomic<Block*>& place) {
+  auto made = std::make_unique<Block>();
+  for (auto& value : *made) value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
+  Block* known = nullptr;
+  if (!place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)) return *known;  // another thread's
+  ++blocks_known_;
+  return *made.release();
 }
 
 /// From one place to the next the distance changes by a cell at most; and the sign only where the surface is closer.
@@ -45,7 +57,7 @@ SolidField::Grid::Known SolidField::Grid::from_neighbours(const Block& block, st
     const std::ptrdiff_t along = place / stride % kEdge;
     for (const int step : {-1, 1}) {
       if (along + step < 0 || along + step >= kEdge) continue;
-      const float value = block[static_cast<std::size_t>(place + step * stride)];
+      const float value = block[static_cast<std::size_t>(place + step * stride)].load(std::memory_order_relaxed);
       if (std::isnan(value)) continue;
       known.most = std::min(known.most, static_cast<double>(std::abs(value) + reach));
       if (std::abs(value) > reach) known.sign = value < 0 ? -1 : 1;
@@ -67,17 +79,19 @@ double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
     i[k] = static_cast<std::size_t>(cell % kCells);
     f[k] = static_cast<float>(x - static_cast<double>(cell));
   }
-  auto& block = known_[static_cast<std::size_t>((b[2] * blocks_[1] + b[1]) * blocks_[0] + b[0])];
-  if (!block) {
+  auto& place_of_block = known_[static_cast<std::size_t>((b[2] * blocks_[1] + b[1]) * blocks_[0] + b[0])];
+  Block* block = place_of_block.load(std::memory_order_acquire);
+  if (block == nullptr) {
     if (field == nullptr) return std::numeric_limits<double>::quiet_NaN();
-    block = std::make_unique<Block>();
-    block->fill(std::numeric_limits<float>::quiet_NaN());
-    ++blocks_known_;
+    block = &make(place_of_block);
   }
-  float* const v = block->data() + (i[2] * kBlock + i[1]) * kBlock + i[0];
+  std::atomic<float>* const v = block->data() + (i[2] * kBlock + i[1]) * kBlock + i[0];
   const auto interpolated = [&] {
-    const auto along_x = [&](const float* a) { return a[0] + f[0] * (a[1] - a[0]); };
-    const auto along_y = [&](const float* a) {
+    const auto along_x = [&](const std::atomic<float>* a) {
+      const float lo = a[0].load(std::memory_order_relaxed), hi = a[1].load(std::memory_order_relaxed);
+      return lo + f[0] * (hi - lo);
+    };
+    const auto along_y = [&](const std::atomic<float>* a) {
       const float lo = along_x(a), hi = along_x(a + kBlock);
       return lo + f[1] * (hi - lo);
     };
@@ -87,15 +101,16 @@ double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
   if (const double value = interpolated(); field == nullptr || !std::isnan(value)) return value;
   for (std::size_t k = 0; k < 8; ++k) {
     const std::array<std::size_t, 3> d = {k & 1, k >> 1 & 1, k >> 2};
-    float& known = v[(d[2] * kBlock + d[1]) * kBlock + d[0]];
-    if (!std::isnan(known)) continue;
+    std::atomic<float>& known = v[(d[2] * kBlock + d[1]) * kBlock + d[0]];
+    if (!std::isnan(known.load(std::memory_order_relaxed))) continue;
     Eigen::Vector3d place;
     for (std::size_t axis = 0; axis < 3; ++axis)
       place[static_cast<Eigen::Index>(axis)] = static_cast<double>(b[axis] * static_cast<std::int64_t>(kBlock - 1) +
                                                                    static_cast<std::int64_t>(i[axis] + d[axis]));
     Known about = from_neighbours(*block, &known - block->data());
     if (!field->closed_) about.sign = 0;  // it changes in free space, too
-    known = static_cast<float>(field->exact(box_.lo + cell_ * place, about.sign, about.most));
+    known.store(static_cast<float>(field->exact(box_.lo + cell_ * place, about.sign, about.most)),
+                std::memory_order_relaxed);
   }
   return interpolated();
 }

@@ -68,7 +68,7 @@ Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& st
     const Pose place = to_part.inverse();
     Probes all(field(of.part), deep, near, kSamples, kSpacing,
                [&](const Eigen::Vector3d& p) { return to_other.at(place * p) < kNear; });
-    all.take(cache_.probes({field(of.part).mesh(), deep}, [&] {
+    all.take(*cache_.probes({field(of.part).mesh(), deep}, [&] {
       return Probes(field(of.part), deep, field(of.part).box(), kElsewhere, kSpacing,
                     [](const Eigen::Vector3d&) { return true; });
     }));
@@ -78,7 +78,7 @@ Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& st
   const auto made = [&](const PlacedPart& of, const PlacedPart& other) {
     const Pose to_part = of.pose.inverse() * other.pose;
     const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, deep, reach);
-    return cache_.probes(key, [&] { return make(of, other, to_part); });
+    return *cache_.probes(key, [&] { return make(of, other, to_part); });
   };
   return {made(moving, still), made(still, moving), deep, strict, 0};
 }

@@ -1,6 +1,8 @@
 // The fields and samples that the walk decides by, against the original triangles.
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "dismantle/tolerant_walk/solid_field.h"
 #include "dismantle/tolerant_walk/tolerance.h"
 #include "dismantle/verify/verifier.h"
@@ -37,6 +39,35 @@ TEST(SolidField, IsWithinACellOfTheDistance) {
         EXPECT_EQ(field.at(p) < 0, d < 0);
       }
     }
+  }
+}
+
+/// Whoever asked before, and whoever asks at the same time.
+TEST(SolidField, SaysTheSameToSeveralThreads) {
+  Rng rng(4);
+  for (int k = 0; k < 5; ++k) {
+    const auto mesh = std::make_shared<const Mesh>(moved(
+        boxes({block(-0.6, -0.4, -0.1, 0.6, 0.4, 0.1), block(0.7, -0.2, -0.3, 0.75, 0.2, 0.3)}), random_pose(rng, 1)));
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 3000; ++i)
+      points.push_back(mesh->box().center() + Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
+    SolidField alone(mesh, 0.02), shared(mesh, 0.02);
+    std::vector<double> expected;
+    for (const auto& p : points) expected.push_back(alone.at(p));
+    std::vector<std::vector<double>> said(3);
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t t = 0; t < said.size(); ++t)
+        threads.emplace_back([&, t] {
+          said[t].resize(points.size());
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            const std::size_t at = t == 1 ? points.size() - 1 - i : i;
+            said[t][at] = shared.at(points[at]);
+          }
+        });
+    }
+    for (const auto& one : said) EXPECT_EQ(one, expected);
+    EXPECT_EQ(shared.bytes(), alone.bytes());
   }
 }
 
@@ -180,6 +211,39 @@ TEST(GeometryCache, ChangesNoAnswer) {
   EXPECT_EQ(kept.bytes(), before);
   no_room.make_room();
   EXPECT_EQ(no_room.bytes(), 0U);
+}
+
+/// Searches that go on at the same time, with room for everything or for nothing.
+TEST(GeometryCache, ChangesNoAnswerOfSeveralThreads) {
+  Rng rng(13);
+  Assembly assembly = assembly_of({boxes({block(-0.5, -0.4, -0.02, 0.5, 0.4, 0.2)}),
+                                   boxes({block(-1, -1, -1, 1, 1, 0), block(-1, 0.5, 0, 1, 1, 1)})});
+  assembly.overlaps.push_back({0, 1, 0.02});
+  std::vector<Pose> poses;
+  for (int i = 0; i < 400; ++i)
+    poses.push_back({Vector3d(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), rng.uniform(-0.03, 0.05)),
+                     Eigen::Quaterniond(Eigen::AngleAxisd(rng.uniform(-0.05, 0.05), Vector3d::UnitX()))});
+  for (const bool room : {true, false}) {
+    GeometryCache cache(room ? std::size_t{1} << 30 : 0);
+    std::vector<std::vector<char>> said(4);
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t t = 0; t < said.size(); ++t)
+        threads.emplace_back([&, t] {
+          for (int search = 0; search < 3; ++search) {
+            const PartId moving = t % 2 == 0 ? 0 : 1;
+            const Cast cast{{{moving, Pose{}}}, {{1 - moving, Pose{}}}};
+            Tolerance tolerance(assembly, cast, 0.01, search == 1 ? Overlap::near_start : Overlap::everywhere, cache);
+            for (const Pose& at : poses) said[t].push_back(tolerance.allows(at));
+          }
+        });
+    }
+    EXPECT_EQ(said[0], said[2]);
+    EXPECT_EQ(said[1], said[3]);
+    GeometryCache fresh;
+    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, fresh);
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(said[0][i], tolerance.allows(poses[i]));
+  }
 }
 
 TEST(Tolerance, LearnsAPlace) {

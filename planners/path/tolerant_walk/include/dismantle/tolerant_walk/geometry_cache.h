@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 
 #include "dismantle/geometry/mesh.h"
 #include "dismantle/geometry/pose.h"
@@ -16,7 +17,7 @@
 namespace dismantle::tolerant_walk {
 
 /// Fields of parts, and probes of pairs as they stand. They follow from the meshes alone, so no answer depends on what
-/// is kept. Parts with one mesh share its field. Not safe to use from several threads.
+/// is kept. Parts with one mesh share its field. Safe to use from several threads.
 class GeometryCache {
  public:
   /// About so many bytes are kept; when it is more, everything is computed anew.
@@ -34,17 +35,20 @@ class GeometryCache {
     bool exactly_;
   };
 
-  /// Between searches: makes room where too much is kept. Fields that are in use stay with those who use them.
+  /// Between searches: makes room where too much is kept. What is in use stays with those who use it.
   void make_room();
   std::shared_ptr<SolidField> field(const std::shared_ptr<const Mesh>& mesh);
-  /// `make` is called where they are not known. Both meshes have fields here. For use before the next make_room().
-  const Probes& probes(const Pair& pair, const std::function<Probes()>& make);
+  /// `make` is called where they are not known, from this thread, and may use the cache. Both meshes have fields here.
+  std::shared_ptr<const Probes> probes(const Pair& pair, const std::function<Probes()>& make);
   std::size_t bytes() const;  ///< about so many are kept
 
  private:
-  std::size_t most_bytes_;
+  std::size_t bytes_under_lock() const;
+
+  const std::size_t most_bytes_;
+  mutable std::mutex mutex_;
   std::map<const Mesh*, std::shared_ptr<SolidField>> fields_;  // which keep the meshes
-  std::map<Pair, Probes> probes_;
+  std::map<Pair, std::shared_ptr<const Probes>> probes_;
 };
 
 }  // namespace dismantle::tolerant_walk

@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "dismantle/geometry/mesh.h"
 #include "dismantle/geometry/triangle_bvh.h"
@@ -14,8 +14,8 @@
 namespace dismantle::tolerant_walk {
 
 /// Two grids, one for near the surface and a coarse one that says where that is. Interpolated, so not exact: within
-/// about a third of a cell at edges. What it says does not depend on what was asked before. Memory follows use. Not
-/// safe to use from several threads.
+/// about a third of a cell at edges. What it says does not depend on what was asked before. Memory follows use. Safe
+/// to use from several threads.
 class SolidField {
  public:
   SolidField(std::shared_ptr<const Mesh> mesh, double cell);
@@ -34,25 +34,31 @@ class SolidField {
   class Grid {
    public:
     Grid(const Aabb& box, double cell);
+    ~Grid();
+    Grid(const Grid&) = delete;
+    Grid& operator=(const Grid&) = delete;
     /// Without a field only what is known already; else not a number.
     double at(const Eigen::Vector3d& p, const SolidField* field);
     double cell() const { return cell_; }
-    std::size_t bytes() const { return known_.size() * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
+    std::size_t bytes() const { return count_ * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
 
    private:
     static constexpr std::size_t kBlock = 9;  // places along the edge of a block, its last ones those of the next, too
-    using Block = std::array<float, kBlock * kBlock * kBlock>;
+    /// Not a number: not known. Whoever finds a value finds the same, so it does not matter who writes it.
+    using Block = std::array<std::atomic<float>, kBlock * kBlock * kBlock>;
     struct Known {
       int sign = 0;  ///< 0: not known
       double most;   ///< distance from the surface
     };
     Known from_neighbours(const Block& block, std::ptrdiff_t place) const;
+    Block& make(std::atomic<Block*>& place);
 
     Aabb box_;
     double cell_, inverse_cell_ = 0;
     std::array<std::int64_t, 3> blocks_{};
-    std::vector<std::unique_ptr<Block>> known_;
-    std::size_t blocks_known_ = 0;
+    std::size_t count_ = 1;
+    std::unique_ptr<std::atomic<Block*>[]> known_;
+    std::atomic<std::size_t> blocks_known_{0};
   };
   static constexpr double kError = 0.35;  // of a cell
   /// `sign`: 0 if not known. `most`: the distance is less, mostly.
