@@ -53,7 +53,7 @@ std::vector<Attempt> TakingApart::next_if_not(const Group& group, const Attempt&
   add_searches(group, now.max_depth, next, ahead);
   if (group.searched_out) return ahead;
   if (group.units.size() == 2) {
-    add_waiting(group, 2 * group.pair_depth, group.units, ahead);
+    add_waiting(group, next_depth_of_pair(group), group.units, ahead);
   } else if (now.max_depth == group.depth && group.depth < deepest(group)) {
     add_next_round(group, ahead);
   }
@@ -66,13 +66,37 @@ std::vector<Attempt> TakingApart::next_if_out(const Group& group, const Attempt&
   if (group.units.size() < 3 || group.searched_out || now.max_depth != group.depth) return ahead;
   Group left = group;
   std::erase(left.units, unit_of_[now.moving.front().part]);
-  std::vector<UnitId> list;
-  for (const UnitId u : left.units)
-    if (units_[u].size() == 1 && may_leave(left, {u}) && worth_trying(left, u, left.depth)) list.push_back(u);
-  cheap_first(list, left.depth);
-  add_searches(left, left.depth, list, ahead);
+  add_round(left, ahead);
   if (left.depth < deepest(left)) add_next_round(left, ahead);
   return ahead;
+}
+
+/// What is searched next as things are.
+std::vector<Attempt> TakingApart::next_searches(const Group& group) const {
+  std::vector<Attempt> ahead;
+  if (!group.searched_out)
+    add_round(group, ahead);
+  else if (group.units.size() == 2 && !group.pair_done)
+    add_waiting(group, next_depth_of_pair(group), group.waiting, ahead);
+  add_others(ahead);
+  if (ahead.size() > kAheadPerThread * context_.threads) ahead.resize(kAheadPerThread * context_.threads);
+  return ahead;
+}
+
+/// Those of a round that are worth trying.
+void TakingApart::add_round(const Group& group, std::vector<Attempt>& ahead) const {
+  std::vector<UnitId> list;
+  for (const UnitId u : group.units)
+    if (units_[u].size() == 1 && may_leave(group, {u}) && worth_trying(group, u, group.depth)) list.push_back(u);
+  cheap_first(list, group.depth);
+  add_searches(group, group.depth, list, ahead);
+}
+
+/// 0: without limit.
+unsigned TakingApart::next_depth_of_pair(const Group& group) const {
+  const bool others =
+      std::any_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() == 2 && !g.pair_done; });
+  return others && group.pair_depth < kDeepestPair ? 2 * group.pair_depth : 0;
 }
 
 void TakingApart::add_next_round(const Group& group, std::vector<Attempt>& ahead) const {
@@ -99,6 +123,8 @@ std::optional<std::string> TakingApart::proved(const Group& group, const HoldQue
   if (context_.threads > 1) {
     const std::vector<HoldQuestion> likely = likely_proofs(group);
     ahead.insert(ahead.end(), likely.begin(), likely.end());
+    // What takes seconds, and mostly proves nothing. Others are over before a search is.
+    if (question.kind != HoldQuestion::Kind::cage) oracle_.prefetch(next_searches(group), context_);
   }
   return proofs_ahead_->answer(question, ahead, context_);
 }

@@ -69,25 +69,34 @@ bool TakingApart::join_held(Group& group) {
   return join_first(group, questions);
 }
 
-/// With a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes after the first
-/// that was in vain, for the part and the larger ones that it touched.
+/// With a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes before the second
+/// of a part, for that and the larger ones that the first touched.
+bool TakingApart::join_flat(Group& group, UnitId unit) {
+  if (!relations_ || !params_.cages) return false;
+  std::vector<HoldQuestion> questions;
+  add_flat_questions(group, unit, questions);
+  return join_first(group, questions);
+}
+
+/// Likewise for all that were searched, of those that were joined in the meantime, too.
 bool TakingApart::join_flat(Group& group) { return join_first(group, flat_questions(group)); }
 
 std::vector<HoldQuestion> TakingApart::flat_questions(const Group& group) const {
-  const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
   std::vector<HoldQuestion> questions;
-  for (const UnitId u : group.units) {
-    const auto tried = tried_.find(units_[u].front());
-    if (tried == tried_.end()) continue;
-    const bool pair = group.units.size() == 2;
-    const std::vector<PartId>& touched =
-        pair ? units_[group.units[group.units[0] == u ? 1 : 0]] : tried->second.blocked_by;
-    for (const PartId id : units_[u])
-      for (const PartId other : touched)
-        if (in_group(group, unit_of_[other]) && unit_of_[other] != u && size(other) > size(id))
-          questions.push_back({HoldQuestion::Kind::flat, id, other});
-  }
+  for (const UnitId u : group.units) add_flat_questions(group, u, questions);
   return questions;
+}
+
+void TakingApart::add_flat_questions(const Group& group, UnitId unit, std::vector<HoldQuestion>& questions) const {
+  const auto size = [&](PartId id) { return assembly_.parts[id].mesh->box().size().norm(); };
+  if (!cost_.contains(units_[unit].front())) return;  // never searched
+  const bool pair = group.units.size() == 2;
+  const std::vector<PartId>& touched =
+      pair ? units_[group.units[group.units[0] == unit ? 1 : 0]] : said_.at(units_[unit].front()).blocked_by;
+  for (const PartId id : units_[unit])
+    for (const PartId other : touched)
+      if (in_group(group, unit_of_[other]) && unit_of_[other] != unit && size(other) > size(id))
+        questions.push_back({HoldQuestion::Kind::flat, id, other});
 }
 
 /// Is it one more search until join_confined_for_sure()? Of what was joined, or may not leave, none will be made.

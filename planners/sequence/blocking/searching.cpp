@@ -228,6 +228,15 @@ unsigned TakingApart::deepest(const Group& group) const {
   return group.no_slides ? std::min(kDepthWithoutSlides, params_.max_depth) : params_.max_depth;
 }
 
+/// Until one leaves, or turns out to be held.
+bool TakingApart::attempt_all(Group& group, const std::vector<UnitId>& units, unsigned depth) {
+  for (std::size_t k = 0; k < units.size() && !stop(); ++k)
+    if (join_flat(group, units[k]) ||
+        attempt(group, units[k], depth, {units.begin() + static_cast<std::ptrdiff_t>(k) + 1, units.end()}))
+      return true;
+  return false;
+}
+
 /// One round of Algorithm 2: every part a little; the next time a little more.
 bool TakingApart::search(Group& group) {
   const std::vector<UnitId> single = searchable(group);
@@ -239,9 +248,7 @@ bool TakingApart::search(Group& group) {
       ++counts_["postponed"];
   }
   cheap_first(list, group.depth);
-  for (std::size_t k = 0; k < list.size() && !stop(); ++k)
-    if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
-      return true;
+  if (attempt_all(group, list, group.depth)) return true;
   note_waiting(group, single);
   const bool deeper = !group.waiting.empty();
   const unsigned most = deepest(group);
@@ -261,13 +268,11 @@ bool TakingApart::search_pair(Group& group, bool without_end) {
   if (group.pair_depth >= kDeepestPair) without_end = true;
   group.pair_depth *= 2;
   const std::vector<UnitId> list = searchable(group);
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (tried_.contains(units_[list[k]].front()) && !wants_depth(list[k])) continue;
-    if (stop()) return false;
-    if (attempt(group, list[k], without_end ? 0 : group.pair_depth,
-                {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
-      return true;
-  }
+  std::vector<UnitId> open;
+  std::copy_if(list.begin(), list.end(), std::back_inserter(open),
+               [&](UnitId u) { return !tried_.contains(units_[u].front()) || wants_depth(u); });
+  if (attempt_all(group, open, without_end ? 0 : group.pair_depth)) return true;
+  if (stop()) return false;
   note_waiting(group, list);
   group.pair_done =
       without_end || std::none_of(group.units.begin(), group.units.end(), [&](UnitId u) { return wants_depth(u); });
@@ -281,10 +286,7 @@ bool TakingApart::make_up_for(Group& group) {
     const auto known = tried_.find(units_[u].front());
     if (known == tried_.end() || known->second.group_size != group.units.size()) list.push_back(u);
   }
-  for (std::size_t k = 0; k < list.size() && !stop(); ++k)
-    if (attempt(group, list[k], group.depth, {list.begin() + static_cast<std::ptrdiff_t>(k) + 1, list.end()}))
-      return true;
-  return false;
+  return attempt_all(group, list, group.depth);
 }
 
 }  // namespace dismantle::blocking

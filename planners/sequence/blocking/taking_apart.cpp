@@ -98,8 +98,7 @@ void TakingApart::dismantle(Group group) {
       if (slide(group)) continue;
       group.slides_done = true;
     }
-    if (relations_ && params_.cages && (join_held(group) || join_flat(group) || join_confined_for_sure(group)))
-      continue;
+    if (relations_ && params_.cages && (join_held(group) || join_confined_for_sure(group))) continue;
     if (relations_ && params_.turns && group.units.size() > 2 && !group.turns_done &&
         (group.depth > 1 || group.searched_out)) {
       if (turn(group)) continue;

@@ -88,8 +88,10 @@ class TakingApart {
   // holding.cpp: parts that are proved to hold each other
   bool join_first(Group& group, const std::vector<HoldQuestion>& questions);
   bool join_held(Group& group);
+  bool join_flat(Group& group, UnitId unit);
   bool join_flat(Group& group);
   std::vector<HoldQuestion> flat_questions(const Group& group) const;
+  void add_flat_questions(const Group& group, UnitId unit, std::vector<HoldQuestion>& questions) const;
   bool join_interlocked(Group& group);
   bool join_confined(Group& group);
   bool close_to_proof(const Group& group) const;
@@ -125,6 +127,7 @@ class TakingApart {
   void sort_by_use(const Group& group, std::vector<UnitId>& units);
   int cost_of(PartId part, const PathResult& result) const;
   void cheap_first(std::vector<UnitId>& units, unsigned depth) const;
+  bool attempt_all(Group& group, const std::vector<UnitId>& units, unsigned depth);
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool wants_depth(UnitId unit) const;
   void note_waiting(Group& group, const std::vector<UnitId>& units) const;
@@ -138,7 +141,10 @@ class TakingApart {
   bool likely_to_leave(const Group& group, const Attempt& now) const;
   std::vector<Attempt> next_if_not(const Group& group, const Attempt& now, const std::vector<UnitId>& next) const;
   std::vector<Attempt> next_if_out(const Group& group, const Attempt& now) const;
+  std::vector<Attempt> next_searches(const Group& group) const;
+  void add_round(const Group& group, std::vector<Attempt>& ahead) const;
   void add_next_round(const Group& group, std::vector<Attempt>& ahead) const;
+  unsigned next_depth_of_pair(const Group& group) const;
   void add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                     std::vector<Attempt>& ahead) const;
   std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
