@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -96,43 +95,12 @@ bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
   return around.overlaps(b.swept);
 }
 
-/// Pair after pair, each from the rung that those before it have raised. Idle threads look at later ones meanwhile,
-/// from the rung that is known then; where that was raised since, the pair is looked at again. So it is as if there
-/// were one.
+/// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
+/// would see of later ones, from a rung that is still to be raised, takes longer than it saves.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
-  struct Look {
-    bool done = false, passed = false;
-    std::size_t from = 0, rung = 0;
-    MotionCheck found;
-  };
-  const auto look = [&](std::size_t k, std::size_t from) {
-    Look l{true, false, from, from, {}};
-    l.passed = check(*pairs[k].first, *pairs[k].second, context, l.rung, l.found);
-    return l;
-  };
-  std::vector<Look> looks(pairs.size());
-  std::atomic<std::size_t> known{0};
-  std::atomic<bool> failed{false};
-  on_threads(
-      pairs.size(), context,
-      [&](std::size_t k) {
-        looks[k] = look(k, known);
-        if (!looks[k].passed) failed = true;
-        for (std::size_t r = known; r < looks[k].rung && !known.compare_exchange_weak(r, looks[k].rung);) {
-        }
-      },
-      [&] { return failed.load(); });
   std::size_t rung = 0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    Look& l = looks[k];
-    if (!l.done || l.from != rung) l = look(k, rung);
-    rung = l.rung;
-    result.tests += l.found.tests;
-    if (l.passed) continue;
-    result.violation = l.found.violation;
-    result.interrupted = l.found.interrupted;
-    return;
-  }
+  for (const auto& [a, b] : pairs)
+    if (!check(*a, *b, context, rung, result)) return;
   result.valid = true;
   result.max_penetration = rungs[rung];
 }
