@@ -50,7 +50,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
     area += 0.5 * (bar.mesh.vertex(t, 1) - a).cross(bar.mesh.vertex(t, 2) - a).norm();
   }
   const double spacing = std::max(least, std::sqrt(area / kSamples));
-  const auto never = [] { return false; };
+  const auto stop = [&] { return context.should_stop(); };
   std::vector<std::vector<Vec3>> below(bar.mesh.triangles.size());  // by triangle: centres of balls that touch it
   on_threads(
       chunks(below.size()), context,
@@ -69,7 +69,8 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
             }
         }
       },
-      never);
+      stop);
+  if (stop()) return balls;
   std::map<std::array<long, 3>, Vec3> first;  // one in each cell of a grid
   for (const auto& centers : below)
     for (const Vec3& c : centers)
@@ -84,7 +85,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
           all[k] = {bar.frame * center, escape_at(center, bar).depth};
         }
       },
-      never);
+      stop);
   std::copy_if(all.begin(), all.end(), std::back_inserter(balls),
                [&](const InnerBall& ball) { return ball.radius > least; });
   std::stable_sort(balls.begin(), balls.end(),

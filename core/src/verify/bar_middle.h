@@ -15,7 +15,7 @@ struct InnerBall {
   double radius = 0;
 };
 
-/// Balls with radii above `least` (> 0) along the middle of the solid, the largest first.
+/// Balls with radii above `least` (> 0) along the middle of the solid, the largest first. Some when told to stop.
 std::vector<InnerBall> middle_of(const Solid& solid, double least, const RunContext& context);
 
 }  // namespace dismantle::verify

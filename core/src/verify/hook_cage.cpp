@@ -95,7 +95,7 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
     if (!(around.bvh.closest(local, reach).distance < reach)) continue;
     const Vec3 along = course(nodes, i);
     for (Loop& loop : surface.section({along, along.dot(nodes[i].at)}))
-      if (loop.diameter < 2 * reach && loop.around(nodes[i].at)) tight.push_back({i, along, std::move(loop)});
+      if (loop.around(nodes[i].at) && loop.diameter() < 2 * reach) tight.push_back({i, along, std::move(loop)});
   }
   // Those next to each other belong to one hole.
   std::vector<std::pair<Loop, std::size_t>> found;
@@ -236,7 +236,7 @@ struct Cap {
 class Ways {
  public:
   Ways(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context)
-      : loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
+      : context_(context), loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
     std::vector<Places> begin;  // by level
     for (int level = 0; level <= kFinest; ++level) begin.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
     std::array<Face, 6> faces;
@@ -246,13 +246,14 @@ class Ways {
           faces[k].places = begin;
           cover(Cap(static_cast<int>(k), 0, 0, 0), faces[k]);
         },
-        [&] { return gave_up(); });
+        [&] { return gave_up() || context.should_stop(); });
+    stopped_ = context.should_stop();
     for (const Face& face : faces) found_.insert(found_.end(), face.found.begin(), face.found.end());
   }
   /// All of them, unless it gave up.
   const std::vector<Cap>& directions() const { return found_; }
   /// By what all faces take together, so it does not matter which are looked at first.
-  bool gave_up() const { return caps_ > kMostCaps || looks_ > kMostLooks; }
+  bool gave_up() const { return stopped_ || caps_ > kMostCaps || looks_ > kMostLooks; }
 
  private:
   struct Places {
@@ -311,7 +312,7 @@ class Ways {
   }
 
   void cover(const Cap& cap, Face& face) {
-    if (gave_up() || !possible(cap, face)) return;
+    if (gave_up() || context_.should_stop() || !possible(cap, face)) return;
     if (cap.level == kFinest) {
       face.found.push_back(cap);
       ++caps_;
@@ -320,11 +321,13 @@ class Ways {
     for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2), face);
   }
 
+  const RunContext& context_;
   const Loop& loop_;
   const Solid& around_;
   const Bend& bend_;
   Pose to_local_;
   std::vector<Cap> found_;
+  bool stopped_ = false;
   std::atomic<std::size_t> caps_{0};
   std::atomic<std::uint64_t> looks_{0};
 };
@@ -404,7 +407,7 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>
           if (!bends[side]) passes = true;
         },
         [&] { return passes.load(); });
-    if (bends[0] && bends[1]) return HookCage{nodes[node].at, loop.diameter, {*bends[0], *bends[1]}};
+    if (bends[0] && bends[1]) return HookCage{nodes[node].at, loop.diameter(), {*bends[0], *bends[1]}};
   }
   return std::nullopt;
 }

@@ -67,15 +67,15 @@ double HullsApart::Side::top_along(Eigen::Index k, double sign) const {
 }
 
 HullsApart::HullsApart(std::vector<PlacedHull> group, std::vector<PlacedHull> rest)
-    : group_(std::move(group)), rest_(std::move(rest)) {}
+    : group_(std::move(group)), rest_(std::move(rest)), theirs_(box_of(rest_.corners)) {}
 
 bool HullsApart::after(const Vec3& shift) {
   if (group_.parts.empty() || rest_.parts.empty()) return true;
   group_.move_to(shift);
-  const Aabb ours = box_of(group_.corners), theirs = box_of(rest_.corners);
+  const Aabb ours = box_of(group_.corners);
   for (Eigen::Index k = 0; k < 3; ++k)  // most leave along an axis
     for (const double sign : {1.0, -1.0})
-      if ((sign > 0 ? ours.hi[k] < theirs.lo[k] : ours.lo[k] > theirs.hi[k]) &&
+      if ((sign > 0 ? ours.hi[k] < theirs_.lo[k] : ours.lo[k] > theirs_.hi[k]) &&
           -rest_.top_along(k, -sign) > group_.top_along(k, sign))
         return true;
   const auto found = separate(group_.corners, rest_.corners);

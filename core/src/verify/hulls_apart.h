@@ -39,6 +39,7 @@ class HullsApart {
   };
 
   Side group_, rest_;
+  Aabb theirs_;  // around the corners of rest_
 };
 
 }  // namespace dismantle::verify

@@ -29,14 +29,13 @@ std::optional<Lock> Verifier::Impl::locking_point(const InitialOverlap& o) const
 
 /// A large ball within a part, in the part's assembled frame.
 verify::Ball Verifier::Impl::ball_of(PartId part) const {
-  const std::scoped_lock guard(balls_guard);
-  std::optional<verify::Ball>& known = balls.at(part);
-  if (known) return *known;
-  known.emplace();
-  for (const auto& solid : bodies.at(part).solids)
-    if (const verify::Ball b = verify::large_ball(solid); b.radius > known->radius)
-      known = verify::Ball{solid.frame * b.center, b.radius};
-  return *known;
+  return *balls.at(part).get(RunContext{}, [&] {
+    std::optional<verify::Ball> largest{verify::Ball{}};
+    for (const auto& solid : bodies.at(part).solids)
+      if (const verify::Ball b = verify::large_ball(solid); b.radius > largest->radius)
+        largest = verify::Ball{solid.frame * b.center, b.radius};
+    return largest;
+  });
 }
 
 /// The largest ball of the inner parts against the surfaces of the outer ones. A surface point of those that is inside
@@ -70,16 +69,14 @@ std::optional<Enclosure> Verifier::Impl::shut_in(const std::vector<PlacedPart>& 
   return found;
 }
 
-const std::vector<std::vector<verify::InnerBall>>& Verifier::Impl::middles_of(PartId part,
-                                                                              const RunContext& context) const {
-  const std::scoped_lock guard(middles_guard);
-  auto& known = middles.at(part);
-  if (!known) {
-    known.emplace();
+auto Verifier::Impl::middles_of(PartId part, const RunContext& context) const -> const Middles* {
+  return middles.at(part).get(context, [&]() -> std::optional<Middles> {
+    Middles all;
     for (const auto& solid : bodies.at(part).solids)
-      known->push_back(verify::middle_of(solid, 1.1 * options.max_penetration, context));
-  }
-  return *known;
+      all.push_back(verify::middle_of(solid, 1.1 * options.max_penetration, context));
+    if (context.should_stop()) return std::nullopt;
+    return all;
+  });
 }
 
 std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b, const RunContext& context) const {
@@ -92,19 +89,21 @@ std::optional<Cage> Verifier::Impl::caged(PartId a, PartId b, const RunContext& 
     for (const auto& x : bodies[inside].solids)
       for (const verify::InnerRing& ring : verify::rings_in(x, depth, kRings))
         for (const auto& y : bodies[other].solids)
-          if (const auto cage = verify::ring_cage(ring, y))
+          if (const auto cage = verify::ring_cage(ring, y, context))
             return Cage{Cage::Kind::ring, inside, other, ring.center, 2 * ring.radius, cage->opening};
   for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
     for (const auto& x : bodies[inside].solids)
       for (const auto& y : bodies[other].solids)
-        if (const auto cage = verify::spool_cage(x, y, depth))
+        if (const auto cage = verify::spool_cage(x, y, depth, context))
           return Cage{Cage::Kind::spool, inside, other, cage->ring.center, cage->rim, 2 * cage->ring.radius};
-  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)})
+  for (const auto& [inside, other] : {std::pair(a, b), std::pair(b, a)}) {
+    const Middles* middle = middles_of(inside, context);
+    if (middle == nullptr) return std::nullopt;
     for (std::size_t i = 0; i < bodies[inside].solids.size(); ++i)
       for (const auto& y : bodies[other].solids)
-        if (const auto cage =
-                verify::hook_cage(bodies[inside].solids[i], middles_of(inside, context)[i], y, depth, context))
+        if (const auto cage = verify::hook_cage(bodies[inside].solids[i], (*middle)[i], y, depth, context))
           return Cage{Cage::Kind::hook, inside, other, cage->hole, 0, cage->width};
+  }
   return std::nullopt;
 }
 
@@ -115,6 +114,7 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b, const RunContext& contex
     if (const auto known = impl_->cages.find({a, b}); known != impl_->cages.end()) return known->second;
   }
   const auto found = impl_->caged(a, b, context);
+  if (!found && context.should_stop()) return std::nullopt;  // says nothing
   const std::scoped_lock guard(impl_->cages_guard);
   return impl_->cages.try_emplace({a, b}, found).first->second;
 }
@@ -122,9 +122,10 @@ std::optional<Cage> Verifier::caged(PartId a, PartId b, const RunContext& contex
 std::optional<Cage> Verifier::caged_flat(PartId inside, PartId other, const RunContext& context) const {
   const auto& bodies = impl_->bodies;
   const double depth = (impl_->overlap(inside, other) + impl_->options.max_penetration) * (1 + 1e-6);
-  const auto& middles = impl_->middles_of(inside, context);
-  for (std::size_t i = 0; i < middles.size(); ++i)
-    for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], middles[i], depth, 1))
+  const Impl::Middles* middle = impl_->middles_of(inside, context);
+  if (middle == nullptr) return std::nullopt;
+  for (std::size_t i = 0; i < middle->size(); ++i)
+    for (const verify::InnerDisc& disc : verify::discs_in(bodies.at(inside).solids[i], (*middle)[i], depth, 1))
       if (verify::disc_cage(disc, bodies.at(other).solids, context))
         return Cage{Cage::Kind::disc, inside, other, disc.center, 2 * disc.radius, 0};
   return std::nullopt;

@@ -121,70 +121,57 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
   return rings;
 }
 
-std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around) {
+std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around, const RunContext& context) {
   if (!around.box.contains(around.frame.inverse() * ring.center)) return std::nullopt;  // a chamber is in the hull
   const Surface surface(around);
   const double middle = ring.axis.dot(ring.center);
-  std::array<std::optional<Loop>, 2> nearest;  // the smallest loop around the axis below and above the ring
+  std::array<std::pair<double, Loop>, 2> nearest;  // the smallest around the axis below and above the ring: width, loop
+  for (auto& [width, loop] : nearest) width = 2 * ring.radius - kSlack;
   for (const double offset : surface.offsets(ring.axis, kSections)) {
+    if (context.should_stop()) return std::nullopt;
     if (std::abs(offset - middle) < 1e-9) continue;
     auto& best = nearest[offset > middle ? 1 : 0];
     for (Loop& loop : surface.section({ring.axis, offset})) {
-      if (!(loop.diameter < 2 * ring.radius - kSlack) || (best && best->diameter <= loop.diameter)) continue;
-      if (loop.around(ring.center)) best = std::move(loop);
+      if (!loop.around(ring.center)) continue;
+      if (const double width = loop.diameter(); width < best.first) best = {width, std::move(loop)};
     }
   }
   std::vector<Loop> loops;
-  for (auto& loop : nearest)
-    if (loop) loops.push_back(std::move(*loop));
+  for (auto& [width, loop] : nearest)
+    if (!loop.points.empty()) loops.push_back(std::move(loop));
   if (loops.empty()) return std::nullopt;
   const auto chamber = surface.closed_by(loops, ring.center);
   if (!chamber || chamber->inside(on(ring, 1)) != true) return std::nullopt;
   RingCage cage{ring, 0};
-  for (const Loop* loop : chamber->loops()) cage.opening = std::max(cage.opening, loop->diameter);
+  for (const Loop* loop : chamber->loops()) cage.opening = std::max(cage.opening, loop->diameter());
   return cage;
 }
 
 namespace {
 
-/// Distance of the point from the convex hull of the curve, if the two are nowhere further than kDent from each other;
-/// else 0.
-double reach_of(const Loop& loop, const Vec3& center) {
+/// Distance of the point from the convex hull of the curve, if that is more than `least`, and the two are nowhere
+/// further than kDent from each other; else `least`.
+double reach_of(const Loop& loop, const Vec3& center, double least) {
   const Vec3 e = loop.plane.normal.unitOrthogonal(), f = loop.plane.normal.cross(e);
-  std::vector<Eigen::Vector2d> points;
-  for (const Vec3& p : loop.points) points.emplace_back(e.dot(p), f.dot(p));
-  std::sort(points.begin(), points.end(),
-            [](const auto& a, const auto& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  const auto in_plane = [&](const Vec3& p) { return Eigen::Vector2d(e.dot(p), f.dot(p)); };
   std::vector<Eigen::Vector2d> hull;
-  for (const bool upper : {false, true}) {  // a monotone chain below, then one above
-    const std::size_t first = hull.size();
-    for (const auto& p : points) {
-      while (hull.size() > first + 1) {
-        const Eigen::Vector2d u = hull.back() - hull[hull.size() - 2], v = p - hull.back();
-        if (u.x() * v.y() - u.y() * v.x() > 0) break;
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    if (!upper) std::reverse(points.begin(), points.end());
-  }
-  if (hull.size() < 3) return 0;
+  for (const std::size_t k : loop.hull()) hull.push_back(in_plane(loop.points[k]));
+  if (hull.size() < 3) return least;
   const auto distance = [&](const Eigen::Vector2d& p) {
-    double least = std::numeric_limits<double>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < hull.size(); ++k) {
       const Eigen::Vector2d &a = hull[k], along = hull[(k + 1) % hull.size()] - a;
       const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      least = std::min(least, (a + t * along - p).norm());
+      nearest = std::min(nearest, (a + t * along - p).norm());
     }
-    return least;
+    return nearest;
   };
-  for (const auto& p : points)
-    if (distance(p) > kDent) return 0;
-  return distance({e.dot(center), f.dot(center)});
+  const double reach = distance(in_plane(center));
+  if (!(reach > least)) return least;
+  for (const Vec3& p : loop.points)
+    if (distance(in_plane(p)) > kDent) return least;
+  return reach;
 }
-
-Vec3 in_plane(const Plane& plane, const Vec3& p) { return p - plane.height(p) * plane.normal; }
 
 /// Circles about an axis, within the solid, from the smallest.
 std::vector<InnerRing> rings_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
@@ -204,25 +191,39 @@ std::vector<InnerRing> rings_about(const Vec3& foot, const Vec3& axis, double lo
   return rings;
 }
 
-/// The widest convex loops around the axis below and above the ring, with half their widths.
-std::array<std::pair<double, Loop>, 2> rims(const Surface& surface, const InnerRing& ring) {
-  std::array<std::pair<double, Loop>, 2> widest;
+/// Loops about an axis, ascending; those as far as it came when told to stop.
+std::vector<Loop> loops_across(const Surface& surface, const Vec3& axis, const RunContext& context) {
+  std::vector<Loop> loops;
+  for (const double offset : surface.offsets(axis, kSections)) {
+    if (context.should_stop()) break;
+    for (Loop& loop : surface.section({axis, offset})) loops.push_back(std::move(loop));
+  }
+  return loops;
+}
+
+struct Rim {
+  double radius = 0;  ///< half of its width
+  const Loop* loop = nullptr;
+};
+
+/// The widest convex loops around the axis below and above the ring.
+std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InnerRing& ring) {
+  std::array<Rim, 2> widest;
   const double middle = ring.axis.dot(ring.center);
-  for (const double offset : surface.offsets(ring.axis, kSections)) {
-    if (std::abs(offset - middle) < 1e-6) continue;
-    auto& best = widest[offset > middle ? 1 : 0];
-    for (Loop& loop : surface.section({ring.axis, offset})) {
-      if (!loop.around(ring.center)) continue;
-      const double reach = reach_of(loop, in_plane(loop.plane, ring.center));
-      if (reach > best.first) best = {reach, std::move(loop)};
-    }
+  for (const Loop& loop : loops) {
+    const double offset = loop.plane.offset;
+    if (std::abs(offset - middle) < 1e-6 || !loop.around(ring.center)) continue;
+    Rim& best = widest[offset > middle ? 1 : 0];
+    const double reach = reach_of(loop, ring.center, best.radius);
+    if (reach > best.radius) best = {reach, &loop};
   }
   return widest;
 }
 
 }  // namespace
 
-std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed) {
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed,
+                                    const RunContext& context) {
   constexpr std::size_t kRings = 4;
   const double depth = allowed + kDent;  // so that it also keeps out of the convex curve beside a rim
   const auto [center, axes] = axes_of(spool);
@@ -237,9 +238,11 @@ std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, dou
       hi = std::max(hi, axis.dot(d));
       reach = std::max(reach, (d - axis.dot(d) * axis).norm());
     }
+    std::vector<Loop> loops;
     std::size_t tried = 0;
     for (InnerRing ring : rings_about(foot, axis, lo, hi, reach, around, depth)) {
       if (tried++ == kRings) break;
+      if (context.should_stop()) return std::nullopt;
       bool deep = false;  // what looked so at a glance may have to be a little wider
       for (int k = 0; k < kWidenings && !deep; ++k) {
         deep = is_deep(around, ring, depth, 0, 2 * pi, kHalvings);
@@ -247,13 +250,14 @@ std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, dou
       }
       if (!deep) continue;
       if (!surface) surface.emplace(spool);
-      const auto [below, above] = rims(*surface, ring);
-      const double rim = std::min(below.first, above.first);
+      if (loops.empty()) loops = loops_across(*surface, axis, context);
+      const auto [below, above] = rims(loops, ring);
+      const double rim = std::min(below.radius, above.radius);
       if (!(rim > ring.radius + kSlack)) continue;
       for (const Loop& neck : surface->section({axis, axis.dot(ring.center)})) {
         const auto within = [&](const Vec3& p) { return (p - ring.center).norm() < ring.radius; };
         if (!std::all_of(neck.points.begin(), neck.points.end(), within)) continue;
-        if (surface->connects(neck, above.second, true) && surface->connects(neck, below.second, false))
+        if (surface->connects(neck, *above.loop, true) && surface->connects(neck, *below.loop, false))
           return SpoolCage{ring, 2 * rim};
       }
     }

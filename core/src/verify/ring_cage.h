@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/run_context.h"
 #include "verify/solid.h"
 
 namespace dismantle::verify {
@@ -24,7 +25,7 @@ struct RingCage {
 /// Large rings in the solid, `depth` (> 0) below its surface and more; the largest first.
 std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t most);
 
-/// Is the ring in a chamber of the solid that it cannot leave? Nothing: no such chamber was found.
+/// Is the ring in a chamber of the solid that it cannot leave? Nothing: no such chamber was found, or told to stop.
 ///
 /// Why it cannot. The surface of the solid keeps out of the ring: where the two met, it would be deeper in the ring's
 /// part than is allowed. The chamber is closed by a piece of that surface and by flat discs whose borders are curves on
@@ -33,7 +34,7 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
 /// one arc of the ring is the shorter one, and that is the one which began to cross when the ring first touched the
 /// disc; it never grows to half of the ring. When the ring crosses no disc, all arcs are gone, and it is inside again.
 /// So a point of the ring is always in the chamber or on one of its discs.
-std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around);
+std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around, const RunContext& context);
 
 struct SpoolCage {
   InnerRing ring;  ///< within the part around the spool
@@ -41,7 +42,7 @@ struct SpoolCage {
 };
 
 /// Is the spool in a hole of the solid `around`, with a rim on either side that is too wide for a ring about the hole,
-/// which lies `depth` (> 0) below the surface and more? Nothing: not found.
+/// which lies `depth` (> 0) below the surface and more? Nothing: not found, or told to stop.
 ///
 /// Why it stays. The surface of the spool keeps out of the ring, so its rims and a line on it from rim to rim do. As
 /// with ring_cage(), a rim, which is convex (or so near to a convex curve that the ring keeps out of that), is crossed
@@ -50,6 +51,6 @@ struct SpoolCage {
 /// an end of it does, which then changes sides between the long arc of its rim and the short one. At first the line
 /// crosses once. If the parts were apart, nothing would cross the disc: both ends on long arcs as at first, and yet an
 /// even number.
-std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth);
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth, const RunContext& context);
 
 }  // namespace dismantle::verify

@@ -14,13 +14,6 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr std::array<double, 15> kRays = {0.61, 0.37, 0.70, -0.53, 0.81,  0.25,  0.29, -0.44,
                                           0.85, 0.71, 0.13, -0.69, -0.38, -0.91, 0.17};
 
-double diameter_of(const std::vector<Vec3>& points) {
-  double most = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) most = std::max(most, (points[i] - points[k]).squaredNorm());
-  return std::sqrt(most);
-}
-
 /// Where the ray from `p` along `d` meets the triangle; nothing when it misses it, infinite when that is not clear.
 std::optional<double> meets(const Vec3& p, const Vec3& d, const std::array<Vec3, 3>& c) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0], across = d.cross(v);
@@ -42,6 +35,44 @@ std::optional<double> meets(const Vec3& p, const Vec3& d, const std::array<Vec3,
 }
 
 }  // namespace
+
+std::vector<std::size_t> Loop::hull() const {
+  const Vec3 e = plane.normal.unitOrthogonal(), f = plane.normal.cross(e);
+  struct Point {
+    double x, y;
+    std::size_t index;
+  };
+  std::vector<Point> order;
+  for (std::size_t k = 0; k < points.size(); ++k) order.push_back({e.dot(points[k]), f.dot(points[k]), k});
+  std::sort(order.begin(), order.end(), [](const Point& a, const Point& b) {
+    return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.index < b.index)));
+  });
+  std::vector<Point> corners;
+  for (const bool upper : {false, true}) {  // a monotone chain below, then one above
+    const std::size_t first = corners.size();
+    for (const Point& p : order) {
+      while (corners.size() > first + 1) {
+        const Point &a = corners[corners.size() - 2], &b = corners.back();
+        if ((b.x - a.x) * (p.y - b.y) - (b.y - a.y) * (p.x - b.x) > 0) break;
+        corners.pop_back();
+      }
+      corners.push_back(p);
+    }
+    if (!corners.empty()) corners.pop_back();
+    if (!upper) std::reverse(order.begin(), order.end());
+  }
+  std::vector<std::size_t> indices;
+  for (const Point& p : corners) indices.push_back(p.index);
+  return indices;
+}
+
+double Loop::diameter() const {
+  const std::vector<std::size_t> corners = hull();
+  double most = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) most = std::max(most, (points[corners[i]] - points[corners[k]]).squaredNorm());
+  return std::sqrt(most);
+}
 
 bool Loop::around(const Vec3& p) const {
   const Vec3 e = plane.normal.unitOrthogonal(), f = plane.normal.cross(e);
@@ -126,7 +157,7 @@ std::vector<Loop> Surface::section(const Plane& plane) const {
       return above(c[0]) != above(c[1]) || above(c[1]) != above(c[2]);
     };
     if (seen[first] || !is_cut(first)) continue;
-    Loop loop{plane, {}, {}, 0};
+    Loop loop{plane, {}, {}};
     bool closed = true;
     for (std::uint32_t t = first; !seen[t];) {
       seen[t] = 1;
@@ -146,7 +177,6 @@ std::vector<Loop> Surface::section(const Plane& plane) const {
       }
     }
     if (!closed) continue;
-    loop.diameter = diameter_of(loop.points);
     loops.push_back(std::move(loop));
   }
   return loops;

@@ -22,8 +22,11 @@ struct Loop {
   Plane plane;
   std::vector<Eigen::Vector3d> points;   ///< in order
   std::vector<std::uint32_t> triangles;  ///< triangles[k] is cut from points[k] to the next one
-  double diameter = 0;                   ///< largest distance of two points
 
+  /// Indices of points: the corners of the convex hull, once around. Of points on a line the two ends.
+  std::vector<std::size_t> hull() const;
+  /// The largest distance of two points.
+  double diameter() const;
   /// Is a point of the plane (or next to it) inside the curve?
   bool around(const Eigen::Vector3d& p) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -96,13 +97,49 @@ bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
 }
 
 /// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
-/// would see of later ones, from a rung that is still to be raised, takes longer than it saves.
+/// would see of later ones, from a rung that is still to be raised, takes longer than it saves. Straight ways are over
+/// soon, and mostly keep to the lowest rung.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
+  const auto straight = [](const Actor& actor) { return actor.poses.size() <= 2; };
+  std::vector<Look> looks(pairs.size());
+  if (std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return straight(*p.first) && straight(*p.second); }))
+    looks = looks_ahead(pairs, context);
   std::size_t rung = 0;
-  for (const auto& [a, b] : pairs)
-    if (!check(*a, *b, context, rung, result)) return;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Look& look = looks[k];
+    if (!look.done || look.from != rung) look = look_at(pairs[k], rung, context);
+    rung = look.rung;
+    result.tests += look.found.tests;
+    if (look.passed) continue;
+    result.violation = look.found.violation;
+    result.interrupted = look.found.interrupted;
+    return;
+  }
   result.valid = true;
   result.max_penetration = rungs[rung];
+}
+
+auto Verifier::Impl::look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const -> Look {
+  Look look{true, false, rung, rung, {}};
+  look.passed = check(*pair.first, *pair.second, context, look.rung, look.found);
+  return look;
+}
+
+/// All pairs, until one fails, each from the rung that is known when its turn comes.
+auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) const -> std::vector<Look> {
+  std::vector<Look> looks(pairs.size());
+  std::atomic<std::size_t> known{0};
+  std::atomic<bool> failed{false};
+  on_threads(
+      pairs.size(), context,
+      [&](std::size_t k) {
+        looks[k] = look_at(pairs[k], known, context);
+        if (!looks[k].passed) failed = true;
+        for (std::size_t r = known; r < looks[k].rung && !known.compare_exchange_weak(r, looks[k].rung);) {
+        }
+      },
+      [&] { return failed.load(); });
+  return looks;
 }
 
 /// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
@@ -192,6 +229,10 @@ Verifier::Verifier(const Assembly& assembly, VerifyOptions options, unsigned thr
 Verifier::~Verifier() = default;
 
 const VerifyOptions& Verifier::options() const { return impl_->options; }
+
+std::size_t Verifier::parts() const { return impl_->bodies.size(); }
+
+const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodies.at(part).corners; }
 
 const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
 

@@ -1,6 +1,7 @@
 /// What a Verifier keeps of the parts; shared by its judging and its proofs.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 
 #include "dismantle/verify/verifier.h"
 #include "verify/bar_middle.h"
+#include "verify/computed_once.h"
 #include "verify/hulls_apart.h"
 #include "verify/shut_in.h"
 #include "verify/solid.h"
@@ -38,9 +40,19 @@ struct Verifier::Impl {
   std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
   verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
 
-  const std::vector<std::vector<verify::InnerBall>>& middles_of(PartId part, const RunContext& context) const;
+  using Middles = std::vector<std::vector<verify::InnerBall>>;  // by solid
+  /// Null when told to stop.
+  const Middles* middles_of(PartId part, const RunContext& context) const;
   std::optional<Cage> caged(PartId a, PartId b, const RunContext& context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
+  /// What was seen of a pair.
+  struct Look {
+    bool done = false, passed = false;
+    std::size_t from = 0, rung = 0;  // first and last that was tried
+    MotionCheck found;
+  };
+  Look look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const;
+  std::vector<Look> looks_ahead(const Pairs& pairs, const RunContext& context) const;
   void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
   bool near(const Actor& a, const Actor& b) const;
   bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
@@ -53,11 +65,10 @@ struct Verifier::Impl {
   std::vector<Lock> locks;
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
-  mutable std::mutex cages_guard, middles_guard;
+  mutable std::mutex cages_guard;
   mutable std::map<std::pair<PartId, PartId>, std::optional<Cage>> cages;  // of pairs that were asked for
-  mutable std::vector<std::optional<std::vector<std::vector<verify::InnerBall>>>> middles;  // by part, by solid
-  mutable std::mutex balls_guard;
-  mutable std::vector<std::optional<verify::Ball>> balls;  // by part, found when first asked for
+  mutable std::deque<verify::ComputedOnce<Middles>> middles;               // by part
+  mutable std::deque<verify::ComputedOnce<verify::Ball>> balls;            // by part
 };
 
 }  // namespace dismantle

@@ -34,6 +34,11 @@ std::optional<Cage> look(const Mesh& a, const Mesh& b, Rng& rng) {
   if (cage && same) {
     EXPECT_EQ(describe(*cage, assembly), describe(*same, assembly)) << "whoever helps";
   }
+  RunContext stopped;
+  stopped.cancel.cancel();
+  const Verifier later(assembly, {kAllowed});
+  EXPECT_FALSE(later.caged(0, 1, stopped));
+  EXPECT_EQ(later.caged(0, 1).has_value(), cage.has_value()) << "what was stopped says nothing";
   return cage;
 }
 

@@ -137,10 +137,14 @@ class DISMANTLE_API Verifier {
   double way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
                    const Eigen::Vector3d& direction, double most, int halvings) const;
   const VerifyOptions& options() const;
+  std::size_t parts() const;
+  /// Corners of the convex hull of a part, in its assembled frame.
+  const std::vector<Eigen::Vector3d>& hull(PartId part) const;
   /// All pairs that are locked by their overlap, sorted by (a, b) as Assembly::overlaps. Found when built.
   const std::vector<Lock>& locks() const;
   /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
-  /// no motion within the limits leads out of it. Fractions of a second up to a few.
+  /// no motion within the limits leads out of it. Fractions of a second up to a few, of very fine meshes up to a
+  /// minute; nothing when told to stop.
   std::optional<Cage> caged(PartId a, PartId b, const RunContext& context = {}) const;
   /// The same for a large flat piece within `inside`; seconds up to ten, so it is not part of caged(). Nothing when
   /// told to stop.
