@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/push/plan.h"
 #include "dismantle/tolerant_walk/walk.h"
+#include "give_way.h"
 #include "growth.h"
 
 namespace dismantle::guided {
@@ -52,13 +54,17 @@ class Others {
       own.cancel = CancelToken();
       own.on_progress = nullptr;
       own.on_log = nullptr;
+      PathQuery walking = query_;
       std::optional<Others> rest;
+      std::optional<GiveWay> give_way;
       std::optional<Crew::Offer> offer;
-      if (context_.crew && limits_.steps_left == nullptr) {
+      if (context_.crew && context_.crew->threads() > 1 && limits_.steps_left == nullptr) {
         rest.emplace(Others(query_, parameters_, tactics_, cache_, own, thin_));
-        offer = context_.crew->offer([&] { rest->push_and_walk(); }, Crew::Rank::part);
+        give_way.emplace(*context_.crew);
+        walking.judge = [&](const Path& path) { return give_way->judged(query_.judge, path); };
+        offer = context_.crew->offer([&] { rest->push_and_walk([&] { give_way->wait(); }); }, Crew::Rank::part);
       }
-      lead(depth <= kLeastDepthOfLead ? 1 : 0);
+      lead(walking, depth <= kLeastDepthOfLead ? 1 : 0);
       if (!undecided(led_)) {
         own.cancel.cancel();
         return together(led_);
@@ -87,7 +93,7 @@ class Others {
         pushing_ends = !pushing.paused();
       }
       if (!walked) {
-        lead(0);
+        lead(query_, 0);
         if (!undecided(led_)) return together(led_);
         walk(static_cast<double>(parameters_.squeeze_looks));
         walked = true;
@@ -128,9 +134,10 @@ class Others {
     limits_.pause_after = static_cast<std::uint64_t>(parameters.forest_after);
   }
 
-  void push_and_walk() {
+  /// `between`: states that are given pushes.
+  void push_and_walk(const std::function<void()>& between = {}) {
     const unsigned depth = query_.effort.max_depth;
-    pushes_ = push::plan(query_, tactics_, context_);
+    pushes_ = push::plan(query_, tactics_, context_, between);
     spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
     if (!undecided(pushes_)) return;
     // Ways that the judge refused lead out, and only cut a little too deep.
@@ -166,7 +173,7 @@ class Others {
   }
 
   /// Likewise. Patience and detours halved so many times.
-  void lead(unsigned halvings) {
+  void lead(const PathQuery& query, unsigned halvings) {
     const double patience = std::ldexp(static_cast<double>(parameters_.lead_looks), -static_cast<int>(halvings));
     const unsigned detours = kMostDetours >> halvings;
     led_.outcome = Outcome::depth_limit;
@@ -174,21 +181,21 @@ class Others {
       tolerant_walk::Parameters walk;
       if (thin_) {
         // What has only some play so may be held with interference all the way out. Else its ways lead through walls.
-        if (lead(tolerant_walk::Overlap::near_start, walk, patience, detours)) {
+        if (lead(query, tolerant_walk::Overlap::near_start, walk, patience, detours)) {
           walk.max_refusals = kFewRefusals;
-          lead(tolerant_walk::Overlap::everywhere, walk, patience, detours);
+          lead(query, tolerant_walk::Overlap::everywhere, walk, patience, detours);
         }
       } else {
-        lead(tolerant_walk::Overlap::everywhere, walk, patience, detours);
+        lead(query, tolerant_walk::Overlap::everywhere, walk, patience, detours);
       }
     }
     if (undecided(led_) && steps_left_ == 0) led_.outcome = Outcome::timeout;
   }
 
   /// True where that shows no more than some play.
-  bool lead(tolerant_walk::Overlap overlap, const tolerant_walk::Parameters& parameters, double patience,
-            unsigned most_detours) {
-    free_space::LedWalk walk(parameters, query_, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
+  bool lead(const PathQuery& query, tolerant_walk::Overlap overlap, const tolerant_walk::Parameters& parameters,
+            double patience, unsigned most_detours) {
+    free_space::LedWalk walk(parameters, query, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
                              cache_);
     if (walk.leads_out()) led_ = walk.run(steps_left_, patience, most_detours);
     spend(walk.looks());

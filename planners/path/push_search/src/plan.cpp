@@ -95,7 +95,8 @@ PathResult ByTurns::run(const Search::Limits& limits) {
   return rotation_ ? merged(second_, first_) : first_;
 }
 
-PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context) {
+PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                const std::function<void()>& between) {
   const Capabilities has = query.simulator.capabilities();
   if (!has.dynamics || !has.contacts || has.max_moving < query.cast.moving.size()) {
     PathResult result;
@@ -107,6 +108,7 @@ PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& cont
   Search::Limits limits;
   limits.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
   limits.steps_left = query.effort.max_steps > 0 ? &steps_left : nullptr;
+  limits.between = between;
   const unsigned depth = query.effort.max_depth;
   if (tactics.motion != Motion::automatic) {
     const auto space = tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid;

@@ -306,6 +306,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
       waiting_.insert({now, next.depth, next.node});
       continue;
     }
+    if (limits_.between) limits_.between();
     const RunEnd end = expand(next.node, result);
     if (end != RunEnd::blocked) return end;
   }

@@ -1,6 +1,7 @@
 /// A path planner's answer by push search.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "dismantle/path_planner.h"
@@ -37,6 +38,8 @@ class ByTurns {
 
 /// Searches in the motion space that the tactics name, or, with `motion: auto`, by translation and by rotation:
 /// in turns of growing rank until both are exhausted; under a depth limit with a number of states for each.
-PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context);
+/// `between`: see Search::Limits.
+PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                const std::function<void()>& between = {});
 
 }  // namespace dismantle::push

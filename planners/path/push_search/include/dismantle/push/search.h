@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <functional>
 #include <map>
 #include <set>
 #include <vector>
@@ -34,6 +35,7 @@ class Search {
     std::uint64_t expansions = 0;         ///< states given actions; 0 = no limit
     unsigned rank = ~0U;                  ///< states that wait longer than this are left waiting
     std::uint64_t pause_after = 0;        ///< steps and looks of this call, rounded up to whole states; 0 = no pause
+    std::function<void()> between;        ///< called before each state is given actions, may wait; may be empty
   };
   /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
   /// no.

@@ -1,0 +1,48 @@
+// What makes way leaves its place, and goes on afterwards.
+#include "give_way.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+
+namespace dismantle::guided {
+namespace {
+
+TEST(GiveWay, ItsPlaceIsForThoseWhoHelpTheJudge) {
+  Crew crew(2);
+  GiveWay give_way(crew);
+  std::atomic<bool> over{false};
+  std::atomic<int> rounds{0};
+  Crew::Offer beside = crew.offer(
+      [&] {
+        while (!over) {
+          give_way.wait();
+          ++rounds;
+        }
+      },
+      Crew::Rank::part);
+  while (rounds == 0) std::this_thread::yield();
+  const auto judge = [&](const Path&) {
+    Crew::Offer helper = crew.offer([] {}, Crew::Rank::part);
+    while (!helper.done()) std::this_thread::yield();  // there is a place for it
+    const int before = rounds;
+    for (int k = 0; k < 1000; ++k) std::this_thread::yield();
+    EXPECT_EQ(rounds, before) << "it waits";
+    return Verdict{};
+  };
+  for (int k = 0; k < 20; ++k) {
+    give_way.judged(judge, {});
+    const int before = rounds;
+    while (rounds == before) std::this_thread::yield();  // it goes on
+  }
+  EXPECT_THROW(give_way.judged([](const Path&) -> Verdict { throw std::runtime_error("no"); }, {}), std::runtime_error);
+  const int before = rounds;
+  while (rounds == before) std::this_thread::yield();
+  over = true;
+  beside.wait();
+}
+
+}  // namespace
+}  // namespace dismantle::guided
