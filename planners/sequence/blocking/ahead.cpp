@@ -157,6 +157,24 @@ bool TakingApart::known_to_block(PartId a, PartId b) const {
          std::all_of(directions_.of_part[b].begin(), directions_.of_part[b].end(), known);
 }
 
+/// Puts before idle threads what will be asked where no slide is found.
+void TakingApart::seek_cages(const Group& group) const {
+  if (!relations_ || !params_.cages) return;
+  const auto passes = [&](PartId a, PartId b) {
+    return std::any_of(directions_.of_part[a].begin(), directions_.of_part[a].end(), [&](std::size_t d) {
+      const Pair pair{a, b, d, poses_[a].t - poses_[b].t, turn_[a], turn_[b]};
+      return relations_->known(pair) && !relations_->blocks(pair);
+    });
+  };
+  std::vector<HoldQuestion> questions;
+  for (std::size_t i = 0; i < group.units.size(); ++i)
+    for (std::size_t k = i + 1; k < group.units.size(); ++k)
+      add_questions(HoldQuestion::Kind::cage, group.units[i], group.units[k], questions);
+  std::erase_if(questions,
+                [&](const HoldQuestion& q) { return asked_.contains(q) || passes(q.a, q.b) || passes(q.b, q.a); });
+  proofs_ahead_->begin(questions, context_);
+}
+
 /// What may be asked about pairs, the likeliest first: about flat pieces of the group; of groups that wait for just
 /// that; of parts that were searched for some depth and have one other in their way; of other groups of two.
 std::vector<HoldQuestion> TakingApart::likely_proofs(const Group& now) const {

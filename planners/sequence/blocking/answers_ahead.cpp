@@ -4,17 +4,15 @@
 
 namespace dismantle::blocking {
 
-AnswersAhead::AnswersAhead(const Verifier& judge, unsigned threads) : judge_(judge) {
-  for (unsigned t = 1; t < threads; ++t) workers_.emplace_back([this] { work(); });
-}
+AnswersAhead::AnswersAhead(const Verifier& judge, std::shared_ptr<Crew> crew)
+    : judge_(judge), crew_(std::move(crew)), helpers_most_(crew_ ? crew_->threads() - 1 : 0) {}
 
 AnswersAhead::~AnswersAhead() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
   }
-  work_there_.notify_all();
-  for (auto& worker : workers_) worker.join();
+  offers_.clear();
 }
 
 std::size_t AnswersAhead::waiting() const {
@@ -23,11 +21,15 @@ std::size_t AnswersAhead::waiting() const {
 }
 
 void AnswersAhead::hint(std::deque<Line> lines) {
-  {
-    const std::lock_guard lock(mutex_);
-    lines_ = std::move(lines);
-  }
-  work_there_.notify_all();
+  const std::lock_guard lock(mutex_);
+  lines_ = std::move(lines);
+  if (!lines_.empty()) call_helpers(Crew::Rank::ahead);
+}
+
+/// With the lock.
+void AnswersAhead::call_helpers(Crew::Rank rank) {
+  std::erase_if(offers_, [](const Crew::Offer& offer) { return offer.done(); });
+  for (; helpers_ < helpers_most_; ++helpers_) offers_.push_back(crew_->offer([this] { work(); }, rank));
 }
 
 AnswersAhead::State AnswersAhead::ask(const PassQuestion& q) const {
@@ -50,7 +52,7 @@ void AnswersAhead::settle(const PassQuestion& question, std::unique_lock<std::mu
   lock.lock();
   states_[question.key] = state;
   answered_.notify_all();
-  if (!lines_.empty()) work_there_.notify_one();  // the next of its line can be asked now
+  if (!lines_.empty()) call_helpers(Crew::Rank::ahead);  // the next of its line can be asked now
 }
 
 const PassQuestion* AnswersAhead::next_wanted() {
@@ -83,7 +85,7 @@ std::vector<char> AnswersAhead::answer(std::span<const PassQuestion> questions) 
   std::unique_lock lock(mutex_);
   std::vector<char> blocked;
   for (const auto& q : questions) wanted_.push_back(&q);
-  if (questions.size() > 1 && works_ahead()) work_there_.notify_all();
+  if (questions.size() > 1) call_helpers(Crew::Rank::part);
   try {
     while (const PassQuestion* question = next_wanted()) settle(*question, lock);
     for (const auto& q : questions) {
@@ -108,6 +110,7 @@ std::vector<char> AnswersAhead::answer(std::span<const PassQuestion> questions) 
   return blocked;
 }
 
+/// Until there is nothing left; who has something then calls again.
 void AnswersAhead::work() {
   std::unique_lock lock(mutex_);
   while (!stop_) {
@@ -118,13 +121,14 @@ void AnswersAhead::work() {
       } else if (const auto next = next_hinted()) {
         settle(*next, lock);
       } else {
-        work_there_.wait(lock);  // what there is was looked for under the lock: nothing is missed
+        break;
       }
     } catch (...) {
       // The caller comes to the same question, if it matters, and meets the same exception. Nobody else is to try it.
       lines_.clear();
     }
   }
+  --helpers_;
 }
 
 }  // namespace dismantle::blocking

@@ -1,17 +1,18 @@
-/// Answers to questions about pairs, some of them found on other threads before they are asked for.
+/// Answers to questions about pairs, some of them found by other threads before they are asked for.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
-#include <thread>
 #include <tuple>
 #include <vector>
 
+#include "dismantle/crew.h"
 #include "dismantle/verify/verifier.h"
 
 namespace dismantle::blocking {
@@ -28,21 +29,21 @@ struct PassQuestion {
   std::vector<Pose> way;
 };
 
-/// The judge's answers. One caller; with `threads` > 1, as many less one work beside it: on what the caller waits for,
-/// else on what it is likely to ask next.
+/// The judge's answers. One caller; idle threads of a crew work beside it, on what the caller waits for, else on what
+/// it is likely to ask next.
 class AnswersAhead {
  public:
   /// Questions in the order in which they would be asked, of which those after the first "blocked" are not asked.
   using Line = std::deque<PassQuestion>;
 
-  /// `judge` must outlive this.
-  AnswersAhead(const Verifier& judge, unsigned threads);
+  /// `judge` must outlive this; `crew` may be null.
+  AnswersAhead(const Verifier& judge, std::shared_ptr<Crew> crew);
   /// Waits for the answers that are being found.
   ~AnswersAhead();
   AnswersAhead(const AnswersAhead&) = delete;
   AnswersAhead& operator=(const AnswersAhead&) = delete;
 
-  bool works_ahead() const { return !workers_.empty(); }
+  bool works_ahead() const { return helpers_most_ > 0; }
   /// Lines that are not answered.
   std::size_t waiting() const;
   /// Replaces those.
@@ -53,6 +54,7 @@ class AnswersAhead {
  private:
   enum class State : char { running, free, blocked };
   State ask(const PassQuestion& question) const;
+  void call_helpers(Crew::Rank rank);
   void work();
   void settle(const PassQuestion& question, std::unique_lock<std::mutex>& lock);
   const PassQuestion* next_wanted();
@@ -60,12 +62,15 @@ class AnswersAhead {
 
   const Verifier& judge_;
   mutable std::mutex mutex_;
-  std::condition_variable work_there_, answered_;
+  std::condition_variable answered_;
   std::map<RelationKey, State> states_;
   std::deque<const PassQuestion*> wanted_;  ///< the caller waits for these; they live as long as it does
   std::deque<Line> lines_;
   bool stop_ = false;
-  std::vector<std::thread> workers_;
+  const std::shared_ptr<Crew> crew_;
+  const std::size_t helpers_most_;
+  std::size_t helpers_ = 0;          ///< called, and not through with what there is
+  std::vector<Crew::Offer> offers_;  ///< to them, and to some before
 };
 
 }  // namespace dismantle::blocking

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "dismantle/geometry/hull.h"
+#include <utility>
 
 namespace dismantle::blocking {
 namespace {
@@ -16,9 +15,8 @@ constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
 
 }  // namespace
 
-Relations::Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions, unsigned threads)
-    : directions_(directions), shadows_(directions.all.size()), answers_(judge, threads) {
-  for (const auto& part : assembly.parts) hulls_.push_back(hull_corners(part.mesh->vertices));
+Relations::Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Crew> crew)
+    : directions_(directions), judge_(judge), shadows_(directions.all.size()), answers_(judge, std::move(crew)) {
   for (const auto& d : directions.all) {
     const Vec3 across = d.unitOrthogonal();
     Eigen::Matrix3d frame;
@@ -33,7 +31,7 @@ Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eige
   Shadow s;
   for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
   const Eigen::Matrix3d frame = frames_[direction] * turn;
-  for (const Vec3& v : hulls_[part]) {
+  for (const Vec3& v : judge_.hull(part)) {
     const Vec3 p = frame * v;
     for (int k = 0; k < 3; ++k) s.lo[k] = std::min(s.lo[k], p[k]), s.hi[k] = std::max(s.hi[k], p[k]);
   }
@@ -48,7 +46,7 @@ const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, s
   }
   auto& list = shadows_[direction];
   if (list.empty())
-    for (PartId id = 0; id < hulls_.size(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
+    for (PartId id = 0; id < judge_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
   return list[part];
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <unordered_map>
@@ -25,19 +26,21 @@ struct Pair {
 };
 
 /// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
-/// its end. Not safe to call from several threads; works on `threads` itself.
+/// its end. Not safe to call from several threads; a crew's idle ones, if given, help.
 class Relations {
  public:
-  /// All references must outlive this.
-  Relations(const Assembly& assembly, const Verifier& judge, const Directions& directions, unsigned threads = 1);
+  /// All references must outlive this; `crew` may be null.
+  Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Crew> crew);
 
   bool blocks(const Pair& pair);
   /// The same for many.
   void compute(std::span<const Pair> pairs);
   /// Asked for before, or far. What was found ahead does not count, so that threads do not show.
   bool known(const Pair& pair) const;
-  /// Worth telling what will probably be asked?
-  bool wants_hints() const { return answers_.works_ahead() && answers_.waiting() < kEnoughHints; }
+  /// Are there threads for what will probably be asked?
+  bool works_ahead() const { return answers_.works_ahead(); }
+  /// Is it worth telling them? They have little left.
+  bool wants_hints() const { return works_ahead() && answers_.waiting() < kEnoughHints; }
   /// Each list in the order in which it will be asked, until a pair is blocked. Replaces what was told before.
   void hint(const std::vector<std::vector<Pair>>& lists);
   /// Certainly apart all the way, by boxes alone.
@@ -64,7 +67,7 @@ class Relations {
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
   const Directions& directions_;
-  std::vector<std::vector<Eigen::Vector3d>> hulls_;
+  const Verifier& judge_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   std::vector<Eigen::Quaterniond> turns_{Eigen::Quaterniond::Identity()};

@@ -44,6 +44,7 @@ bool TakingApart::slide(Group& group) {
                   [&](UnitId u) { return units_[u].size() > 1 || !translated_only(poses_[units_[u].front()]); }))
     return false;
   const std::vector<PartId> parts = parts_of(group.units);
+  if (context_.threads > 1) seek_cages(group);
   for (std::size_t refusals = 0; refusals < kRefusals && !stop(); ++refusals) {
     Places places;
     for (const PartId id : parts) places[id] = poses_[id].t;

@@ -59,8 +59,7 @@ double TakingApart::way_out(const Group& group, const std::vector<UnitId>& units
   return std::max(0.0, theirs - ours);
 }
 
-/// Directions of a unit, shortest way out first.
-std::vector<std::size_t> TakingApart::directions_of(const Group& group, UnitId unit) const {
+std::vector<std::size_t> TakingApart::directions_of(UnitId unit) const {
   std::vector<std::size_t> list;
   for (const PartId id : units_[unit]) {
     const auto& of_part = directions_.of_part[id];
@@ -68,6 +67,12 @@ std::vector<std::size_t> TakingApart::directions_of(const Group& group, UnitId u
   }
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+/// Shortest way out first.
+std::vector<std::size_t> TakingApart::directions_of(const Group& group, UnitId unit) const {
+  std::vector<std::size_t> list = directions_of(unit);
   std::vector<std::pair<double, std::size_t>> ways;
   for (const std::size_t d : list) ways.emplace_back(way_out(group, {unit}, d), d);
   std::stable_sort(ways.begin(), ways.end(), [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
@@ -84,14 +89,21 @@ std::vector<Pair> TakingApart::open_questions(const Group& group, UnitId unit, s
     if (in_group(group, watched->second)) return {};  // as long as that one is there
     watched_[unit].erase(watched);
   }
+  const auto [in_way, pairs] = unknown_pairs(group, unit, direction);
+  if (in_way) watched_[unit][direction] = *in_way;
+  return pairs;
+}
+
+/// Who is known to be in the way; else what is not known.
+std::pair<std::optional<TakingApart::UnitId>, std::vector<Pair>> TakingApart::unknown_pairs(
+    const Group& group, UnitId unit, std::size_t direction) const {
   std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest is the likeliest
   for (const UnitId other : group.units) {
     if (other == unit) continue;
     for (const Pair& pair : pairs_of(unit, other, direction)) {
       if (relations_->known(pair)) {
         if (!relations_->blocks(pair)) continue;
-        watched_[unit][direction] = other;
-        return {};
+        return {other, {}};
       }
       unknown.emplace_back(relations_->extent(pair.still, direction, pair.turn_still).first -
                                relations_->extent(pair.moving, direction, pair.turn_moving).second -
@@ -102,7 +114,7 @@ std::vector<Pair> TakingApart::open_questions(const Group& group, UnitId unit, s
   std::stable_sort(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Pair> pairs;
   for (const auto& [gap, pair] : unknown) pairs.push_back(pair);
-  return pairs;
+  return {std::nullopt, std::move(pairs)};
 }
 
 /// Decides the directions of `unit` wave by wave, until it has a free one. `next`: units whose turn it probably is
@@ -155,6 +167,34 @@ void TakingApart::hint(const Group& group, std::span<const std::size_t> directio
   relations_->hint(lists);
 }
 
+/// What will be asked when `units` are out: along which directions they were in somebody's way, and what was not asked
+/// before.
+void TakingApart::hint_if_out(const Group& group, const std::vector<UnitId>& units) const {
+  Group left = group;
+  std::erase_if(left.units, [&](UnitId u) { return std::find(units.begin(), units.end(), u) != units.end(); });
+  std::vector<std::vector<Pair>> lists;
+  for (const UnitId u : left.units) {
+    const auto blocked = [&](std::size_t d) {
+      const auto watched = watched_[u].find(d);
+      return watched != watched_[u].end() && in_group(left, watched->second);
+    };
+    const std::vector<std::size_t> own = directions_of(u);
+    if (std::all_of(own.begin(), own.end(), blocked) || !may_leave(left, {u})) continue;
+    std::size_t open = 0;
+    for (const std::size_t d : directions_of(left, u)) {
+      if (open == kWave || lists.size() == kHints) break;
+      if (blocked(d)) continue;
+      auto [in_way, pairs] = unknown_pairs(left, u, d);
+      if (in_way) continue;
+      if (pairs.empty()) break;  // free
+      lists.push_back(std::move(pairs));
+      ++open;
+    }
+    if (lists.size() == kHints) break;
+  }
+  relations_->hint(lists);
+}
+
 /// The shortest way out among the first wave of directions that has a free one.
 std::optional<std::size_t> TakingApart::free_direction(const Group& group, UnitId unit, std::span<const UnitId> next) {
   resolve(group, unit, next);
@@ -181,6 +221,7 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
     way[1].push_back({p.pose.t + out * d, p.pose.q});
   }
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[attempt.moving.front().part].name);
+  if (relations_->works_ahead()) hint_if_out(group, units);
   const AttemptResult& answer = oracle_.propose(attempt, way, context_);
   context_.log(LogLevel::debug, "straight way of '" + assembly_.parts[attempt.moving.front().part].name + "' and " +
                                     std::to_string(attempt.moving.size() - 1) +

@@ -60,7 +60,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(*oracle.judge(), assembly);
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
-    relations_ = std::make_unique<Relations>(assembly, *oracle.judge(), directions_, context.threads);
+    relations_ = std::make_unique<Relations>(*oracle.judge(), directions_, context.crew);
   }
 }
 

@@ -79,8 +79,12 @@ class TakingApart {
   void resolve(const Group& group, UnitId unit, std::span<const UnitId> next);
   void hint(const Group& group, std::span<const std::size_t> directions, UnitId unit, std::span<const UnitId> next);
   std::optional<std::size_t> free_direction(const Group& group, UnitId unit, std::span<const UnitId> next = {});
+  void hint_if_out(const Group& group, const std::vector<UnitId>& units) const;
   std::vector<Pair> open_questions(const Group& group, UnitId unit, std::size_t direction);
+  std::pair<std::optional<UnitId>, std::vector<Pair>> unknown_pairs(const Group& group, UnitId unit,
+                                                                    std::size_t direction) const;
   std::vector<Pair> pairs_of(UnitId moving, UnitId still, std::size_t direction) const;
+  std::vector<std::size_t> directions_of(UnitId unit) const;
   std::vector<std::size_t> directions_of(const Group& group, UnitId unit) const;
   std::vector<UnitId> in_way_of(const Group& group, UnitId unit, std::size_t direction);
   double way_out(const Group& group, const std::vector<UnitId>& units, std::size_t direction) const;
@@ -150,6 +154,7 @@ class TakingApart {
   std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
                                     std::span<const HoldQuestion> next);
   bool known_to_block(PartId a, PartId b) const;
+  void seek_cages(const Group& group) const;
   std::vector<HoldQuestion> likely_proofs(const Group& now) const;
   bool worth_trying(const Group& group, UnitId unit, unsigned depth) const;
   unsigned deepest(const Group& group) const;

@@ -1,0 +1,56 @@
+// Who is in whose way does not depend on who is asked, on which thread, and what was told ahead.
+#include "blocking/relations.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "barred_shaft.h"
+#include "fake_planning.h"
+
+namespace dismantle::blocking {
+namespace {
+
+TEST(Relations, AreTheSameWhoeverHelps) {
+  for (const Assembly& assembly : {fake::tube_with_blocks(4), barred_shaft()}) {
+    const Verifier judge(assembly, {});
+    const Directions directions = directions_of(assembly);
+    std::vector<Pair> pairs;
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = 0; b < assembly.parts.size(); ++b)
+        for (std::size_t d = 0; a != b && d < directions.all.size(); ++d)
+          pairs.push_back({a, b, d, Eigen::Vector3d::Zero(), 0, 0});
+    Relations alone(judge, directions, nullptr);
+    EXPECT_FALSE(alone.works_ahead());
+    std::size_t blocked = 0;
+    for (const Pair& p : pairs) blocked += alone.blocks(p);
+    EXPECT_GT(blocked, 0u);
+    EXPECT_LT(blocked, pairs.size());
+    Rng rng(6);
+    for (const unsigned threads : {1U, 2U, 4U})
+      for (int trial = 0; trial < 5; ++trial) {
+        const auto crew = std::make_shared<Crew>(threads);
+        Relations helped(judge, directions, crew);
+        EXPECT_EQ(helped.works_ahead(), threads > 1);
+        for (int round = 0; round < 10; ++round) {
+          std::vector<std::vector<Pair>> lines(rng.below(6));
+          for (auto& line : lines)
+            for (std::uint64_t k = rng.below(5); k-- > 0;) line.push_back(pairs[rng.below(pairs.size())]);
+          if (helped.works_ahead()) helped.hint(lines);
+          std::vector<Pair> asked;
+          for (std::uint64_t k = rng.below(20); k-- > 0;) asked.push_back(pairs[rng.below(pairs.size())]);
+          const std::uint64_t before = helped.computed();
+          helped.compute(asked);
+          EXPECT_LE(helped.computed(), before + asked.size()) << "what was found ahead is not counted";
+          for (const Pair& p : asked) {
+            ASSERT_TRUE(helped.known(p));
+            ASSERT_EQ(helped.blocks(p), alone.blocks(p));
+          }
+        }
+      }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::blocking
