@@ -10,9 +10,11 @@ namespace {
 constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
 
 /// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
-/// backwards seen from `a`. To find these takes longer than all of a short look.
-void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
-            bool of_second, Finding& best) {
+/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample) for those within
+/// `b`, until it says that this is enough: then true.
+template <class Take>
+bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
+            bool of_second, const Take& take) {
   const std::size_t segments = motion.segments();
   const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
   const bool all = times == kLeastTimes;
@@ -33,9 +35,10 @@ void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
       const Eigen::Vector3d x = place * p;
       if (!b.box.contains(x) || !b.bvh.inside(x)) continue;
       const double depth = b.bvh.closest(x).distance;
-      if (depth > best.depth) best = {Answer::violated, p, of_second, depth, a.thickness[t], time};
+      if (take(Finding{Answer::violated, p, of_second, depth, a.thickness[t], time})) return true;
     }
   }
+  return false;
 }
 
 }  // namespace
@@ -43,9 +46,19 @@ void sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
 Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward) {
   Finding best;
   best.answer = Answer::violated;
-  sample(a, b, forward, backward, false, best);
-  sample(b, a, backward, forward, true, best);
+  const auto take = [&](const Finding& f) {
+    if (f.depth > best.depth) best = f;
+    return false;
+  };
+  sample(a, b, forward, backward, false, take);
+  sample(b, a, backward, forward, true, take);
   return best;
+}
+
+bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
+                   const Limits& limits) {
+  const auto beyond = [&](const Finding& f) { return f.depth > limits.at(f.thickness); };
+  return sample(a, b, forward, backward, false, beyond) || sample(b, a, backward, forward, true, beyond);
 }
 
 }  // namespace dismantle::verify

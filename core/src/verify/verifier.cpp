@@ -292,8 +292,7 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
       grown.inflate(limits.most());
       const verify::RelativeMotion backward(poses_b, poses_a, grown);
       // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
-      const Finding seen = verify::deepest_sample(x, y, forward, backward);
-      if (seen.depth > limits.at(seen.thickness)) return false;
+      if (verify::sample_beyond(x, y, forward, backward, limits)) return false;
       verify::Budget budget{kQuickTests, kQuickPatches};
       if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
