@@ -111,6 +111,11 @@ class TakingApart {
   bool turn(Group& group, UnitId unit, const TurningAxis& axis);
   bool turns_to(Group& group, UnitId unit, const Path& way);
   std::optional<std::pair<UnitId, std::size_t>> freed_by(const Group& group, UnitId unit);
+  struct Arc {
+    PartId part;
+    Pose from, to;
+  };
+  bool arc_passes(const Arc& arc, PartId still);
   bool turns_clear(const Group& group, UnitId unit, const Pose& from, const Pose& to);
 
   // together.cpp: several parts at once, each in its own way
@@ -192,6 +197,7 @@ class TakingApart {
   std::map<PartId, std::vector<TurningAxis>> axes_;             // where first asked for
   std::set<std::pair<std::vector<UnitId>, std::size_t>> vain_;  // turns that freed nobody after all: group, where to
   std::size_t turn_questions_ = 0;                              // to the judge, for the group as it is
+  std::map<std::vector<double>, bool> arcs_;                    // asked about: two parts, and the three poses
   std::map<PartId, Tried> tried_;
   std::map<PartId, int> cost_;  ///< of the last search for a way of this part: about its logarithm
   std::map<std::vector<UnitId>, Tried> tried_at_once_;
