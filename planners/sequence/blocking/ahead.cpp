@@ -166,10 +166,7 @@ void TakingApart::seek_cages(const Group& group) const {
       return relations_->known(pair) && !relations_->blocks(pair);
     });
   };
-  std::vector<HoldQuestion> questions;
-  for (std::size_t i = 0; i < group.units.size(); ++i)
-    for (std::size_t k = i + 1; k < group.units.size(); ++k)
-      add_questions(HoldQuestion::Kind::cage, group.units[i], group.units[k], questions);
+  std::vector<HoldQuestion> questions = cage_questions(group);
   std::erase_if(questions,
                 [&](const HoldQuestion& q) { return asked_.contains(q) || passes(q.a, q.b) || passes(q.b, q.a); });
   proofs_ahead_->begin(questions, context_);

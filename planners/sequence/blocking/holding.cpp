@@ -61,12 +61,15 @@ bool TakingApart::join_first(Group& group, const std::vector<HoldQuestion>& ques
   return false;
 }
 
-bool TakingApart::join_held(Group& group) {
+bool TakingApart::join_held(Group& group) { return join_first(group, cage_questions(group)); }
+
+/// About all pairs.
+std::vector<HoldQuestion> TakingApart::cage_questions(const Group& group) const {
   std::vector<HoldQuestion> questions;
   for (std::size_t i = 0; i < group.units.size(); ++i)
     for (std::size_t k = i + 1; k < group.units.size(); ++k)
       add_questions(HoldQuestion::Kind::cage, group.units[i], group.units[k], questions);
-  return join_first(group, questions);
+  return questions;
 }
 
 /// With a proof that is dear where it succeeds. So are searches, and the deeper the dearer: it comes before the second

@@ -94,6 +94,7 @@ class TakingApart {
   bool join_held(Group& group);
   bool join_flat(Group& group, UnitId unit);
   bool join_flat(Group& group);
+  std::vector<HoldQuestion> cage_questions(const Group& group) const;
   std::vector<HoldQuestion> flat_questions(const Group& group) const;
   void add_flat_questions(const Group& group, UnitId unit, std::vector<HoldQuestion>& questions) const;
   bool join_interlocked(Group& group);
@@ -111,11 +112,7 @@ class TakingApart {
   bool turn(Group& group, UnitId unit, const TurningAxis& axis);
   bool turns_to(Group& group, UnitId unit, const Path& way);
   std::optional<std::pair<UnitId, std::size_t>> freed_by(const Group& group, UnitId unit);
-  struct Arc {
-    PartId part;
-    Pose from, to;
-  };
-  bool arc_passes(const Arc& arc, PartId still);
+  bool arc_passes(PartId part, const Pose& from, const Pose& to, PartId still);
   bool turns_clear(const Group& group, UnitId unit, const Pose& from, const Pose& to);
 
   // together.cpp: several parts at once, each in its own way

@@ -25,15 +25,15 @@ Pose turned(const Pose& pose, const TurningAxis& axis, double angle) {
 
 /// Does a part on its short arc pass another? It depends on these two alone, and is asked again whenever somebody else
 /// has left.
-bool TakingApart::arc_passes(const Arc& arc, PartId still) {
+bool TakingApart::arc_passes(PartId part, const Pose& from, const Pose& to, PartId still) {
   const Pose& there = poses_[still];
-  std::vector<double> key{static_cast<double>(arc.part), static_cast<double>(still)};
-  for (const Pose* p : {&arc.from, &arc.to, &there}) {
+  std::vector<double> key{static_cast<double>(part), static_cast<double>(still)};
+  for (const Pose* p : {&from, &to, &there}) {
     key.insert(key.end(), p->t.begin(), p->t.end());
     key.insert(key.end(), p->q.coeffs().begin(), p->q.coeffs().end());
   }
   if (const auto known = arcs_.find(key); known != arcs_.end()) return known->second;
-  const bool passes = oracle_.judge()->passes(arc.part, still, there, {arc.from, arc.to});
+  const bool passes = oracle_.judge()->passes(part, still, there, {from, to});
   return arcs_.emplace(std::move(key), passes).first->second;
 }
 
@@ -44,7 +44,7 @@ bool TakingApart::turns_clear(const Group& group, UnitId unit, const Pose& from,
     if (other == unit) continue;
     for (const PartId id : units_[other]) {
       ++turn_questions_;
-      if (!arc_passes({part, from, to}, id)) return false;
+      if (!arc_passes(part, from, to, id)) return false;
     }
   }
   return true;

@@ -11,11 +11,6 @@ namespace {
 
 using shapes::Vec3;
 
-Aabb grown(Aabb box, double by) {
-  box.inflate(by);
-  return box;
-}
-
 /// A peg that is moved some way in its sleeve, and about as deep into its wall as is allowed: what a look that stops at
 /// the first finds says the same as one at all samples, and never disagrees with the proof.
 TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
@@ -30,8 +25,10 @@ TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
       for (int k = 0; k < 18; ++k) there.push_back({aside + k * Vec3(0, 0, 0.01), there.back().q});
     std::vector<Pose> poses;
     for (const Pose& p : there) poses.push_back(p * a.frame);
-    const RelativeMotion forward(poses, {b.frame}, grown(a.box, limits.most()));
-    const RelativeMotion backward({b.frame}, poses, grown(b.box, limits.most()));
+    Aabb around_a = a.box, around_b = b.box;
+    around_a.inflate(limits.most());
+    around_b.inflate(limits.most());
+    const RelativeMotion forward(poses, {b.frame}, around_a), backward({b.frame}, poses, around_b);
     const Finding deepest = deepest_sample(a, b, forward, backward);
     const bool stopped = sample_beyond(a, b, forward, backward, limits);
     EXPECT_EQ(stopped, deepest.depth > limits.at(deepest.thickness)) << trial;  // the walls are equally thick here
