@@ -19,6 +19,7 @@ bool World::leaves(const State& state, std::size_t body) {
 }
 Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
+Reached::~Reached() = default;
 PathPlanner::~PathPlanner() = default;
 PathOracle::~PathOracle() = default;
 const Constraints& PathOracle::constraints() const {

@@ -91,15 +91,23 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
 
   /// One search; a judge that is empty is the verifier.
   static void plan(Run& run, std::size_t which, const Effort& effort = {.max_steps = kPlenty}, RunContext context = {},
-                   const Judge& judge = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr) {
+                   const Judge& judge = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr,
+                   const Reached* reached = nullptr) {
     const Small& small = small_assemblies()[which];
     CountingSimulator simulator(ready()->simulator, run.counted);
     const Cast chosen = cast != nullptr ? *cast : small.cast();
-    const PathQuery query{small.assembly, simulator, *ready()->prepared[which], chosen, effort, [&](const Path& path) {
+    const PathQuery query{small.assembly,
+                          simulator,
+                          *ready()->prepared[which],
+                          chosen,
+                          effort,
+                          [&](const Path& path) {
                             const Verdict v = judge ? judge(path) : verify(small, chosen, path);
                             run.judged.emplace_back(path, v.accepted);
                             return v;
-                          }};
+                          },
+                          {},
+                          reached};
     const auto own = make();
     testing::internal::CaptureStdout();
     run.result = (planner != nullptr ? planner : own.get())->plan(query, context);
@@ -217,6 +225,46 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
     Run run;
     plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &cast);
     EXPECT_FALSE(is_success(run.result.outcome)) << part.name;
+  }
+}
+
+/// What a search in vain has reached may be gone on from when a blocker has left, by any object with the same
+/// parameters; what is none of its own is ignored. All laws hold as for a search from the start.
+TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
+  const std::size_t which = 2;
+  const Small& small = small_assemblies()[which];
+  class Strange final : public Reached {};
+  const Strange strange;
+  int solved = 0;
+  for (const auto& part : small.assembly.parts) {
+    if (part.id == small.leaves || part.name == "box") continue;
+    const Cast closed = small.cast_of({part.id});
+    Cast open = closed;
+    std::erase_if(open.still, [&](const PlacedPart& p) { return p.part == small.leaves; });
+    const Effort little{.max_depth = 2, .max_steps = 3'000};
+    Run first, strangers, anew, again, same_again;
+    plan(first, which, little, {}, {}, &closed);
+    ASSERT_FALSE(is_success(first.result.outcome)) << part.name;
+    plan(strangers, which, little, {}, {}, &closed, nullptr, &strange);
+    EXPECT_EQ(strangers.result.counts, first.result.counts);
+    plan(anew, which, little, {}, {}, &open);
+    plan(again, which, little, {}, {}, &open, nullptr, first.result.reached.get());
+    plan(same_again, which, little, {}, {}, &open, nullptr, first.result.reached.get());
+    EXPECT_EQ(again.result.outcome, same_again.result.outcome);
+    EXPECT_EQ(again.result.counts, same_again.result.counts);
+    EXPECT_TRUE(same(again.result.path, same_again.result.path));
+    if (GetParam() == "bfs" || GetParam() == "guided") {
+      EXPECT_NE(first.result.reached, nullptr);
+      EXPECT_EQ(is_success(again.result.outcome), is_success(anew.result.outcome)) << part.name;
+      solved += is_success(again.result.outcome) ? 1 : 0;
+      EXPECT_GT(again.result.counts["resumed_nodes"] + again.result.counts["led_resumed_nodes"], 0);
+    }
+    if (is_success(again.result.outcome)) {
+      EXPECT_EQ(again.result.reached, nullptr);
+    }
+  }
+  if (GetParam() == "bfs" || GetParam() == "guided") {
+    EXPECT_GT(solved, 0);
   }
 }
 

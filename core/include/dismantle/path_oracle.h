@@ -15,6 +15,7 @@
 namespace dismantle {
 
 class Verifier;
+struct AttemptResult;
 
 /// "Can these parts leave together while those stay, with this effort?" All other parts are out.
 struct Attempt {
@@ -26,6 +27,11 @@ struct Attempt {
   /// Not empty: the moving parts move at once, each in its own way, until one of these (they are among `moving`) is
   /// out: apart from all others, moving and still. The others that moved stay in their group, where the way ends.
   std::vector<PartId> leaving{};
+  /// For attempt() and prefetch(): null, or an answer of the same oracle to an attempt in vain of the same parts from
+  /// the same places, in which these parts stood still where they are now, and perhaps others that are out by now. The
+  /// search goes on from the states that were reached then, if the path planner has kept them. Part of the question:
+  /// the same attempt after another one, or after none, is another question.
+  const AttemptResult* after = nullptr;
 };
 
 /// What the user asks of the order. Parts by id, each list sorted by nothing in particular.
@@ -58,6 +64,8 @@ class DISMANTLE_API PathOracle {
  public:
   virtual ~PathOracle();
   /// Reference stays valid for the life of the oracle.
+  /// @throws std::invalid_argument when the attempt makes no sense: nobody moves, a part is unknown or listed twice,
+  /// someone leaves who does not move, or Attempt::after is not what it has to be.
   virtual const AttemptResult& attempt(const Attempt& attempt, RunContext& context) = 0;
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;

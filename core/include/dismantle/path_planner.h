@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,13 @@ struct Verdict {
   std::vector<Pose> poses{};  ///< of the moving parts when it happened; may be empty
 };
 
+/// What a search in vain has reached: states, and how they are reached. What is in it only planners of the kind that
+/// made it know. Immutable; may be used by several searches at the same time, from any thread.
+class DISMANTLE_API Reached {
+ public:
+  virtual ~Reached();
+};
+
 struct PathQuery {
   const Assembly& assembly;
   const Simulator& simulator;
@@ -48,6 +56,10 @@ struct PathQuery {
   /// Empty: the moving parts are to come apart from the still ones, as one group. Else as Attempt::leaving: each moves
   /// in its own way, until one of these is apart from all other parts of the cast. World::separated does not tell that.
   std::vector<PartId> leaving{};
+  /// Null, or what an earlier search in vain had reached: for the same moving parts from the same places and the same
+  /// `leaving`, where the still parts were those of now and perhaps others, by a planner of the same kind with the same
+  /// parameters. States that were reached then can be reached now: a planner may go on from there, or ignore it.
+  const Reached* reached = nullptr;
 };
 
 struct PathResult {
@@ -58,6 +70,7 @@ struct PathResult {
   std::vector<PartId> blocked_by;        ///< still parts that were touched, most often touched first
   std::vector<Pose> best_pose;           ///< failed: the state that came furthest, one pose per moving part
   std::string message;
+  std::shared_ptr<const Reached> reached{};  ///< failed: where a later search can go on; null if it has to begin anew
 };
 
 /// Finds a removal motion. Stateless between calls: same parameters, query and seed give the same result.

@@ -89,10 +89,28 @@ CastDigest digest_of(const Attempt& canonical_attempt) {
   return sha256(bytes);
 }
 
-std::uint64_t stream_of(const AttemptKey& key) {
+CastDigest digest_of(const AttemptKey& key) {
   std::string bytes(key.cast.begin(), key.cast.end());
   append(bytes, key.max_depth);
-  const CastDigest digest = sha256(bytes);
+  if (key.after != CastDigest{}) bytes.append(key.after.begin(), key.after.end());
+  return sha256(bytes);
+}
+
+bool may_follow(const Attempt& now, const Attempt& earlier) {
+  const auto same = [](const PlacedPart& a, const PlacedPart& b) {
+    return a.part == b.part && a.pose.t == b.pose.t && a.pose.q.coeffs() == b.pose.q.coeffs();
+  };
+  const auto before = [](const PlacedPart& p, PartId id) { return p.part < id; };
+  return now.leaving == earlier.leaving && now.part_way == earlier.part_way &&
+         std::equal(now.moving.begin(), now.moving.end(), earlier.moving.begin(), earlier.moving.end(), same) &&
+         std::all_of(now.still.begin(), now.still.end(), [&](const PlacedPart& s) {
+           const auto then = std::lower_bound(earlier.still.begin(), earlier.still.end(), s.part, before);
+           return then != earlier.still.end() && same(*then, s);
+         });
+}
+
+std::uint64_t stream_of(const AttemptKey& key) {
+  const CastDigest digest = digest_of(AttemptKey{key.cast, key.max_depth, {}});
   std::uint64_t stream = 0;
   for (int i = 0; i < 8; ++i) stream |= static_cast<std::uint64_t>(digest[static_cast<std::size_t>(i)]) << (8 * i);
   return stream;

@@ -17,6 +17,7 @@ using CastDigest = std::array<unsigned char, 32>;
 struct AttemptKey {
   CastDigest cast{};
   unsigned max_depth = 0;
+  CastDigest after{};  ///< of the question whose search is gone on with; zero: it begins anew
   auto operator<=>(const AttemptKey&) const = default;
 };
 
@@ -29,7 +30,15 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count);
 /// Digest of a canonical cast.
 CastDigest digest_of(const Attempt& canonical_attempt);
 
-/// Number of the random stream that belongs to the question: the same on every machine and in any order of asking.
+/// Digest of a question as a whole, for those that go on where it ended.
+CastDigest digest_of(const AttemptKey& key);
+
+/// May the search for `now` go on from what the one for `earlier` has reached? Both canonical: the same parts move from
+/// the same places, to the same end, and whoever stands still now stood there then.
+bool may_follow(const Attempt& now, const Attempt& earlier);
+
+/// Number of the random stream that belongs to the question: the same on every machine and in any order of asking, and
+/// whether the search begins anew or goes on.
 std::uint64_t stream_of(const AttemptKey& key);
 
 /// Ids of `placed`, in order.

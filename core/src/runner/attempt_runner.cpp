@@ -239,7 +239,8 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                           last = std::move(judgement);
                           return verdict;
                         },
-                        attempt.leaving};
+                        attempt.leaving,
+                        attempt.after != nullptr ? attempt.after->result.reached.get() : nullptr};
   return planner.plan(query, own);
 }
 
@@ -324,6 +325,8 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       }
     }
   }
+  if (is_success(result.outcome) || result.outcome == Outcome::crashed || computed.interrupted)
+    result.reached = nullptr;
   drop_nonsense(result, attempt);
   answer.seconds = seconds_since(begin);
   return computed;

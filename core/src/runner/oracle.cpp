@@ -78,6 +78,23 @@ const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   return answer;
 }
 
+/// `question.after` is dropped where nothing was kept to go on from: then it begins anew, and is the same question as
+/// one that was to begin anew.
+AttemptKey Oracle::key_of(Attempt& question) const {
+  AttemptKey key{digest_of(question), question.max_depth, {}};
+  const AttemptResult* const after = std::exchange(question.after, nullptr);
+  if (after == nullptr) return key;
+  const AskedAbout* asked = asked_about(after);
+  if (asked == nullptr || is_success(after->result.outcome))
+    throw std::invalid_argument("attempt that is to go on from what is not an attempt in vain of this oracle");
+  if (!asked->resumable) return key;
+  if (!may_follow(question, *asked->resumable))
+    throw std::invalid_argument("attempt that is to go on from one of other parts, or at other places");
+  question.after = after;
+  key.after = digest_of(asked->key);
+  return key;
+}
+
 const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& key, RunContext& context) {
   if (const AttemptResult* known = remembered(key)) {
     ++memoised_;
@@ -106,12 +123,13 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
   answers_.emplace(key, &result);
   const Outcome outcome = result.result.outcome;
   if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
-  asked_about_.emplace(&result, AskedAbout{key.cast, ids_of(attempt.moving), attempt.leaving});
+  asked_about_.emplace(&result, AskedAbout{key, ids_of(attempt.moving), attempt.leaving,
+                                           result.result.reached ? std::make_shared<Attempt>(attempt) : nullptr});
   return result;
 }
 
-const AttemptResult& Oracle::reordered(const AttemptResult& result, const AttemptKey& key,
-                                       const std::vector<PartId>& canonical_order, const std::vector<PartId>& order) {
+const AttemptResult& Oracle::reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
+                                       const std::vector<PartId>& order) {
   const auto known = reordered_.find({&result, order});
   if (known != reordered_.end()) return *known->second;
   std::vector<std::size_t> column;
@@ -127,19 +145,22 @@ const AttemptResult& Oracle::reordered(const AttemptResult& result, const Attemp
   if (!copy.result.best_pose.empty()) permute(copy.result.best_pose);
   const AttemptResult& kept = keep(std::move(copy));
   reordered_.emplace(std::pair{&result, order}, &kept);
-  if (asked_about_.contains(&result))
-    asked_about_.emplace(&kept, AskedAbout{key.cast, order, asked_about_.at(&result).leaving});
+  if (const AskedAbout* asked = asked_about(&result)) {
+    AskedAbout same = *asked;
+    same.moving = order;
+    asked_about_.emplace(&kept, std::move(same));
+  }
   return kept;
 }
 
 const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context) {
-  const Attempt question = canonical(attempt, part_count_);
-  const AttemptKey key{digest_of(question), question.max_depth};
+  Attempt question = canonical(attempt, part_count_);
   const std::vector<PartId> order = ids_of(attempt.moving);
   const std::vector<PartId> canonical_order = ids_of(question.moving);
   const std::lock_guard lock(ask_mutex_);
+  const AttemptKey key = key_of(question);
   const AttemptResult& result = answer(question, key, context);
-  return order == canonical_order ? result : reordered(result, key, canonical_order, order);
+  return order == canonical_order ? result : reordered(result, canonical_order, order);
 }
 
 void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
@@ -148,7 +169,7 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
   const std::lock_guard lock(ask_mutex_);
   for (const Attempt& attempt : attempts) {
     Attempt question = canonical(attempt, part_count_);
-    const AttemptKey key{digest_of(question), question.max_depth};
+    const AttemptKey key = key_of(question);
     if (!remembered(key)) hints.emplace_back(key, std::move(question));
   }
   pool_->hint(std::move(hints));
@@ -162,7 +183,7 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, Ru
   if (computed.interrupted) return result;
   ++proposed_;
   if (is_success(result.result.outcome))
-    asked_about_.emplace(&result, AskedAbout{cast, ids_of(attempt.moving), attempt.leaving});
+    asked_about_.emplace(&result, AskedAbout{{.cast = cast}, ids_of(attempt.moving), attempt.leaving});
   else
     ++refused_;
   return result;

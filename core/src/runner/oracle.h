@@ -15,9 +15,10 @@ namespace dismantle {
 
 /// What an answer was an answer to.
 struct AskedAbout {
-  CastDigest cast{};
+  AttemptKey key;
   std::vector<PartId> moving;  ///< columns of the path
   std::vector<PartId> leaving{};
+  std::shared_ptr<const Attempt> resumable{};  ///< canonical; null where no search can go on from there
 };
 
 class Oracle final : public PathOracle {
@@ -42,12 +43,13 @@ class Oracle final : public PathOracle {
     unsigned max_depth = 0;
     const AttemptResult* answer = nullptr;
   };
+  AttemptKey key_of(Attempt& canonical_attempt) const;
   const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
   const AttemptResult* remembered(const AttemptKey& key);
   ComputedAttempt compute(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
   const AttemptResult& keep(AttemptResult result);
-  const AttemptResult& reordered(const AttemptResult& result, const AttemptKey& key,
-                                 const std::vector<PartId>& canonical_order, const std::vector<PartId>& order);
+  const AttemptResult& reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
+                                 const std::vector<PartId>& order);
 
   std::size_t part_count_;
   const Verifier& verifier_;

@@ -92,7 +92,7 @@ void StepLedger::book(const Removal& removal) {
     if (std::find(removal.parts.begin(), removal.parts.end(), id) == removal.parts.end()) rest.push_back(id);
   if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
   for (const PartId id : rest) question.still.push_back({id, poses_[id]});
-  if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->cast)
+  if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->key.cast)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
   if (removal.attempt->out)

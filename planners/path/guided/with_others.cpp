@@ -40,6 +40,13 @@ bool is_large(const PathQuery& query) {
 /// Nothing was found and nobody stopped it: it may go on, or has nothing left.
 bool undecided(const PathResult& r) { return r.outcome == Outcome::depth_limit || r.outcome == Outcome::exhausted; }
 
+/// What each of them has reached; null where it was not begun, or has found that there is nothing to begin with.
+class Reached final : public dismantle::Reached {
+ public:
+  using One = std::shared_ptr<const dismantle::Reached>;
+  One pushed, led, led_thin, squeezed;
+};
+
 class Others {
  public:
   Others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
@@ -81,7 +88,8 @@ class Others {
   }
 
   PathResult by_turns() {
-    push::ByTurns pushing(query_, tactics_, context_);
+    const PathQuery to_push = from(query_, &Reached::pushed);
+    push::ByTurns pushing(to_push, tactics_, context_);
     const auto most = static_cast<std::uint64_t>(parameters_.forest_steps);
     std::optional<tunnel_forest::Growth> growth;
     if (thin_) limits_.pause_after /= kLeadThinAfter;
@@ -90,6 +98,7 @@ class Others {
       if (!pushing_ends) {
         pushes_ = pushing.run(limits_);
         if (!undecided(pushes_)) return together(pushes_);
+        pushes_.reached = pushing.reached();
         pushing_ends = !pushing.paused();
       }
       if (!walked) {
@@ -137,7 +146,7 @@ class Others {
   /// `between`: states that are given pushes.
   void push_and_walk(const std::function<void()>& between = {}) {
     const unsigned depth = query_.effort.max_depth;
-    pushes_ = push::plan(query_, tactics_, context_, between);
+    pushes_ = push::plan(from(query_, &Reached::pushed), tactics_, context_, between);
     spend(static_cast<std::uint64_t>(pushes_.counts["steps"] + pushes_.counts["looks"]));
     if (!undecided(pushes_)) return;
     // Ways that the judge refused lead out, and only cut a little too deep.
@@ -157,6 +166,14 @@ class Others {
   static constexpr std::int64_t kFewRefusals = 3;
   static constexpr std::uint64_t kLeadThinAfter = 10;  // of what is thin pushes pause for walks so many times earlier
 
+  /// The same query, to go on from what one of them had reached.
+  static PathQuery from(const PathQuery& query, Reached::One Reached::*one) {
+    PathQuery own = query;
+    const auto* all = dynamic_cast<const Reached*>(query.reached);
+    own.reached = all != nullptr ? (all->*one).get() : nullptr;
+    return own;
+  }
+
   void spend(std::uint64_t steps) {
     if (limits_.steps_left != nullptr) steps_left_ -= std::min(steps_left_, steps);
   }
@@ -165,7 +182,8 @@ class Others {
   void walk(double looks) {
     const std::uint64_t most = std::min(static_cast<std::uint64_t>(looks), steps_left_);
     if (most > 0) {
-      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query_, context_, cache_);
+      const PathQuery query = from(query_, &Reached::squeezed);
+      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query, context_, cache_);
       squeezed_ = walk.run(most);
       spend(walk.looks());
     }
@@ -195,9 +213,14 @@ class Others {
   /// True where that shows no more than some play.
   bool lead(const PathQuery& query, tolerant_walk::Overlap overlap, const tolerant_walk::Parameters& parameters,
             double patience, unsigned most_detours) {
-    free_space::LedWalk walk(parameters, query, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
+    const bool only_near_start = overlap == tolerant_walk::Overlap::near_start;
+    const PathQuery own = from(query, only_near_start ? &Reached::led_thin : &Reached::led);
+    free_space::LedWalk walk(parameters, own, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
                              cache_);
-    if (walk.leads_out()) led_ = walk.run(steps_left_, patience, most_detours);
+    if (walk.leads_out()) {
+      led_ = walk.run(steps_left_, patience, most_detours);
+      (only_near_start ? led_thin_reached_ : led_reached_) = led_.reached;
+    }
     spend(walk.looks());
     return undecided(led_) && walk.held();
   }
@@ -214,6 +237,13 @@ class Others {
         if (std::find(end.blocked_by.begin(), end.blocked_by.end(), part) == end.blocked_by.end())
           end.blocked_by.push_back(part);
     if (end.message.empty() && !is_success(end.outcome)) end.message = pushes_.message;
+    if (is_success(end.outcome)) return end;
+    auto reached = std::make_shared<Reached>();
+    reached->pushed = pushes_.reached;
+    reached->led = led_reached_;
+    reached->led_thin = led_thin_reached_;
+    reached->squeezed = squeezed_.reached;
+    end.reached = std::move(reached);
     return end;
   }
 
@@ -226,6 +256,7 @@ class Others {
   std::uint64_t steps_left_;
   push::Search::Limits limits_;
   PathResult pushes_, led_, squeezed_, forest_;
+  Reached::One led_reached_, led_thin_reached_;
 };
 
 }  // namespace

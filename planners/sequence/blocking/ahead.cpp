@@ -111,8 +111,7 @@ void TakingApart::add_next_round(const Group& group, std::vector<Attempt>& ahead
 void TakingApart::add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                                std::vector<Attempt>& ahead) const {
   for (std::size_t k = 0; k < std::min(units.size(), kAheadPerThread * context_.threads); ++k) {
-    ahead.push_back(question(group, {units[k]}));
-    ahead.back().max_depth = depth;
+    ahead.push_back(search_question(group, units[k], depth));
   }
 }
 
@@ -142,8 +141,7 @@ void TakingApart::add_waiting(const Group& group, unsigned depth, const std::vec
                               std::vector<Attempt>& ahead) const {
   for (const UnitId u : units) {
     if (!in_group(group, u) || !wants_depth(u) || !may_leave(group, {u})) continue;
-    ahead.push_back(question(group, {u}));
-    ahead.back().max_depth = depth;
+    ahead.push_back(search_question(group, u, depth));
   }
 }
 

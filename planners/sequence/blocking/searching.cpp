@@ -12,8 +12,16 @@ constexpr std::size_t kRefusals = 12;  // of the judge, before the slides are gi
 // Pairs of edges that the first search for slides may look at (seconds), and how many times more each later one.
 constexpr double kFirstWork = 5e8, kMoreWork = 4;
 constexpr unsigned kDepthWithoutSlides = 4;
-constexpr double kCostOctaves = 0.5;     // searches whose costs differ by less come in the order of use
+constexpr unsigned kDeepForPair = 4;  // levels searched in vain, after which a proof comes before a search without end
+constexpr double kCostOctaves = 0.5;  // searches whose costs differ by less come in the order of use
 constexpr std::size_t kTouchedMost = 3;  // parts, without one of which a search of depth 2 or more is made again
+
+double sum_of(const std::map<std::string, double>& counts, const std::string& name) {
+  double sum = 0;
+  for (const auto& [counted, value] : counts)
+    if (counted.ends_with(name)) sum += value;
+  return sum;
+}
 
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -126,17 +134,36 @@ void TakingApart::note_waiting(Group& group, const std::vector<UnitId>& units) c
   std::copy_if(units.begin(), units.end(), std::back_inserter(group.waiting), [&](UnitId u) { return wants_depth(u); });
 }
 
+/// Goes on from what the last search for a way of this part has reached, unless the part has been moved since, and with
+/// it its group: whoever stands still now stood there then, and fewer parts are in the way of the same states.
+Attempt TakingApart::search_question(const Group& group, UnitId unit, unsigned depth) const {
+  Attempt attempt = question(group, {unit});
+  attempt.max_depth = depth;
+  const PartId part = units_[unit].front();
+  const auto last = tried_.find(part);
+  const auto same = [](const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); };
+  if (last == tried_.end() || !same(last->second.pose, poses_[part])) return attempt;
+  const bool once_more = last->second.depth == depth && last->second.group_size == group.units.size();
+  attempt.after = once_more ? last->second.after : last->second.answer;  // the same question has the same answer
+  return attempt;
+}
+
 bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next) {
-  Attempt question_now = question(group, {unit});
-  question_now.max_depth = depth;
+  const Attempt question_now = search_question(group, unit, depth);
   const PartId part = units_[unit].front();
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[part].name);
   if (context_.threads > 1) prefetch(group, question_now, next);
   const AttemptResult& answer = oracle_.attempt(question_now, context_);
   const PathResult& result = answer.result;
-  context_.log(LogLevel::debug, "search for a way of '" + assembly_.parts[part].name + "' to depth " +
-                                    std::to_string(depth) + ": " + std::string(to_string(result.outcome)) + ", " +
-                                    std::to_string(answer.seconds) + " s");
+  const double known = sum_of(result.counts, "resumed_nodes"), spared = sum_of(result.counts, "spared");
+  std::string line = "search for a way of '" + assembly_.parts[part].name + "' to depth " + std::to_string(depth) +
+                     ": " + std::string(to_string(result.outcome)) + ", " + std::to_string(answer.seconds) + " s";
+  if (known > 0)
+    line += ", from " + std::to_string(std::llround(known)) + " states known, " + std::to_string(std::llround(spared)) +
+            " steps and looks spared";
+  context_.log(LogLevel::debug, line);
+  if (known > 0) ++counts_["resumed"];
+  counts_["spared_steps"] += spared;
   if (is_success(result.outcome)) {
     if (context_.threads > 1) drop_hints_if_in(group, question_now);
     const unsigned reached = group.depth;
@@ -147,7 +174,8 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   }
   if (!stop() || !said_.contains(part))
     said_[part] = Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message};
-  tried_[part] = {depth, result.outcome, result.blocked_by, group.units.size()};
+  tried_[part] = {depth,   result.outcome, result.blocked_by, group.units.size(),
+                  &answer, poses_[part],   question_now.after};
   cost_[part] = cost_of(part, result);
   return false;
 }
@@ -264,9 +292,16 @@ bool TakingApart::search(Group& group) {
   return false;
 }
 
-/// The ways of two parts that are left: twice as deep as the last time, or without limit of depth.
+/// The ways of two parts that are left: twice as deep as the last time, or without limit of depth. After searches in
+/// vain one without end most likely takes all the time that it may; so a deeper one comes before it, and a proof that
+/// the two hold each other.
 bool TakingApart::search_pair(Group& group, bool without_end) {
-  if (group.pair_depth >= kDeepestPair) without_end = true;
+  unsigned tried = 0;
+  for (const UnitId u : group.units)
+    if (const auto known = tried_.find(units_[u].front()); known != tried_.end())
+      tried = std::max(tried, known->second.depth);
+  without_end = group.pair_depth >= kDeepestPair || (without_end && (tried < 2 || tried >= kDeepForPair));
+  if (without_end && tried >= kDeepForPair && relations_ && params_.cages && join_confined(group)) return true;
   group.pair_depth *= 2;
   const std::vector<UnitId> list = searchable(group);
   std::vector<UnitId> open;

@@ -53,6 +53,9 @@ class TakingApart {
     Outcome outcome = Outcome::exhausted;
     std::vector<PartId> blocked_by;
     std::size_t group_size = 0;  ///< when it was made
+    const AttemptResult* answer = nullptr;
+    Pose pose{};                           ///< of the part, then
+    const AttemptResult* after = nullptr;  ///< the one that it was to go on from
   };
   static constexpr UnitId kUnknown = static_cast<UnitId>(-1);
   static constexpr unsigned kDeepestPair = 64;       ///< of the searches for pairs while other pairs wait
@@ -134,6 +137,7 @@ class TakingApart {
   int cost_of(PartId part, const PathResult& result) const;
   void cheap_first(std::vector<UnitId>& units, unsigned depth) const;
   bool attempt_all(Group& group, const std::vector<UnitId>& units, unsigned depth);
+  Attempt search_question(const Group& group, UnitId unit, unsigned depth) const;
   bool attempt(Group& group, UnitId unit, unsigned depth, const std::vector<UnitId>& next);
   bool wants_depth(UnitId unit) const;
   void note_waiting(Group& group, const std::vector<UnitId>& units) const;

@@ -61,6 +61,7 @@ class FakeOracle final : public PathOracle {
 
   const AttemptResult& attempt(const Attempt& a, RunContext& context) override {
     asked.push_back({a.moving.at(0).part, a.max_depth});
+    questions.push_back(a);
     if (on_attempt) on_attempt(asked.size());
     results_.emplace_back();
     PathResult& r = results_.back().result;
@@ -75,9 +76,11 @@ class FakeOracle final : public PathOracle {
     const bool deep_enough = a.max_depth == 0 || a.max_depth >= machine_.depth[part];
     if (!deep_enough) {
       r.outcome = Outcome::depth_limit;
+      r.reached = std::make_shared<Reached>();
     } else if (!r.blocked_by.empty()) {
       r.outcome = Outcome::exhausted;
       r.message = "blocked";
+      r.reached = std::make_shared<Reached>();
       r.best_pose = {Pose{{0.5, 0, 0}, Eigen::Quaterniond::Identity()}};
     } else {
       r.outcome = Outcome::solved;
@@ -85,6 +88,7 @@ class FakeOracle final : public PathOracle {
       r.path = {{Pose{}}, {Pose{{100, 0, 0}, Eigen::Quaterniond::Identity()}}};
     }
     ++counts_.attempts;
+    answers.push_back(&results_.back());
     return results_.back();
   }
   void prefetch(std::span<const Attempt> attempts, RunContext&) override { hinted += attempts.size(); }
@@ -96,6 +100,8 @@ class FakeOracle final : public PathOracle {
   OracleCounts counts() const override { return counts_; }
 
   std::vector<std::pair<PartId, unsigned>> asked;
+  std::vector<Attempt> questions;             ///< the same, in full
+  std::vector<const AttemptResult*> answers;  ///< to each
   std::size_t hinted = 0;
   std::function<void(std::size_t)> on_attempt;
 

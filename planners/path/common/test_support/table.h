@@ -43,13 +43,16 @@ struct Table {
     return plan(planner, given, seed, {.max_depth = max_depth, .max_steps = max_steps}, {0});
   }
 
-  /// These parts leave as one.
+  /// These parts leave as one; others may have left before. Goes on from what was `reached`.
   PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Effort& effort,
-                  const std::vector<PartId>& moving) {
+                  const std::vector<PartId>& moving, const std::vector<PartId>& left = {},
+                  const Reached* reached = nullptr) {
     Cast cast;
-    for (const auto& part : assembly.parts)
+    for (const auto& part : assembly.parts) {
+      if (std::find(left.begin(), left.end(), part.id) != left.end()) continue;
       (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? cast.moving : cast.still)
           .push_back({part.id, Pose{}});
+    }
     RunContext context;
     context.rng = Rng(seed);
     context.crew = crew;
@@ -61,7 +64,7 @@ struct Table {
       v.accepted = v.accepted && verifier.apart(group, cast.still);
       return v;
     };
-    const PathQuery query{assembly, *simulator, *prepared, cast, effort, judge};
+    const PathQuery query{assembly, *simulator, *prepared, cast, effort, judge, {}, reached};
     return registry().create<PathPlanner>(planner, given)->plan(query, context);
   }
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dismantle::free_space {
 namespace {
@@ -87,6 +88,12 @@ LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& q
       slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
   }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
+  if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.reached);
+      reached != nullptr && reached->has_room_now(query.cast)) {
+    tree_.resume(*reached);
+    resumed_ = true;
+    for (std::uint32_t n = 0; n < tree_.size(); ++n) moves_ = moves_ || (!tree_[n].cut && clearly_off(n));
+  }
   begin_again();
 }
 
@@ -210,11 +217,20 @@ LedWalk::PoseTree::Step LedWalk::downhill(std::uint32_t node, const std::vector<
   return {twist.way / size, twist.turn / size};
 }
 
+/// Thin, and no more where it starts.
+bool LedWalk::clearly_off(std::uint32_t node) const {
+  return thin_ && (tree_[node].center - tree_.center()).norm() > kMoves * tree_.radius();
+}
+
 bool LedWalk::arrived(std::uint32_t node, const Left& left) {
-  moves_ = moves_ || (thin_ && (tree_[node].center - tree_.center()).norm() > kMoves * tree_.radius());
+  moves_ = moves_ || clearly_off(node);
   if (left.back() < best_left_) best_ = node, best_left_ = left.back();
   for (std::size_t r = 0; r < kRanks; ++r)
-    if (left[r] < least_[r] - kProgress) progress_at_ = work(), least_[r] = left[r];
+    if (left[r] < least_[r] - kProgress) {
+      progress_at_ = work();
+      least_[r] = left[r];
+      tree_.note_progress();
+    }
   if (left.back() > asked_at_ - kAskEvery) return false;
   asked_at_ = left.back();
   return tree_.separated(tree_[node].pose);
@@ -285,6 +301,11 @@ PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most
   unsigned detours = 0;
   progress_at_ = work();
   const Left at_first = left(Pose{});
+  // What was in the way where an earlier walk had come may have left.
+  if (std::exchange(resumed_, false) && leads_out_ && best_ != 0 && tree_.separated(tree_[best_].pose)) {
+    solved = tree_.judged(best_, result);
+    if (!solved) begin_again();
+  }
   while (!solved && leads_out_ && looks() < most_looks && work() < kMostOfPatience * patience && !tree_.halted() &&
          !tree_.given_up()) {
     solved = fly(result);

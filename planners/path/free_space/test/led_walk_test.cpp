@@ -24,8 +24,9 @@ std::vector<Aabb> box_of(double length) {
           block(0, 0, kHeight, length, kWidth, kHeight + t)};
 }
 
-/// Walls with a gap at alternate corners; the plate lies in the corner that is furthest from outside.
-Assembly maze(double gap) {
+/// Walls with a gap at alternate corners; the plate lies in the corner that is furthest from outside. Others may stand
+/// there, too.
+Assembly maze(double gap, const std::vector<std::vector<Aabb>>& others = {}) {
   std::vector<Aabb> walls = box_of(6);
   const double t = 0.1;
   for (int k = 0; k < 4; ++k) {
@@ -37,8 +38,9 @@ Assembly maze(double gap) {
       walls.push_back(upper ? block(x, y0, 0, x + t, y1, kHeight - gap) : block(x, y0, gap, x + t, y1, kHeight));
     }
   }
-  return assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)},
-                     {Eigen::Vector3d(0.3, 0.2, 0.1), Eigen::Quaterniond(0.9, 0.3, -0.2, 0.25).normalized()});
+  std::vector<Mesh> parts{boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)};
+  for (const auto& other : others) parts.push_back(boxes(other));
+  return assembly_of(parts, {Eigen::Vector3d(0.3, 0.2, 0.1), Eigen::Quaterniond(0.9, 0.3, -0.2, 0.25).normalized()});
 }
 
 ParamSet led(std::int64_t looks) {
@@ -57,6 +59,41 @@ TEST(LedWalk, TakesAPlateOutOfAMaze) {
     ASSERT_EQ(again.path.size(), with.path.size());
     EXPECT_TRUE(again.path.back()[0].t == with.path.back()[0].t);
   }
+}
+
+/// Part 2 is a grate in the last gap but one, through which balls pass, but no plate; part 3 a block beside the box,
+/// which nobody touches. When the grate is out, the walk goes on from before it; when the block is, it is stuck as
+/// before, and begins anew.
+TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
+  const double a = 0.75, play = 0.005, hole = 0.3;
+  const double x0 = 3.6 + play, x1 = 3.7 - play, y0 = kWidth - a + play, y1 = kWidth - play, z0 = play, z1 = a - play;
+  Table table(maze(a, {{block(x0, y0, z0, x1, y0 + 0.2, z1), block(x0, y0 + 0.2 + hole, z0, x1, y1, z1),
+                        block(x0, y0 + 0.2, z0, x1, y0 + 0.2 + hole, z0 + 0.2),
+                        block(x0, y0 + 0.2, z0 + 0.2 + hole, x1, y0 + 0.2 + hole, z1)},
+                       {block(1, 5, 0, 2, 6, 1)}}));
+  const ParamSet few{{"lead_looks", std::int64_t{1000}}, {"squeeze_looks", std::int64_t{1000}}};
+  double nodes = 0, nodes_anew = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const auto plan = [&](const std::vector<PartId>& left, const Reached* reached) {
+      return table.plan("guided", few, seed, {.max_depth = 3}, {0}, left, reached);
+    };
+    const PathResult shut = plan({}, nullptr);
+    ASSERT_FALSE(is_success(shut.outcome));
+    ASSERT_NE(shut.reached, nullptr);
+    const PathResult open = plan({2}, shut.reached.get()), open_anew = plan({2}, nullptr);
+    ASSERT_EQ(open.outcome, Outcome::solved) << open.message;
+    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}, {3, Pose{}}}, open.path).valid);
+    EXPECT_EQ(open.path.front()[0].t, Eigen::Vector3d::Zero());
+    EXPECT_GT(open.counts.at("led_resumed_nodes"), 0);
+    EXPECT_EQ(open.counts.at("led_spared"), shut.counts.at("led_looks"));
+    nodes += open.counts.at("led_nodes") - open.counts.at("led_resumed_nodes");
+    nodes_anew += open_anew.counts.at("led_nodes");
+    const PathResult stuck = plan({3}, shut.reached.get());
+    EXPECT_FALSE(is_success(stuck.outcome));
+    EXPECT_FALSE(stuck.counts.contains("led_resumed_nodes"));
+    EXPECT_FALSE(stuck.counts.contains("squeeze_resumed_nodes"));
+  }
+  EXPECT_LT(nodes, nodes_anew);
 }
 
 /// An idle thread begins with what comes after the walk.

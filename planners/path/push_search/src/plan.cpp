@@ -18,48 +18,90 @@ PathResult merged(const PathResult& earlier, PathResult later) {
   return later;
 }
 
-/// With a part of the steps that are left. What ends because it has had that part may go on another time.
-PathResult with_share(Search&& search, Search::Limits limits, std::uint64_t share) {
-  const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
-  const std::uint64_t most = std::min(left, share);
-  std::uint64_t own = most;
-  std::uint64_t* const all = std::exchange(limits.steps_left, &own);
-  PathResult result = search.run(limits);
-  if (all != nullptr) *all -= most - own;
-  if (result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
-  return result;
+/// What an earlier search in that space has reached; null where there was none.
+const Tree* reached_in(const PathQuery& query, MotionSpace space) {
+  const auto* reached = dynamic_cast<const Reached*>(query.reached);
+  if (reached == nullptr) return nullptr;
+  const std::optional<Tree>& tree = space == MotionSpace::translation ? reached->translation : reached->rigid;
+  return tree ? &*tree : nullptr;
 }
+
+Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context) {
+  Search search(query, space, tactics, context);
+  if (const Tree* tree = reached_in(query, space)) search.resume(*tree);
+  return search;
+}
+
+bool in_vain(const PathResult& result) {
+  return result.outcome == Outcome::exhausted || result.outcome == Outcome::depth_limit;
+}
+
+/// One search after the other, the first that finds something ending it.
+class OneByOne {
+ public:
+  OneByOne(const PathQuery& query, const Tactics& tactics, RunContext& context)
+      : query_(query), tactics_(tactics), context_(context) {}
+
+  /// With a part of the steps that are left: `share`, or all. What ends because it has had that part may go on another
+  /// time. The work that an earlier search has spared counts, up to a half. True: on to the next.
+  bool run(MotionSpace space, Search::Limits limits, std::optional<std::uint64_t> share) {
+    Search search = begun(query_, space, tactics_, context_);
+    const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
+    if (share) *share -= std::min(search.spared(), *share / 2);
+    const std::uint64_t most = share ? std::min(left, *share) : left;
+    std::uint64_t own = most;
+    std::uint64_t* const all = share ? std::exchange(limits.steps_left, &own) : nullptr;
+    PathResult result = search.run(limits);
+    if (all != nullptr) *all -= most - own;
+    if (share && result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
+    (space == MotionSpace::translation ? reached_->translation : reached_->rigid) = search.tree();
+    result_ = any_ ? merged(result_, std::move(result)) : std::move(result);
+    any_ = true;
+    return in_vain(result_);
+  }
+
+  PathResult result() {
+    if (in_vain(result_) || result_.outcome == Outcome::timeout) result_.reached = reached_;
+    return result_;
+  }
+  PathResult result(Outcome instead) {
+    result_.outcome = instead;
+    return result();
+  }
+
+ private:
+  const PathQuery& query_;
+  const Tactics& tactics_;
+  RunContext& context_;
+  bool any_ = false;
+  PathResult result_;
+  std::shared_ptr<Reached> reached_ = std::make_shared<Reached>();
+};
 
 /// Under a depth limit somebody asks for all parts in turn: most of them are blocked, and have to be found so soon. A
 /// part that slides or turns in its play can do so for long, so simulated steps are limited, too.
 PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
                        RunContext& context) {
+  OneByOne searches(query, tactics, context);
   const auto level = static_cast<std::uint64_t>(depth);
-  limits.expansions = static_cast<std::uint64_t>(tactics.translation_nodes) * level;
   limits.rank = depth;  // the first level: what the contacts leave free, and the axes
-  PathResult first =
-      with_share(Search(query, MotionSpace::translation, tactics, context), limits, kStepsPerLevel * level);
-  if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
-  if (depth == 1) {
-    first.outcome = Outcome::depth_limit;  // what cannot move may still be turned
-    return first;
-  }
+  limits.expansions = static_cast<std::uint64_t>(tactics.translation_nodes) * level;
+  if (!searches.run(MotionSpace::translation, limits, kStepsPerLevel * level)) return searches.result();
+  if (depth == 1) return searches.result(Outcome::depth_limit);  // what cannot move may still be turned
   limits.expansions = static_cast<std::uint64_t>(tactics.rotation_nodes) * level;
-  return merged(first, with_share(Search(query, MotionSpace::rigid, tactics, context), limits, kStepsPerLevel * level));
+  searches.run(MotionSpace::rigid, limits, kStepsPerLevel * level);
+  return searches.result();
 }
 
 /// Likewise where each part moves in its own way. A state has many more actions then, so it is simulated steps that are
 /// counted, and somebody mostly turns, so that is looked at from the first level on.
 PathResult each_its_way(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
                         RunContext& context) {
+  OneByOne searches(query, tactics, context);
   limits.rank = 1 + depth / 2;  // one driven, and two along one axis; from the second level on across, too
-  const auto run = [&](MotionSpace space) {
-    return with_share(Search(query, space, tactics, context), limits,
-                      static_cast<std::uint64_t>(tactics.steps_at_once) * depth);
-  };
-  const PathResult first = run(MotionSpace::translation);
-  if (first.outcome != Outcome::exhausted && first.outcome != Outcome::depth_limit) return first;
-  return merged(first, run(MotionSpace::rigid));
+  const std::uint64_t share = static_cast<std::uint64_t>(tactics.steps_at_once) * depth;
+  if (searches.run(MotionSpace::translation, limits, share)) searches.run(MotionSpace::rigid, limits, share);
+  return searches.result();
 }
 
 }  // namespace
@@ -70,7 +112,7 @@ ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& con
     : query_(query),
       tactics_(tactics),
       context_(context),
-      translation_(query, MotionSpace::translation, tactics, context),
+      translation_(begun(query, MotionSpace::translation, tactics, context)),
       rank_(tactics.first_rank) {
   first_.outcome = second_.outcome = Outcome::depth_limit;
 }
@@ -81,7 +123,7 @@ PathResult ByTurns::run(const Search::Limits& limits) {
   Search::Limits turn = limits;
   while (goes_on(first_) || goes_on(second_)) {
     turn.rank = turning_ ? rank_ - std::min(rank_, tactics_.turning_lag) : rank_;
-    if (turning_ && !rotation_) rotation_.emplace(query_, MotionSpace::rigid, tactics_, context_);
+    if (turning_ && !rotation_) rotation_.emplace(begun(query_, MotionSpace::rigid, tactics_, context_));
     Search& search = turning_ ? *rotation_ : translation_;
     PathResult& result = turning_ ? second_ : first_;
     if (goes_on(result)) result = search.run(turn);
@@ -93,6 +135,13 @@ PathResult ByTurns::run(const Search::Limits& limits) {
   }
   if (turning_) return merged(first_, second_);
   return rotation_ ? merged(second_, first_) : first_;
+}
+
+std::shared_ptr<const Reached> ByTurns::reached() const {
+  auto reached = std::make_shared<Reached>();
+  reached->translation = translation_.tree();
+  if (rotation_) reached->rigid = rotation_->tree();
+  return reached;
 }
 
 PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
@@ -111,11 +160,16 @@ PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& cont
   limits.between = between;
   const unsigned depth = query.effort.max_depth;
   if (tactics.motion != Motion::automatic) {
-    const auto space = tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid;
-    return Search(query, space, tactics, context).run(limits);
+    OneByOne search(query, tactics, context);
+    search.run(tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid, limits, {});
+    return search.result();
   }
   if (depth > 0 && !query.leaving.empty()) return each_its_way(query, tactics, depth, limits, context);
-  return depth > 0 ? up_to_depth(query, tactics, depth, limits, context) : ByTurns(query, tactics, context).run(limits);
+  if (depth > 0) return up_to_depth(query, tactics, depth, limits, context);
+  ByTurns turns(query, tactics, context);
+  PathResult result = turns.run(limits);
+  if (in_vain(result) || result.outcome == Outcome::timeout) result.reached = turns.reached();
+  return result;
 }
 
 }  // namespace dismantle::push

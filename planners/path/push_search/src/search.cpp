@@ -56,7 +56,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       fine_(bodies_, kSameShare * tactics.similarity_translation, kSameShare * tactics.similarity_rotation),
       places_(bodies_, kPlaceShare * tactics.similarity_translation, tactics.similarity_rotation) {}
 
-void Search::reset() {
+void Search::clear() {
   seen_ = path::StateSet(bodies_, tactics_.similarity_translation, tactics_.similarity_rotation);
   fine_ =
       path::StateSet(bodies_, kSameShare * tactics_.similarity_translation, kSameShare * tactics_.similarity_rotation);
@@ -68,11 +68,16 @@ void Search::reset() {
   passed_before_ = 0;
   expanded_before_ += expanded_;
   expanded_ = 0;
+  spared_ = kept_ = resumed_ = 0;
+}
+
+void Search::reset() {
+  clear();
   enqueue(add_node(-1, 0, world_->initial_state(), {}, false));
 }
 
 std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& state, Path way, bool middle) {
-  Node node{state, parent, depth, std::move(way), 0, middle};
+  Node node{state, parent, depth, std::move(way), 0, middle, false, {}, 0};
   for (auto& b : node.state.bodies) b.velocity.setZero(), b.angular_velocity.setZero();
   const auto id = static_cast<std::int32_t>(nodes_.size());
   seen_.add(node.state, static_cast<std::uint32_t>(id));
@@ -98,7 +103,8 @@ unsigned Search::rank(const Node& node) const {
 }
 
 void Search::enqueue(std::int32_t id) {
-  const Node& node = nodes_[static_cast<std::size_t>(id)];
+  Node& node = nodes_[static_cast<std::size_t>(id)];
+  node.may_wait = true;
   if (query_.effort.max_depth > 0 && node.depth >= query_.effort.max_depth) {
     ++beyond_limit_;
     return;
@@ -119,7 +125,8 @@ Path Search::path_to(std::int32_t node) const {
   return path;
 }
 
-void Search::note_contacts(const State& state) {
+/// The still parts that are touched there.
+std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
   std::vector<PartId> parts;
@@ -132,6 +139,14 @@ void Search::note_contacts(const State& state) {
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (PartId p : parts) ++touched_[p];
+  return parts;
+}
+
+void Search::note_touched(std::int32_t node, const std::vector<PartId>& parts) {
+  std::vector<PartId>& all = nodes_[static_cast<std::size_t>(node)].touched;
+  std::vector<PartId> both;
+  std::set_union(all.begin(), all.end(), parts.begin(), parts.end(), std::back_inserter(both));
+  all = std::move(both);
 }
 
 bool Search::out_of_budget() const {
@@ -164,6 +179,7 @@ Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& 
   result.message = verdict.reason;
   if (!verdict.has_witness) return RunEnd::refused;
   world_->learn(verdict.part, verdict.other, verdict.point);
+  lessons_.push_back({verdict.part, verdict.other, verdict.point});
   return RunEnd::refused_learned;
 }
 
@@ -215,9 +231,10 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
       passed_.push_back({from, depth, state, way});
     }
   }
-  note_contacts(state);
+  const std::vector<PartId> touched = note_contacts(state);
   if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
     // Nothing gained since the last recorded state: that one is the end of the run.
+    note_touched(last, touched);
     if (last == from) return RunEnd::blocked;
     Node& end = nodes_[static_cast<std::size_t>(last)];
     if (end.middle) std::erase_if(waiting_, [last](const Waiting& w) { return w.node == last; });
@@ -226,7 +243,10 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     return RunEnd::blocked;
   }
   const bool is_known = stage == Stage::diagonals ? seen_.has_similar(state) : fine_.has_similar(state);
-  if (!is_known) enqueue(add_node(last, depth, state, std::move(way), false));
+  if (is_known) return RunEnd::blocked;
+  last = add_node(last, depth, state, std::move(way), false);
+  note_touched(last, touched);
+  enqueue(last);
   return RunEnd::blocked;
 }
 
@@ -236,6 +256,10 @@ void Search::finish(PathResult& result) const {
                    {"steps", static_cast<double>(steps_)},
                    {"looks", static_cast<double>(looks_)},
                    {"refused", static_cast<double>(refused_)}};
+  if (resumed_ > 0) {
+    result.counts["resumed_nodes"] = static_cast<double>(resumed_);
+    result.counts["spared"] = static_cast<double>(spared_);
+  }
   result.blocked_by = path::most_touched(touched_, query_.cast.moving);
   result.best_pose = best_;
 }
@@ -271,6 +295,7 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
 /// Gives a state its next stage of actions.
 Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   ++expanded_;
+  const std::uint64_t before = steps_ + looks_;
   const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
   const auto over = [&](RunEnd end) {
@@ -287,12 +312,13 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
       if (const RunEnd end = follow(id, action, stages_[stage], depth, result); over(end))
         return end == RunEnd::blocked ? RunEnd::refused : end;
   }
+  nodes_[static_cast<std::size_t>(id)].work += steps_ + looks_ - before;
   if (stage + 1 < stages_.size()) enqueue(id);
   return RunEnd::blocked;
 }
 
 Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
-  const std::uint64_t end_at = expanded_ + expansions;
+  const std::uint64_t end_at = expanded_ + expansions - std::min(kept_, expansions / 2);
   while (!waiting_.empty() || take_up_middles()) {
     if (expansions > 0 && expanded_ >= end_at) return RunEnd::blocked;
     paused_ = limits_.pause_after > 0 && steps_ + looks_ >= pause_at_;
@@ -337,7 +363,11 @@ PathResult Search::run(const Limits& limits) {
     }
   }
   RunEnd end = RunEnd::blocked;
-  while (true) {
+  if (const std::int32_t out = first_out(); out >= 0) {
+    end = judge(out, nodes_[static_cast<std::size_t>(out)].state, result);
+    if (end == RunEnd::refused_learned) reset();
+  }
+  while (end != RunEnd::solved) {
     const bool overlapping = may_relax_ && world_->strict();
     end = sweep(overlapping ? std::min(limits.expansions - 1, kStrictNodes - 1) + 1 : limits.expansions, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(tactics_.max_refusals)) {
@@ -346,6 +376,7 @@ PathResult Search::run(const Limits& limits) {
     }
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->relax();
+    relaxed_ = true;
     may_relax_ = false;
     reset();  // once more, with all the overlap that the judge allows
   }

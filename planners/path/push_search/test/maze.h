@@ -5,7 +5,9 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +28,17 @@ struct Maze {
   /// Points that hold each other: is shown where a step would bring them, and may move those that nothing pushes;
   /// false: nobody moves.
   std::function<bool(State&, const Action&)> link{};
-  bool inside(const Vector3d& p, bool learned) const {
+  std::map<PartId, Aabb> gates{};  ///< closed while this part stands still
+  bool inside(const Vector3d& p, bool learned, const Cast& cast) const {
+    if (gate_at(p, cast)) return false;
     for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
       if (box.contains(p)) return true;
     return false;
+  }
+  std::optional<PartId> gate_at(const Vector3d& p, const Cast& cast) const {
+    for (const auto& s : cast.still)
+      if (const auto gate = gates.find(s.part); gate != gates.end() && gate->second.contains(p)) return s.part;
+    return std::nullopt;
   }
 };
 
@@ -92,8 +101,10 @@ class MazeWorld final : public World {
       for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
           const Vector3d& p = state.bodies[i].pose.t;
-          if (maze_.inside(p + 0.03 * sign * Vector3d::Unit(axis), learned_)) continue;
-          out.push_back({cast_.moving[i].part, cast_.still.front().part, p, -sign * Vector3d::Unit(axis), 0.0});
+          const Vector3d beside = p + 0.03 * sign * Vector3d::Unit(axis);
+          if (maze_.inside(beside, learned_, cast_)) continue;
+          out.push_back({cast_.moving[i].part, maze_.gate_at(beside, cast_).value_or(cast_.still.front().part), p,
+                         -sign * Vector3d::Unit(axis), 0.0});
         }
   }
   bool separated(const State& state) override {
@@ -111,11 +122,11 @@ class MazeWorld final : public World {
   /// As far as it goes; along a wall if the wall is in the way.
   bool move(Vector3d& p, const Vector3d& way) const {
     const Vector3d before = p;
-    if (maze_.inside(p + way, learned_)) {
+    if (maze_.inside(p + way, learned_, cast_)) {
       p += way;
     } else {
       for (int axis = 0; axis < 3; ++axis)
-        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_)) p = next;
+        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, cast_)) p = next;
     }
     return (p - before).norm() > 1e-12;
   }
@@ -176,11 +187,13 @@ inline Verdict accept(const Path&) {
   return v;
 }
 
-/// `moving` points start at the origin; part 9 stands still. With `leaving` each goes its own way.
+/// `moving` points start at the origin; part 9 stands still, and the gates that are `closed`. With `leaving` each goes
+/// its own way. Goes on from what was `reached`.
 inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Effort& effort = {},
                    const Judge& judge = accept, RunContext context = {}, std::size_t moving = 1,
                    Capabilities has = {true, true, true, 4}, const char* planner = "bfs",
-                   const std::vector<PartId>& leaving = {}) {
+                   const std::vector<PartId>& leaving = {}, const std::vector<PartId>& closed = {},
+                   const Reached* reached = nullptr) {
   MazeSimulator simulator(maze, run.notes);
   simulator.has = has;
   const Assembly assembly;
@@ -188,6 +201,7 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
   Cast cast;
   for (std::size_t i = 0; i < moving; ++i) cast.moving.push_back({static_cast<PartId>(i), Pose{}});
   cast.still.push_back({9, Pose{}});
+  for (const PartId gate : closed) cast.still.push_back({gate, Pose{}});
   const PathQuery query{assembly,
                         simulator,
                         *prepared,
@@ -197,7 +211,8 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
                           run.judged.push_back(path);
                           return judge(path);
                         },
-                        leaving};
+                        leaving,
+                        reached};
   run.result = registry().create<PathPlanner>(planner, given)->plan(query, context);
 }
 

@@ -14,7 +14,12 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kLookEvery = 0.02;  // assembly units, along a shortcut
 constexpr double kTurn = 0.2;        // rad between the instants of a path
 constexpr double kInstants = 0.25;   // assembly units, likewise
+constexpr double kRoom = 0.1;        // share of the looks in vain at which a tree was stuck; less is not what held it
 constexpr int kRepairs = 4;          // tries to shorten the same way, after it has been learned where it cuts
+
+bool stands(const Cast& cast, PartId part) {
+  return std::any_of(cast.still.begin(), cast.still.end(), [part](const PlacedPart& s) { return s.part == part; });
+}
 
 }  // namespace
 
@@ -36,6 +41,48 @@ PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunCont
   for (std::size_t i = 0; i < count; ++i)
     radius_ = std::max(radius_, (query.cast.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
   nodes_.push_back({Pose{}, center_});
+}
+
+bool PoseTree::Reached::has_room_now(const Cast& cast) const {
+  std::uint64_t all = 0, gone = 0;
+  for (const auto& [part, count] : stuck_at) {
+    all += count;
+    if (!stands(cast, part)) gone += count;
+  }
+  return gone > 0 && static_cast<double>(gone) >= kRoom * static_cast<double>(all);
+}
+
+void PoseTree::resume(const Reached& known) {
+  const auto moves = [&](PartId part) {
+    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+                       [part](const PlacedPart& m) { return m.part == part; });
+  };
+  const auto here = [&](PartId part) { return moves(part) || stands(query_.cast, part); };
+  for (const Reached::Lesson& lesson : known.lessons) {
+    if (!here(lesson.part) || !here(lesson.other)) continue;
+    tolerance_.learn(lesson.part, lesson.other, lesson.point, lesson.displacement);
+    lessons_.push_back(lesson);
+  }
+  nodes_ = known.nodes;
+  for (Node& node : nodes_) {  // parents come first
+    const Node& parent = nodes_[node.parent];
+    if (node.cut && node.cut_by && !stands(query_.cast, *node.cut_by)) node.cut = false, node.cut_by.reset();
+    if (parent.cut && !node.cut) node.cut = true, node.cut_by = parent.cut_by;
+  }
+  for (const auto& [part, count] : known.touched)
+    if (stands(query_.cast, part)) touched_[part] = count;
+  spared_ = known.looks;
+  resumed_ = nodes_.size();
+}
+
+std::shared_ptr<const PoseTree::Reached> PoseTree::reached() const {
+  auto reached = std::make_shared<Reached>();
+  reached->nodes = nodes_;
+  reached->lessons = lessons_;
+  reached->touched = touched_;
+  reached->stuck_at = stuck_at_;
+  reached->looks = spared_ + looks_;
+  return reached;
 }
 
 bool PoseTree::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
@@ -61,6 +108,7 @@ bool PoseTree::allowed(const Pose& displacement) {
   ++looks_;
   if (tolerance_.allows(displacement)) return true;
   ++touched_[*tolerance_.in_way()];
+  ++stuck_at_[*tolerance_.in_way()];
   return false;
 }
 
@@ -139,6 +187,7 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
   std::vector<Pose> way;
   for (const std::uint32_t n : chain) way.push_back(nodes_[n].pose);
   Pose at_fault = way.back();
+  std::optional<PartId> by;
   for (int round = 0; round <= kRepairs && !halted() && !given_up(); ++round) {
     const std::vector<Pose> shorter = shortened(way);
     Path path = path_of(shorter);
@@ -154,7 +203,9 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
     result.message = verdict.reason;
     if (!verdict.has_witness) break;
     const auto& instant = verdict.poses.empty() ? path[std::min(verdict.instant, path.size() - 1)] : verdict.poses;
+    by = stands(query_.cast, verdict.other) ? verdict.other : verdict.part;
     at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
+    lessons_.push_back({verdict.part, verdict.other, verdict.point, at_fault});
     if (tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault)) {
       cut_disallowed();
       return false;
@@ -162,32 +213,43 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
     // What was learned may rule out some of the way itself.
     if (!std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); })) break;
   }
-  if (!halted()) cut(chain, at_fault);
+  if (!halted()) cut(chain, at_fault, by);
   return false;
+}
+
+void PoseTree::cut_off(std::uint32_t node, std::optional<PartId> by) {
+  nodes_[node].cut = true;
+  nodes_[node].cut_by = by;
 }
 
 /// Gives up the first node of the way that is not allowed any more, or the one nearest to where the judge saw a fault,
 /// and what grew from it.
-void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near) {
+void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by) {
   std::uint32_t first = kNone;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 1; k < chain.size(); ++k) {
     if (!allowed(nodes_[chain[k]].pose)) {
       first = chain[k];
+      by = tolerance_.in_way();
       break;
     }
     if (const double d = distance(nodes_[chain[k]].pose, near); d < least) least = d, first = chain[k];
   }
   if (first == kNone) return;
-  nodes_[first].cut = true;
+  cut_off(first, by);
   for (std::uint32_t n = 1; n < nodes_.size(); ++n)  // children come after their parents
-    nodes_[n].cut = nodes_[n].cut || nodes_[nodes_[n].parent].cut;
+    if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut && !nodes_[n].cut) cut_off(n, parent.cut_by);
 }
 
 /// What is allowed has changed for good.
 void PoseTree::cut_disallowed() {
-  for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n)
-    nodes_[n].cut = nodes_[n].cut || nodes_[nodes_[n].parent].cut || !allowed(nodes_[n].pose);
+  for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n) {
+    if (nodes_[n].cut) continue;
+    if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut)
+      cut_off(n, parent.cut_by);
+    else if (!allowed(nodes_[n].pose))
+      cut_off(n, tolerance_.in_way());
+  }
 }
 
 void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const {
@@ -198,10 +260,15 @@ void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const
                      : query_.effort.max_steps > 0 && looks_ >= query_.effort.max_steps ? Outcome::timeout
                                                                                         : Outcome::depth_limit;
     result.best_pose = poses(nodes_[best].pose);
+    result.reached = reached();
   }
   result.counts = {{"nodes", static_cast<double>(nodes_.size())},
                    {"looks", static_cast<double>(looks_)},
                    {"refused", static_cast<double>(refused_)}};
+  if (resumed_ > 0) {
+    result.counts["resumed_nodes"] = static_cast<double>(resumed_);
+    result.counts["spared"] = static_cast<double>(spared_);
+  }
   result.blocked_by = path::most_touched(touched_, query_.cast.moving);
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dismantle::tolerant_walk {
 namespace {
@@ -36,7 +37,20 @@ Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& con
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
-      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache) {}
+      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache) {
+  const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.reached);
+  if (reached == nullptr || !reached->has_room_now(query.cast)) return;
+  tree_.resume(*reached);
+  resumed_ = true;
+  note_all();
+}
+
+/// Of those that are not cut.
+void Walk::note_all() {
+  furthest_.fill(0);
+  for (std::uint32_t n = 1; n < tree_.size(); ++n)
+    if (!tree_[n].cut) note(n);
+}
 
 void Walk::note(std::uint32_t node) {
   for (std::size_t d = 0; d < furthest_.size(); ++d)
@@ -100,9 +114,7 @@ bool Walk::out(std::uint32_t node) {
 bool Walk::judged(std::uint32_t node, PathResult& result) {
   looked_at_ = 0;
   if (tree_.judged(node, result)) return true;
-  furthest_.fill(0);
-  for (std::uint32_t n = 1; n < tree_.size(); ++n)
-    if (!tree_[n].cut) note(n);
+  note_all();
   return false;
 }
 
@@ -114,7 +126,11 @@ PathResult Walk::run(std::uint64_t most_looks) {
     return result;
   }
   if (query_.effort.max_steps > 0) most_looks = std::min(most_looks, query_.effort.max_steps);
+  most_looks -= std::min(tree_.spared(), most_looks / 2);
   bool solved = false;
+  if (std::exchange(resumed_, false))  // what was in the way there may have left
+    for (const std::uint32_t n : std::array(furthest_))
+      if (!solved && !tree_.halted() && !tree_[n].cut && tree_.separated(tree_[n].pose)) solved = judged(n, result);
   while (!solved && looks() < most_looks && !tree_.halted() && !tree_.given_up()) solved = fly(result);
   std::uint32_t best = 0;
   for (const std::uint32_t n : furthest_)

@@ -11,10 +11,10 @@ namespace dismantle::abi {
 inline constexpr std::uint64_t kBoundaryLayout =
     layout_hash<Mesh, Pose, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, RawPart, Importer,
                 Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
-                Prepared, Simulator, Effort, Verdict, PathQuery, PathResult, PathPlanner, TransferQuery, TransferPlanner, Attempt, AttemptResult,
-                OracleCounts, PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner,
-                Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec,
-                TypeTraits, PluginType, Registrar>();
+                Prepared, Simulator, Effort, Verdict, Reached, PathQuery, PathResult, PathPlanner, TransferQuery,
+                TransferPlanner, Attempt, AttemptResult, OracleCounts, PathOracle, Removal, Unsolved, SequenceResult,
+                SequenceObserver, SequencePlanner, Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue,
+                ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,

@@ -35,7 +35,7 @@ class LedWalk {
   /// Until so many poses were looked at, or 12 times the `patience` is used up. After so much work without coming
   /// further the narrowest place ahead is taken for closed, and after so many detours it gives up; at once where the
   /// body has only some play. Unit of work: a look that takes 1000 distances; no look counts less than a quarter.
-  /// Outcomes as of tolerant_walk::Walk.
+  /// Outcomes as of tolerant_walk::Walk. Goes on from PathQuery::reached where that is of such a walk.
   PathResult run(std::uint64_t most_looks, double patience, unsigned most_detours);
   std::uint64_t looks() const { return tree_.looks(); }
   /// It has only some play where it starts, by what was found until now.
@@ -68,6 +68,7 @@ class LedWalk {
   PoseTree::Step downhill(std::uint32_t node, const std::vector<double>& weights) const;
   std::vector<double> leaders();
   bool fly(PathResult& result);
+  bool clearly_off(std::uint32_t node) const;
   bool arrived(std::uint32_t node, const Left& left);
 
   const tolerant_walk::Parameters parameters_;
@@ -89,6 +90,7 @@ class LedWalk {
   double progress_at_ = 0;               // ... after so much work
   std::uint64_t first_look_ = 0;         // when the walk began, or the judge has last refused a way
   double first_work_ = 0;
+  bool resumed_ = false;
 };
 
 }  // namespace dismantle::free_space

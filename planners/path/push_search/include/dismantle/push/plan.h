@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "dismantle/path_planner.h"
@@ -23,6 +24,8 @@ class ByTurns {
   /// Goes on where the last call stopped; Limits::rank is its own affair. `depth_limit`: it was paused.
   PathResult run(const Search::Limits& limits);
   bool paused() const { return paused_; }
+  /// What both have reached.
+  std::shared_ptr<const Reached> reached() const;
 
  private:
   const PathQuery& query_;
@@ -38,6 +41,7 @@ class ByTurns {
 
 /// Searches in the motion space that the tactics name, or, with `motion: auto`, by translation and by rotation:
 /// in turns of growing rank until both are exhausted; under a depth limit with a number of states for each.
+/// Goes on from PathQuery::reached where that is one of its own, and says what it has reached where it finds nothing.
 /// `between`: see Search::Limits.
 PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
                 const std::function<void()>& between = {});

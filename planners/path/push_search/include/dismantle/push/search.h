@@ -11,6 +11,7 @@
 #include "dismantle/path_planner.h"
 #include "dismantle/push/actions.h"
 #include "dismantle/push/frame.h"
+#include "dismantle/push/reached.h"
 #include "dismantle/push/tactics.h"
 #include "dismantle/push/twists.h"
 
@@ -28,14 +29,24 @@ class Search {
  public:
   Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context);
 
+  /// Before the first run(): begins with the states of an earlier search of the same moving parts from the same places,
+  /// among these still parts and perhaps others. Where runs ended at those they are gone on with; no run is made again.
+  /// `tree` as tree() gave it.
+  void resume(const Tree& tree);
+  /// What has been reached so far.
+  Tree tree() const;
+  /// Simulated steps and looks that need not be made again, thanks to resume().
+  std::uint64_t spared() const { return spared_; }
+
   /// What one call of run() may use.
   struct Limits {
     Deadline deadline;
     std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down; nullptr = no limit
-    std::uint64_t expansions = 0;         ///< states given actions; 0 = no limit
-    unsigned rank = ~0U;                  ///< states that wait longer than this are left waiting
-    std::uint64_t pause_after = 0;        ///< steps and looks of this call, rounded up to whole states; 0 = no pause
-    std::function<void()> between;        ///< called before each state is given actions, may wait; may be empty
+    /// States given actions; 0 = no limit. What was taken over from an earlier search counts, up to a half.
+    std::uint64_t expansions = 0;
+    unsigned rank = ~0U;            ///< states that wait longer than this are left waiting
+    std::uint64_t pause_after = 0;  ///< steps and looks of this call, rounded up to whole states; 0 = no pause
+    std::function<void()> between;  ///< called before each state is given actions, may wait; may be empty
   };
   /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
   /// no.
@@ -44,14 +55,6 @@ class Search {
   bool paused() const { return paused_; }
 
  private:
-  struct Node {
-    State state;
-    std::int32_t parent = -1;
-    unsigned depth = 0;     ///< actions from the start
-    Path way;               ///< instants after the parent's, this one's last
-    std::size_t stage = 0;  ///< the next to come
-    bool middle = false;    ///< of a run
-  };
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
   /// One action applied from a node, so far.
   struct Run {
@@ -62,14 +65,10 @@ class Search {
     double length = 0;                                   ///< of all glides together
     std::vector<std::pair<double, std::int32_t>> marks;  ///< lengths at which nodes were recorded
   };
-  struct Middle {
-    std::int32_t from;
-    unsigned depth;
-    State state;
-    Path way;
-  };
 
   void reset();
+  void clear();
+  std::int32_t first_out();
   bool out(const State& state);
   double way_from_start(const State& state) const;
   Path with_room(const Path& rubbing);
@@ -88,7 +87,8 @@ class Search {
   enum class GlideEnd { blocked, out, known, stop };
   GlideEnd glide(const Twist& twist, unsigned depth, Run& run);
   RunEnd judge(std::int32_t last, const State& start, PathResult& result);
-  void note_contacts(const State& state);
+  std::vector<PartId> note_contacts(const State& state);
+  void note_touched(std::int32_t node, const std::vector<PartId>& parts);
   Path path_to(std::int32_t node) const;
   std::int32_t add_node(std::int32_t parent, unsigned depth, const State& state, Path way, bool middle);
   void enqueue(std::int32_t node);
@@ -122,6 +122,10 @@ class Search {
   bool paused_ = false;
   bool may_relax_ = true;
   bool short_glides_ = false;  ///< the judge refused one
+  bool relaxed_ = false;       ///< so is the world
+  std::vector<Lesson> lessons_;
+  bool others_left_ = false;                           ///< there are fewer still parts than in the search resumed
+  std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes taken over
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;

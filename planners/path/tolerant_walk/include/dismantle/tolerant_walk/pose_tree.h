@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dismantle/path/path_thinning.h"
@@ -21,11 +22,32 @@ class PoseTree {
     Pose pose;
     Eigen::Vector3d center;  ///< of the moving parts, there
     std::uint32_t parent = 0;
-    bool cut = false;  ///< the judge has refused the way there
+    bool cut = false;                ///< the judge has refused the way there
+    std::optional<PartId> cut_by{};  ///< ... because of that still part, if it said so
   };
   /// A small displacement about the centre of the moving parts: of the centre; rotation vector (rad).
   struct Step {
     Eigen::Vector3d way, turn;
+  };
+
+  /// A tree as it was when a search ended in vain.
+  class Reached final : public dismantle::Reached {
+   public:
+    /// Has what it was stuck at left since? Else it is stuck still: a random tree that begins anew, with other dice, is
+    /// worth more than one that goes on from the same dead ends.
+    bool has_room_now(const Cast& cast) const;
+
+   private:
+    friend class PoseTree;
+    struct Lesson {
+      PartId part, other;
+      Eigen::Vector3d point;
+      Pose displacement;
+    };
+    std::vector<Node> nodes;
+    std::vector<Lesson> lessons;
+    std::map<PartId, std::uint64_t> touched, stuck_at;
+    std::uint64_t looks = 0;  ///< of this search, and of those that it went on from
   };
 
   /// All three outlive this.
@@ -37,11 +59,21 @@ class PoseTree {
   const Eigen::Vector3d& center() const { return center_; }  ///< of the moving parts at the start; world
   double radius() const { return radius_; }                  ///< largest distance of their points from it
   std::uint64_t looks() const { return looks_; }
+  /// Looks that need not be made again, thanks to resume().
+  std::uint64_t spared() const { return spared_; }
   /// Distances to parts that the looks have taken: one look takes hundreds or tens of thousands.
   std::uint64_t distances() const { return tolerance_.asked(); }
   bool halted() const;
   /// The judge has refused as often as it may.
   bool given_up() const { return refused_ >= static_cast<std::uint64_t>(parameters_.max_refusals); }
+
+  /// Before anything else: takes over what an earlier search of the same moving parts from the same places has reached
+  /// among these still parts, and perhaps others. Where these were in the way the judge has refused nothing.
+  void resume(const Reached& reached);
+  std::shared_ptr<const Reached> reached() const;
+
+  /// It has just come further than before: what was in its way until now is not what it is stuck at.
+  void note_progress() { stuck_at_.clear(); }
 
   /// Counts as a look.
   bool allowed(const Pose& displacement);
@@ -64,7 +96,8 @@ class PoseTree {
   bool straight(const Pose& a, const Pose& b);
   std::vector<Pose> shortened(std::vector<Pose> way);
   Path path_of(const std::vector<Pose>& way) const;
-  void cut(const std::vector<std::uint32_t>& chain, const Pose& near);
+  void cut_off(std::uint32_t node, std::optional<PartId> by);
+  void cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by);
   void cut_disallowed();
 
   const Parameters& parameters_;
@@ -78,8 +111,10 @@ class PoseTree {
   double radius_ = 0;
   std::vector<path::Ball> bodies_;
   std::vector<Node> nodes_;
-  std::uint64_t looks_ = 0, refused_ = 0;
-  std::map<PartId, std::uint64_t> touched_;
+  std::uint64_t looks_ = 0, refused_ = 0, spared_ = 0;
+  std::size_t resumed_ = 0;  // nodes
+  std::vector<Reached::Lesson> lessons_;
+  std::map<PartId, std::uint64_t> touched_, stuck_at_;  // the latter: since there was progress last
 };
 
 }  // namespace dismantle::tolerant_walk

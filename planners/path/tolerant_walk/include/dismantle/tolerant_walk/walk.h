@@ -18,13 +18,15 @@ class Walk {
   /// All three outlive this. Several moving parts move as one rigid body.
   Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache);
 
-  /// Goes on until so many poses were looked at in all. `depth_limit`: that is the case; `exhausted`: the judge has
-  /// refused too much.
+  /// Goes on until so many poses were looked at in all, those included, up to a half, that an earlier walk has looked
+  /// at from which it goes on (PathQuery::reached). `depth_limit`: that is the case; `exhausted`: the judge has refused
+  /// too much.
   PathResult run(std::uint64_t most_looks);
   std::uint64_t looks() const { return tree_.looks(); }
 
  private:
   void note(std::uint32_t node);
+  void note_all();
   std::uint32_t choose(PoseTree::Step& step);
   bool fly(PathResult& result);
   bool out(std::uint32_t node);
@@ -35,7 +37,8 @@ class Walk {
   Rng rng_;
   PoseTree tree_;
   std::array<std::uint32_t, 26> furthest_{};  ///< nodes, by direction
-  double looked_at_ = 0;                      ///< distance from the start at which it was last asked whether it is out
+  bool resumed_ = false;
+  double looked_at_ = 0;  ///< distance from the start at which it was last asked whether it is out
 };
 
 }  // namespace dismantle::tolerant_walk

@@ -1,0 +1,162 @@
+// Searches that go on where an earlier one, with more parts in the way, had come to.
+#include <algorithm>
+
+#include "maze.h"
+
+namespace dismantle::push::test {
+namespace {
+
+constexpr PartId kNear = 10, kFar = 11;
+
+/// A random way of tunnels that turn at right angles and never meet, with a side branch to the wall at every bend; the
+/// last one leads out. Gates stand across one of the first tunnels and one of the last.
+struct RandomMaze {
+  Maze maze;
+  unsigned bends = 0;
+};
+
+RandomMaze random_maze(std::uint64_t seed) {
+  Rng rng(seed);
+  RandomMaze made;
+  made.bends = 4 + static_cast<unsigned>(rng.below(4));
+  Vector3d at = Vector3d::Zero();
+  int axis = static_cast<int>(rng.below(3));
+  std::vector<Aabb> tunnels;
+  for (unsigned k = 0; k <= made.bends; ++k) {
+    // Always towards positive coordinates: no tunnel comes near an earlier one.
+    const Vector3d to =
+        at + (k == made.bends ? 12.0 : 0.4 + 0.1 * static_cast<double>(rng.below(4))) * Vector3d::Unit(axis);
+    tunnels.push_back(tunnel(at, to));
+    const Vector3d middle = at + 0.6 * (to - at).normalized() * std::min(1.0, (to - at).norm() - 0.1) * 0.5;
+    if (k == 1) made.maze.gates[kNear] = tunnel(middle, middle);
+    if (k == made.bends - 1) made.maze.gates[kFar] = tunnel(middle, middle);
+    axis = (axis + 1 + static_cast<int>(rng.below(2))) % 3;
+    const Vector3d dead_end = to - 0.3 * Vector3d::Unit(axis);
+    if (k < made.bends) tunnels.push_back(tunnel(to, dead_end));
+    at = to;
+  }
+  made.maze.free = tunnels;
+  return made;
+}
+
+ParamSet translating() { return {{"motion", std::string("translation")}}; }
+
+struct Made {
+  MazeRun run;
+  Made(const RandomMaze& m, const char* planner, unsigned depth, const std::vector<PartId>& closed,
+       const Reached* reached = nullptr) {
+    search(run, m.maze, translating(), {.max_depth = depth}, accept, {}, 1, {true, true, true, 4}, planner, {}, closed,
+           reached);
+  }
+};
+
+/// What was found to be in the way leaves, one after the other: the search finds what one from the start finds, and
+/// what it simulates is less by what it knew.
+TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
+  for (const char* planner : {"bfs", "guided"})
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
+      const RandomMaze m = random_maze(seed);
+      const Made first(m, planner, 0, {kNear, kFar});
+      ASSERT_EQ(first.run.result.outcome, Outcome::exhausted) << "or it is no test";
+      ASSERT_NE(first.run.result.reached, nullptr);
+      const Made second(m, planner, 0, {kFar}, first.run.result.reached.get()), second_anew(m, planner, 0, {kFar});
+      ASSERT_EQ(second_anew.run.result.outcome, Outcome::exhausted);
+      EXPECT_EQ(second.run.result.outcome, Outcome::exhausted);
+      const auto far = [](const PathResult& r) { return r.best_pose.at(0).t.sum(); };
+      EXPECT_GT(far(second_anew.run.result), far(first.run.result)) << "the gate was in the way";
+      EXPECT_NEAR(far(second.run.result), far(second_anew.run.result), 0.3);
+      EXPECT_EQ(second.run.result.blocked_by, second_anew.run.result.blocked_by)
+          << "those that were touched before, too";
+      const Made third(m, planner, 0, {}, second.run.result.reached.get()), third_anew(m, planner, 0, {});
+      ASSERT_EQ(third_anew.run.result.outcome, Outcome::solved);
+      EXPECT_EQ(third.run.result.outcome, Outcome::solved);
+      EXPECT_EQ(third.run.result.path.front()[0].t, Vector3d::Zero());
+      EXPECT_GT(third.run.result.counts.at("resumed_nodes"), 0);
+      EXPECT_GT(third.run.result.counts.at("spared"), 0);
+      EXPECT_LT(third.run.notes.steps, third_anew.run.notes.steps);
+      EXPECT_EQ(third.run.result.reached, nullptr);
+    }
+}
+
+/// Deeper, with nothing else changed: as far as a search from the start, and together hardly more simulation.
+TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
+  for (const char* planner : {"bfs", "guided"})
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
+      const RandomMaze m = random_maze(seed);
+      std::shared_ptr<const Reached> reached;
+      std::uint64_t steps = 0, steps_anew = 0;
+      for (unsigned depth = 1; depth <= m.bends + 1; ++depth) {
+        const Made on(m, planner, depth, {}, reached.get()), anew(m, planner, depth, {});
+        EXPECT_EQ(on.run.result.outcome, anew.run.result.outcome) << "depth " << depth;
+        reached = on.run.result.reached;
+        steps += on.run.notes.steps;
+        steps_anew = anew.run.notes.steps;
+        if (is_success(anew.run.result.outcome)) break;
+      }
+      EXPECT_LT(steps, 1.2 * static_cast<double>(steps_anew));
+    }
+}
+
+/// Nothing left, and nothing to go deeper for: there is nothing to do.
+TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
+  const RandomMaze m = random_maze(3);
+  const Made first(m, "bfs", 0, {kFar});
+  ASSERT_EQ(first.run.result.outcome, Outcome::exhausted);
+  const Made again(m, "bfs", 0, {kFar}, first.run.result.reached.get());
+  EXPECT_EQ(again.run.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(again.run.notes.steps, 0U);
+  EXPECT_EQ(again.run.result.blocked_by, first.run.result.blocked_by);
+}
+
+/// A state that was reached is out now that the last part around it has left: no action is needed.
+TEST(Resume, WhatIsOutNowIsJudgedAtOnce) {
+  const RandomMaze m = random_maze(5);
+  const Made first(m, "bfs", 0, {kFar});
+  ASSERT_EQ(first.run.result.outcome, Outcome::exhausted);
+  RandomMaze open = m;
+  open.maze.exit = Aabb{Vector3d::Constant(-0.2), Vector3d::Constant(0.2)};
+  const Made again(open, "bfs", 0, {}, first.run.result.reached.get());
+  EXPECT_EQ(again.run.result.outcome, Outcome::solved);
+  EXPECT_EQ(again.run.notes.steps, 0U);
+  ASSERT_GE(again.run.result.path.size(), 2U);
+  EXPECT_GE(again.run.result.depth, 1U);
+}
+
+/// What the judge has taught is not forgotten, unless it was about what has left.
+TEST(Resume, LessonsAreKept) {
+  for (const bool about_gate : {false, true}) {
+    const RandomMaze m = random_maze(4);
+    Maze leaky = m.maze;
+    leaky.free.push_back(tunnel(Vector3d::Zero(), -12 * Vector3d::UnitX()));
+    leaky.free_after_learning = m.maze.free;
+    const Judge refuse_the_leak = [about_gate](const Path& path) {
+      Verdict v;
+      v.accepted = path.back()[0].t.x() > 0;
+      if (!v.accepted) v.has_witness = true, v.part = 0, v.other = about_gate ? kFar : 9;
+      return v;
+    };
+    MazeRun first, again;
+    search(first, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {kFar});
+    ASSERT_EQ(first.result.outcome, Outcome::exhausted);
+    ASSERT_EQ(first.judged.size(), 1U);
+    search(again, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {},
+           first.result.reached.get());
+    EXPECT_EQ(again.result.outcome, Outcome::solved);
+    EXPECT_EQ(again.notes.learned, about_gate ? again.judged.size() - 1 : 1U);
+  }
+}
+
+/// What other planners have kept is none of its business.
+TEST(Resume, WhatIsNotItsOwnIsIgnored) {
+  class Strange final : public Reached {};
+  const Strange strange;
+  const RandomMaze m = random_maze(2);
+  const Made with(m, "bfs", 0, {}, &strange), without(m, "bfs", 0, {});
+  EXPECT_EQ(with.run.result.outcome, Outcome::solved);
+  EXPECT_EQ(with.run.result.counts, without.run.result.counts);
+}
+
+}  // namespace
+}  // namespace dismantle::push::test

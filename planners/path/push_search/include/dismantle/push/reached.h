@@ -1,0 +1,56 @@
+/// What a search over pushes has reached, for one that goes on from there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dismantle/path_planner.h"
+
+namespace dismantle::push {
+
+/// A state of the search tree, and how it is reached.
+struct Node {
+  State state;
+  std::int32_t parent = -1;
+  unsigned depth = 0;             ///< actions from the start
+  Path way{};                     ///< instants after the parent's, this one's last
+  std::size_t stage = 0;          ///< the next to come
+  bool middle = false;            ///< of a run
+  bool may_wait = false;          ///< to be searched from; else it only tells what is known
+  std::vector<PartId> touched{};  ///< still parts that ended runs there; ascending
+  std::uint64_t work = 0;         ///< simulated steps and looks of the runs from it
+};
+
+/// A state in the middle of a run that is no node yet.
+struct Middle {
+  std::int32_t from;
+  unsigned depth;
+  State state;
+  Path way;
+};
+
+/// A place where the judge found the world too permissive (World::learn).
+struct Lesson {
+  PartId part, other;
+  Eigen::Vector3d point;
+};
+
+/// Of a search in one motion space.
+struct Tree {
+  std::vector<PartId> still;  ///< ascending
+  std::vector<Node> nodes;    ///< parents before their children
+  std::vector<Middle> passed;
+  std::size_t passed_before = 0;  ///< states in the middle of runs that became nodes, or were dropped
+  bool relaxed = false;           ///< World::relax
+  std::vector<Lesson> lessons;
+  bool short_glides = false;
+};
+
+class Reached final : public dismantle::Reached {
+ public:
+  std::optional<Tree> translation, rigid;  ///< absent: nothing was searched there
+};
+
+}  // namespace dismantle::push

@@ -1,0 +1,91 @@
+// Going on from what an earlier search has reached.
+#include <algorithm>
+#include <iterator>
+
+#include "dismantle/push/search.h"
+
+namespace dismantle::push {
+namespace {
+
+std::vector<PartId> still_parts(const Cast& cast) {
+  std::vector<PartId> parts;
+  for (const auto& s : cast.still) parts.push_back(s.part);
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+bool have_common(const std::vector<PartId>& a, const std::vector<PartId>& b) {
+  return std::any_of(a.begin(), a.end(), [&](PartId id) { return std::binary_search(b.begin(), b.end(), id); });
+}
+
+}  // namespace
+
+Tree Search::tree() const {
+  Tree tree;
+  tree.still = still_parts(query_.cast);
+  tree.nodes = nodes_;
+  tree.passed = passed_;
+  tree.passed_before = passed_before_;
+  tree.relaxed = relaxed_;
+  tree.lessons = lessons_;
+  tree.short_glides = short_glides_;
+  return tree;
+}
+
+/// A run that ended at parts that are still there would most likely end there again. One that ended at a part that is
+/// not there any more may lead on now, from where it ended: that state is given all its actions again, as if it were
+/// new. All other states keep the actions that they have had.
+void Search::resume(const Tree& tree) {
+  const std::vector<PartId> still = still_parts(query_.cast);
+  std::vector<PartId> left;
+  std::set_difference(tree.still.begin(), tree.still.end(), still.begin(), still.end(), std::back_inserter(left));
+  others_left_ = !left.empty();
+  if (tree.relaxed) {
+    world_->relax();
+    relaxed_ = true;
+    may_relax_ = false;
+  }
+  for (const Lesson& lesson : tree.lessons) {
+    if (std::binary_search(left.begin(), left.end(), lesson.part) ||
+        std::binary_search(left.begin(), left.end(), lesson.other))
+      continue;
+    world_->learn(lesson.part, lesson.other, lesson.point);
+    lessons_.push_back(lesson);
+  }
+  short_glides_ = tree.short_glides;
+  clear();
+  for (const Node& known : tree.nodes) {
+    const std::int32_t id = add_node(known.parent, known.depth, known.state, known.way, known.middle);
+    Node& node = nodes_[static_cast<std::size_t>(id)];
+    node.may_wait = known.may_wait;
+    if (have_common(known.touched, left)) {
+      node.may_wait = true;
+      continue;
+    }
+    node.stage = known.stage;
+    node.touched = known.touched;
+    node.work = known.work;
+    if (node.stage > 0) places_.add(node.state, 0);
+    for (const PartId part : node.touched) ++touched_[part];
+    kept_ += node.stage;
+    spared_ += node.work;
+  }
+  resumed_ = nodes_.size();
+  for (std::size_t id = 0; id < nodes_.size(); ++id)  // whose places have all been noted by now
+    if (nodes_[id].may_wait && nodes_[id].stage < stages_.size()) enqueue(static_cast<std::int32_t>(id));
+  passed_ = tree.passed;
+  passed_before_ = tree.passed_before;
+}
+
+/// A state taken over that is out, now that others are; the one with the fewest actions. -1: none.
+std::int32_t Search::first_out() {
+  if (!others_left_) return -1;
+  others_left_ = false;
+  std::int32_t first = -1;
+  for (std::size_t id = 0; id < nodes_.size(); ++id)
+    if ((first < 0 || nodes_[id].depth < nodes_[static_cast<std::size_t>(first)].depth) && out(nodes_[id].state))
+      first = static_cast<std::int32_t>(id);
+  return first;
+}
+
+}  // namespace dismantle::push
