@@ -27,10 +27,12 @@ struct Attempt {
   /// Not empty: the moving parts move at once, each in its own way, until one of these (they are among `moving`) is
   /// out: apart from all others, moving and still. The others that moved stay in their group, where the way ends.
   std::vector<PartId> leaving{};
+  /// A later attempt may go on from this one: where it is in vain, what it has reached is kept in memory.
+  bool keep_reached = false;
   /// For attempt() and prefetch(): null, or an answer of the same oracle to an attempt in vain of the same parts from
   /// the same places, in which these parts stood still where they are now, and perhaps others that are out by now. The
-  /// search goes on from the states that were reached then, if the path planner has kept them. Part of the question:
-  /// the same attempt after another one, or after none, is another question.
+  /// search goes on from the states that were reached then, if they were kept and the path planner can. Part of the
+  /// question: the same attempt after another one, or after none, is another question.
   const AttemptResult* after = nullptr;
 };
 

@@ -116,6 +116,7 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
     own.threads = 1;
     computed = compute(0, attempt, key, own);
   }
+  if (!attempt.keep_reached) computed.answer.result.reached = nullptr;
   const AttemptResult& result = keep(std::move(computed.answer));
   for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
   if (computed.interrupted) return result;  // says nothing about the question: not remembered

@@ -139,6 +139,7 @@ void TakingApart::note_waiting(Group& group, const std::vector<UnitId>& units) c
 Attempt TakingApart::search_question(const Group& group, UnitId unit, unsigned depth) const {
   Attempt attempt = question(group, {unit});
   attempt.max_depth = depth;
+  attempt.keep_reached = true;
   const PartId part = units_[unit].front();
   const auto last = tried_.find(part);
   const auto same = [](const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); };
@@ -162,8 +163,10 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
     line += ", from " + std::to_string(std::llround(known)) + " states known, " + std::to_string(std::llround(spared)) +
             " steps and looks spared";
   context_.log(LogLevel::debug, line);
-  if (known > 0) ++counts_["resumed"];
-  counts_["spared_steps"] += spared;
+  if (known > 0) {
+    ++counts_["resumed"];
+    counts_["spared_steps"] += spared;
+  }
   if (is_success(result.outcome)) {
     if (context_.threads > 1) drop_hints_if_in(group, question_now);
     const unsigned reached = group.depth;

@@ -11,8 +11,13 @@
 namespace dismantle {
 namespace {
 
-using fake::leave;
 using fake::Rig;
+
+Attempt keeping(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
+  Attempt attempt = fake::leave(assembly, part, max_depth);
+  attempt.keep_reached = true;
+  return attempt;
+}
 
 /// How many searches it took to come there, and a number drawn by each.
 struct Chain final : Reached {
@@ -41,20 +46,20 @@ Attempt after(Attempt attempt, const AttemptResult& earlier, std::optional<PartI
 
 TEST(OracleResume, ThePlannerIsGivenWhatTheEarlierOneReached) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
-  const AttemptResult& first = s.ask(leave(s.assembly, 0, 1));
+  const AttemptResult& first = s.ask(keeping(s.assembly, 0, 1));
   EXPECT_EQ(first.result.counts.at("length"), 1);
-  const AttemptResult& deeper = s.ask(after(leave(s.assembly, 0, 2), first));
+  const AttemptResult& deeper = s.ask(after(keeping(s.assembly, 0, 2), first));
   EXPECT_EQ(deeper.result.counts.at("length"), 2);
-  const AttemptResult& fewer = s.ask(after(leave(s.assembly, 0, 2), deeper, PartId{3}));
+  const AttemptResult& fewer = s.ask(after(keeping(s.assembly, 0, 2), deeper, PartId{3}));
   EXPECT_EQ(fewer.result.counts.at("length"), 3);
   EXPECT_EQ(s.oracle->counts().attempts, 3u);
 }
 
 TEST(OracleResume, WhatItGoesOnFromIsPartOfTheQuestion) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
-  const AttemptResult& one = s.ask(leave(s.assembly, 0, 1));
-  const AttemptResult& two = s.ask(leave(s.assembly, 0, 2));
-  const Attempt question = leave(s.assembly, 0, 3);
+  const AttemptResult& one = s.ask(keeping(s.assembly, 0, 1));
+  const AttemptResult& two = s.ask(keeping(s.assembly, 0, 2));
+  const Attempt question = keeping(s.assembly, 0, 3);
   const AttemptResult& anew = s.ask(question);
   const AttemptResult &after_one = s.ask(after(question, one)), &after_two = s.ask(after(question, two));
   EXPECT_NE(&anew, &after_one);
@@ -70,18 +75,25 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
     return fake::outcome(Outcome::depth_limit);
   };
   Rig s(fake::row(4), fake::ingredients(keeps_nothing));
-  const AttemptResult& first = s.ask(leave(s.assembly, 0, 1));
-  const AttemptResult& deeper = s.ask(after(leave(s.assembly, 0, 2), first));
-  EXPECT_EQ(&s.ask(leave(s.assembly, 0, 2)), &deeper);
+  const AttemptResult& first = s.ask(keeping(s.assembly, 0, 1));
+  const AttemptResult& deeper = s.ask(after(keeping(s.assembly, 0, 2), first));
+  EXPECT_EQ(&s.ask(keeping(s.assembly, 0, 2)), &deeper);
+}
+
+TEST(OracleResume, WhereNobodyWantsToGoOnNothingIsKept) {
+  Rig s(fake::row(4), fake::ingredients(in_vain));
+  const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
+  EXPECT_EQ(first.result.reached, nullptr);
+  EXPECT_EQ(s.ask(after(keeping(s.assembly, 0, 2), first)).result.counts.at("length"), 1);
 }
 
 TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
   Rig s(fake::row(4), fake::ingredients(in_vain)), other(fake::row(4), fake::ingredients(in_vain));
-  const Attempt all = leave(s.assembly, 0, 1);
+  const Attempt all = keeping(s.assembly, 0, 1);
   const AttemptResult& first = s.ask(all);
   const AttemptResult& fewer = s.ask(after(all, first, PartId{2}));
   EXPECT_THROW(s.ask(after(all, fewer)), std::invalid_argument) << "part 2 was not there then";
-  EXPECT_THROW(s.ask(after(leave(s.assembly, 1, 1), first)), std::invalid_argument) << "another part";
+  EXPECT_THROW(s.ask(after(keeping(s.assembly, 1, 1), first)), std::invalid_argument) << "another part";
   EXPECT_THROW(s.ask(after(all, other.ask(all))), std::invalid_argument) << "of another oracle";
   Attempt moved = after(all, first);
   moved.still[0].pose.t.x() += 0.25;
@@ -99,10 +111,10 @@ TEST(OracleResume, SuccessLeavesNothingToGoOnFrom) {
     return r;
   };
   Rig s(fake::row(3), fake::ingredients(finds));
-  const AttemptResult& out = s.ask(leave(s.assembly, 0));
+  const AttemptResult& out = s.ask(keeping(s.assembly, 0));
   ASSERT_EQ(out.result.outcome, Outcome::solved);
   EXPECT_EQ(out.result.reached, nullptr);
-  EXPECT_THROW(s.ask(after(leave(s.assembly, 0), out)), std::invalid_argument);
+  EXPECT_THROW(s.ask(after(keeping(s.assembly, 0), out)), std::invalid_argument);
 }
 
 /// Chains of searches, each going on from the last while other parts leave: the same on any number of threads, hinted
@@ -114,7 +126,7 @@ TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
     std::vector<double> drawn(5, 0);
     std::vector<const AttemptResult*> last(5, nullptr);
     const auto question = [&](PartId part, unsigned depth) {
-      Attempt a = leave(assembly, part, depth);
+      Attempt a = keeping(assembly, part, depth);
       if (depth > 2) a = after(a, *last[part], PartId{5});
       a.after = last[part];
       return a;

@@ -99,6 +99,39 @@ TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
     }
 }
 
+/// However its steps are portioned out, it ends as it would in one go; what was cut short is made up for.
+TEST(Resume, InPortionsAsInOneGo) {
+  int cut = 0;
+  for (const bool open : {true, false})
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      SCOPED_TRACE(seed);
+      const RandomMaze m = random_maze(seed);
+      const std::vector<PartId> closed = open ? std::vector<PartId>{} : std::vector<PartId>{kFar};
+      const ParamSet few{
+          {"motion", std::string("translation")}, {"diagonals", false}, {"intermediate", std::int64_t{0}}};
+      MazeRun whole;
+      search(whole, m.maze, few, {}, accept, {}, 1, {true, true, true, 4}, "bfs", {}, closed);
+      std::shared_ptr<const Reached> reached;
+      Outcome end = Outcome::timeout;
+      int portions = 0;
+      double nodes = 0;
+      for (; end == Outcome::timeout && portions < 2000; ++portions) {
+        MazeRun run;
+        search(run, m.maze, few, {.max_steps = 550 + 37 * seed}, accept, {}, 1, {true, true, true, 4}, "bfs", {},
+               closed, reached.get());
+        reached = run.result.reached;
+        end = run.result.outcome;
+        nodes = run.result.counts.at("nodes");
+      }
+      cut += portions > 1 ? 1 : 0;
+      EXPECT_EQ(end, whole.result.outcome);
+      if (!open) {
+        EXPECT_EQ(nodes, whole.result.counts.at("nodes"));
+      }
+    }
+  EXPECT_GT(cut, 20);
+}
+
 /// Nothing left, and nothing to go deeper for: there is nothing to do.
 TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
   const RandomMaze m = random_maze(3);
@@ -122,6 +155,17 @@ TEST(Resume, WhatIsOutNowIsJudgedAtOnce) {
   EXPECT_EQ(again.run.notes.steps, 0U);
   ASSERT_GE(again.run.result.path.size(), 2U);
   EXPECT_GE(again.run.result.depth, 1U);
+}
+
+/// Nor where the start itself is out.
+TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
+  const RandomMaze m = random_maze(5);
+  const Made first(m, "bfs", 0, {kFar});
+  RandomMaze open = m;
+  open.maze.exit = Aabb{Vector3d::Constant(7), Vector3d::Constant(8)};
+  const Made again(open, "bfs", 0, {}, first.run.result.reached.get());
+  EXPECT_EQ(again.run.result.outcome, Outcome::start_is_goal);
+  EXPECT_EQ(again.run.result.path.size(), 2U);
 }
 
 /// What the judge has taught is not forgotten, unless it was about what has left.

@@ -299,6 +299,7 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
   const auto over = [&](RunEnd end) {
+    if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // for whoever goes on from here
     return end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned ||
            refused_ > static_cast<std::uint64_t>(tactics_.max_refusals);
   };
@@ -352,8 +353,8 @@ PathResult Search::run(const Limits& limits) {
   pause_at_ = steps_ + looks_ + limits.pause_after;
   paused_ = false;
   PathResult result;
-  if (nodes_.empty()) {
-    reset();
+  if (nodes_.empty()) reset();
+  if (!std::exchange(begun_, true)) {
     if (out(nodes_.front().state)) {
       result.outcome = Outcome::start_is_goal;
       result.path = path_to(0);
@@ -363,9 +364,10 @@ PathResult Search::run(const Limits& limits) {
     }
   }
   RunEnd end = RunEnd::blocked;
-  if (const std::int32_t out = first_out(); out >= 0) {
-    end = judge(out, nodes_[static_cast<std::size_t>(out)].state, result);
+  for (const std::int32_t node : out_by_now()) {
+    end = judge(node, nodes_[static_cast<std::size_t>(node)].state, result);
     if (end == RunEnd::refused_learned) reset();
+    if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }
   while (end != RunEnd::solved) {
     const bool overlapping = may_relax_ && world_->strict();

@@ -1,6 +1,7 @@
 // Going on from what an earlier search has reached.
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "dismantle/push/search.h"
 
@@ -77,15 +78,17 @@ void Search::resume(const Tree& tree) {
   passed_before_ = tree.passed_before;
 }
 
-/// A state taken over that is out, now that others are; the one with the fewest actions. -1: none.
-std::int32_t Search::first_out() {
-  if (!others_left_) return -1;
-  others_left_ = false;
-  std::int32_t first = -1;
-  for (std::size_t id = 0; id < nodes_.size(); ++id)
-    if ((first < 0 || nodes_[id].depth < nodes_[static_cast<std::size_t>(first)].depth) && out(nodes_[id].state))
-      first = static_cast<std::int32_t>(id);
-  return first;
+/// States taken over that are out, now that others are; those with the fewest actions first, no more than may be
+/// refused.
+std::vector<std::int32_t> Search::out_by_now() {
+  std::vector<std::int32_t> all;
+  if (!std::exchange(others_left_, false)) return all;
+  for (std::size_t id = 1; id < nodes_.size(); ++id)
+    if (out(nodes_[id].state)) all.push_back(static_cast<std::int32_t>(id));
+  const auto depth = [&](std::int32_t id) { return nodes_[static_cast<std::size_t>(id)].depth; };
+  std::stable_sort(all.begin(), all.end(), [&](std::int32_t a, std::int32_t b) { return depth(a) < depth(b); });
+  all.resize(std::min(all.size(), static_cast<std::size_t>(tactics_.max_refusals)));
+  return all;
 }
 
 }  // namespace dismantle::push

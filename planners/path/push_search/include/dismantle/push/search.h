@@ -68,7 +68,7 @@ class Search {
 
   void reset();
   void clear();
-  std::int32_t first_out();
+  std::vector<std::int32_t> out_by_now();
   bool out(const State& state);
   double way_from_start(const State& state) const;
   Path with_room(const Path& rubbing);
@@ -124,6 +124,7 @@ class Search {
   bool short_glides_ = false;  ///< the judge refused one
   bool relaxed_ = false;       ///< so is the world
   std::vector<Lesson> lessons_;
+  bool begun_ = false;                                 ///< run() has been called
   bool others_left_ = false;                           ///< there are fewer still parts than in the search resumed
   std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes taken over
   std::map<PartId, std::uint64_t> touched_;

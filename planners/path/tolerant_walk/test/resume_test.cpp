@@ -1,0 +1,97 @@
+// A tree of poses that is taken over when parts have left.
+#include <gtest/gtest.h>
+
+#include "dismantle/tolerant_walk/pose_tree.h"
+#include "table.h"
+
+namespace dismantle::tolerant_walk {
+namespace {
+
+using path::test::assembly_of;
+using path::test::block;
+using path::test::boxes;
+using path::test::Table;
+
+/// Part 0 on the slab that is part 1, between the walls that are parts 2 and 3.
+struct Scene {
+  Table table{assembly_of({boxes({block(0, 0, 0, 1, 1, 1)}), boxes({block(-3, -3, -1, 4, 4, -0.01)}),
+                           boxes({block(-2, 0, 0, -1, 1, 1)}), boxes({block(2, 0, 0, 3, 1, 1)})})};
+  Parameters parameters;
+  GeometryCache cache;
+  RunContext context;
+  Rng rng{1};
+  PartId blamed = 2;
+  std::size_t judged = 0;
+
+  PathQuery query(const std::vector<PartId>& still) {
+    Cast cast;
+    cast.moving.push_back({0, Pose{}});
+    for (const PartId id : still) cast.still.push_back({id, Pose{}});
+    return {table.assembly, *table.simulator, *table.prepared, cast, {}, [this](const Path& path) {
+              ++judged;
+              Verdict v;
+              v.has_witness = true;
+              v.part = 0, v.other = blamed;
+              v.point = Eigen::Vector3d(0.5, 0.5, 0.5);
+              v.instant = path.size() - 1;
+              return v;
+            }};
+  }
+  PoseTree tree(const PathQuery& query) {
+    return PoseTree(parameters, query, context, rng, Overlap::everywhere, cache);
+  }
+};
+
+Pose up(double way) { return {Eigen::Vector3d(0, 0, way), Eigen::Quaterniond::Identity()}; }
+
+/// What the judge has cut off stays so, unless it was because of what has left.
+TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
+  for (const PartId blamed : {PartId{2}, PartId{3}}) {
+    Scene s;
+    s.blamed = blamed;
+    const PathQuery all = s.query({1, 2, 3}), fewer = s.query({1, 3});
+    PoseTree tree = s.tree(all);
+    const std::uint32_t a = tree.add(up(0.5), 0), b = tree.add(up(1.0), a), c = tree.add(up(0.7), 0);
+    PathResult result;
+    EXPECT_FALSE(tree.judged(b, result));
+    EXPECT_GT(s.judged, 0U);
+    ASSERT_TRUE(tree[b].cut);
+    ASSERT_FALSE(tree[c].cut);
+    PoseTree same = s.tree(all);
+    same.resume(*tree.reached());
+    ASSERT_EQ(same.size(), tree.size());
+    for (const std::uint32_t n : {a, b, c}) EXPECT_EQ(same[n].cut, tree[n].cut) << "nobody has left";
+    PoseTree freed = s.tree(fewer);
+    freed.resume(*tree.reached());
+    ASSERT_EQ(freed.size(), tree.size());
+    EXPECT_EQ(freed[b].cut, blamed == 3);
+    EXPECT_FALSE(freed[c].cut);
+    EXPECT_EQ(freed[b].parent, a);
+    EXPECT_EQ(freed[b].pose.t, up(1.0).t);
+    EXPECT_EQ(freed.spared(), tree.looks());
+  }
+}
+
+/// It has room now where what it was stuck at since it last came further has left: not what was in its way before, nor
+/// what was hardly ever.
+TEST(PoseTreeResume, HasRoomWhereWhatItWasStuckAtHasLeft) {
+  Scene s;
+  const PathQuery all = s.query({1, 2, 3});
+  PoseTree tree = s.tree(all);
+  const auto bump = [&](double way, int times) {
+    for (int k = 0; k < times; ++k) EXPECT_FALSE(tree.allowed({{way, 0, 0}, Eigen::Quaterniond::Identity()}));
+  };
+  bump(-1.5, 100);  // into part 2
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 3}).cast));
+  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 2}).cast));
+  EXPECT_FALSE(tree.reached()->has_room_now(all.cast));
+  tree.note_progress();
+  bump(1.5, 100);  // into part 3
+  bump(-1.5, 5);
+  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 3}).cast));
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 2}).cast));
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1}).cast));
+}
+
+}  // namespace
+}  // namespace dismantle::tolerant_walk
