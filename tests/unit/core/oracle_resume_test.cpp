@@ -67,6 +67,10 @@ TEST(OracleResume, WhatItGoesOnFromIsPartOfTheQuestion) {
   EXPECT_EQ(&s.ask(after(question, one)), &after_one);
   EXPECT_EQ(&s.ask(question), &anew);
   EXPECT_EQ(s.oracle->counts().memoised, 2u);
+  // So is what that one went on from.
+  const AttemptResult& two_after_one = s.ask(after(keeping(s.assembly, 0, 2), one));
+  EXPECT_NE(&s.ask(after(question, two_after_one)), &after_two);
+  EXPECT_EQ(s.ask(after(question, two_after_one)).result.counts.at("length"), 3);
 }
 
 TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {

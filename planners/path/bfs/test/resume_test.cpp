@@ -132,6 +132,28 @@ TEST(Resume, InPortionsAsInOneGo) {
   EXPECT_GT(cut, 20);
 }
 
+/// Under a limit of states what is known counts in it, but at least a half of it is for what is new.
+TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const RandomMaze m = random_maze(seed);
+    const auto plan = [&](unsigned depth, const Reached* reached) {
+      MazeRun run;
+      search(run, m.maze,
+             {{"motion", std::string("auto")},
+              {"translation_nodes", std::int64_t{1}},
+              {"rotation_nodes", std::int64_t{1}}},
+             {.max_depth = depth}, accept, {}, 1, {true, true, true, 4}, "bfs", {}, {kFar}, reached);
+      return run.result;
+    };
+    const PathResult first = plan(6, nullptr), again = plan(6, first.reached.get()),
+                     more = plan(6, again.reached.get()), still_more = plan(6, more.reached.get());
+    EXPECT_EQ(first.counts.at("expanded"), 6 + 6);
+    EXPECT_EQ(again.counts.at("expanded"), 3 + 3);
+    EXPECT_EQ(more.counts.at("expanded"), 3 + 3);
+    EXPECT_EQ(still_more.counts.at("expanded"), 3 + 3) << "however much is known";
+  }
+}
+
 /// Nothing left, and nothing to go deeper for: there is nothing to do.
 TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
   const RandomMaze m = random_maze(3);
