@@ -53,7 +53,7 @@ std::vector<Attempt> TakingApart::next_if_not(const Group& group, const Attempt&
   add_searches(group, now.max_depth, next, ahead);
   if (group.searched_out) return ahead;
   if (group.units.size() == 2) {
-    add_waiting(group, next_depth_of_pair(group), group.units, ahead);
+    add_waiting(group, next_depth_of_pair(group, other_pairs_wait()), group.units, ahead);
   } else if (now.max_depth == group.depth && group.depth < deepest(group)) {
     add_next_round(group, ahead);
   }
@@ -77,7 +77,7 @@ std::vector<Attempt> TakingApart::next_searches(const Group& group) const {
   if (!group.searched_out)
     add_round(group, ahead);
   else if (group.units.size() == 2 && !group.pair_done)
-    add_waiting(group, next_depth_of_pair(group), group.waiting, ahead);
+    add_waiting(group, next_depth_of_pair(group, other_pairs_wait()), group.waiting, ahead);
   add_others(ahead);
   if (ahead.size() > kAheadPerThread * context_.threads) ahead.resize(kAheadPerThread * context_.threads);
   return ahead;
@@ -92,11 +92,9 @@ void TakingApart::add_round(const Group& group, std::vector<Attempt>& ahead) con
   add_searches(group, group.depth, list, ahead);
 }
 
-/// 0: without limit.
-unsigned TakingApart::next_depth_of_pair(const Group& group) const {
-  const bool others =
-      std::any_of(groups_.begin(), groups_.end(), [](const Group& g) { return g.units.size() == 2 && !g.pair_done; });
-  return others && group.pair_depth < kDeepestPair ? 2 * group.pair_depth : 0;
+bool TakingApart::other_pairs_wait() const {
+  return std::any_of(groups_.begin(), groups_.end(),
+                     [](const Group& g) { return g.units.size() == 2 && !g.pair_done; });
 }
 
 void TakingApart::add_next_round(const Group& group, std::vector<Attempt>& ahead) const {
@@ -132,7 +130,7 @@ std::optional<std::string> TakingApart::proved(const Group& group, const HoldQue
 void TakingApart::add_others(std::vector<Attempt>& ahead) const {
   for (const Group& g : groups_)
     if (g.units.size() == 2 && g.searched_out && !g.pair_done)
-      add_waiting(g, g.pair_depth >= kDeepestPair ? 0 : 2 * g.pair_depth, g.waiting, ahead);
+      add_waiting(g, next_depth_of_pair(g, true), g.waiting, ahead);
     else if (g.units.size() > 1 && !g.searched_out)
       add_waiting(g, g.depth, g.waiting, ahead);
 }

@@ -295,22 +295,33 @@ bool TakingApart::search(Group& group) {
   return false;
 }
 
-/// The ways of two parts that are left: twice as deep as the last time, or without limit of depth. After searches in
-/// vain one without end most likely takes all the time that it may; so a deeper one comes before it, and a proof that
-/// the two hold each other.
-bool TakingApart::search_pair(Group& group, bool without_end) {
-  unsigned tried = 0;
+/// Of the deepest search for a way of one of its parts, as things are.
+unsigned TakingApart::depth_tried(const Group& group) const {
+  unsigned depth = 0;
   for (const UnitId u : group.units)
     if (const auto known = tried_.find(units_[u].front()); known != tried_.end())
-      tried = std::max(tried, known->second.depth);
-  without_end = group.pair_depth >= kDeepestPair || (without_end && (tried < 2 || tried >= kDeepForPair));
-  if (without_end && tried >= kDeepForPair && relations_ && params_.cages && join_confined(group)) return true;
-  group.pair_depth *= 2;
+      depth = std::max(depth, known->second.depth);
+  return depth;
+}
+
+/// Twice that of the last search for the ways of two parts, or 0, no limit: where no others wait, or it is very deep.
+unsigned TakingApart::next_depth_of_pair(const Group& group, bool others_wait) const {
+  return others_wait && group.pair_depth < kDeepestPair ? 2 * group.pair_depth : 0;
+}
+
+/// The ways of two parts that are left. After deep searches in vain one without limit most likely takes all the time
+/// that it may, and a proof that the two hold each other mostly seconds: that comes first.
+bool TakingApart::search_pair(Group& group, bool others_wait) {
+  const unsigned depth = next_depth_of_pair(group, others_wait);
+  const bool without_end = depth == 0;
+  if (without_end && depth_tried(group) >= kDeepForPair && relations_ && params_.cages && join_confined(group))
+    return true;
+  if (!without_end) group.pair_depth = depth;
   const std::vector<UnitId> list = searchable(group);
   std::vector<UnitId> open;
   std::copy_if(list.begin(), list.end(), std::back_inserter(open),
                [&](UnitId u) { return !tried_.contains(units_[u].front()) || wants_depth(u); });
-  if (attempt_all(group, open, without_end ? 0 : group.pair_depth)) return true;
+  if (attempt_all(group, open, depth)) return true;
   if (stop()) return false;
   note_waiting(group, list);
   group.pair_done =

@@ -125,8 +125,7 @@ void TakingApart::dismantle(Group group) {
                            [&](const Group& g) { return g.units.size() > 1 && has_more(g); });
       };
       if (!others([](const Group& g) { return !g.searched_out; })) {
-        const bool alone = !others([](const Group& g) { return g.units.size() == 2 && !g.pair_done; });
-        if (search_pair(group, alone)) continue;
+        if (search_pair(group, other_pairs_wait())) continue;
         if (group.pair_done || stop()) continue;
       }
       groups_.push_back(std::move(group));

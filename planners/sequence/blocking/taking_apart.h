@@ -129,7 +129,9 @@ class TakingApart {
   bool slide(Group& group);
   bool shift(Group& group, const std::vector<UnitId>& units, const Eigen::Vector3d& by, const AttemptResult*& answer);
   bool search(Group& group);
-  bool search_pair(Group& group, bool without_end);
+  bool search_pair(Group& group, bool others_wait);
+  unsigned depth_tried(const Group& group) const;
+  unsigned next_depth_of_pair(const Group& group, bool others_wait) const;
   bool make_up_for(Group& group);
   std::vector<UnitId> searchable(const Group& group);
   UnitId housing_of(const Group& group) const;
@@ -154,7 +156,7 @@ class TakingApart {
   std::vector<Attempt> next_searches(const Group& group) const;
   void add_round(const Group& group, std::vector<Attempt>& ahead) const;
   void add_next_round(const Group& group, std::vector<Attempt>& ahead) const;
-  unsigned next_depth_of_pair(const Group& group) const;
+  bool other_pairs_wait() const;
   void add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                     std::vector<Attempt>& ahead) const;
   std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
