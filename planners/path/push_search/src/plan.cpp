@@ -54,7 +54,8 @@ class OneByOne {
     PathResult result = search.run(limits);
     if (all != nullptr) *all -= most - own;
     if (share && result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
-    (space == MotionSpace::translation ? reached_->translation : reached_->rigid) = search.tree();
+    if (!is_success(result.outcome))
+      (space == MotionSpace::translation ? reached_->translation : reached_->rigid) = search.tree();
     result_ = any_ ? merged(result_, std::move(result)) : std::move(result);
     any_ = true;
     return in_vain(result_);

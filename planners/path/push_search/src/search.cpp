@@ -299,20 +299,20 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
   const auto over = [&](RunEnd end) {
-    if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // for whoever goes on from here
     return end == RunEnd::solved || end == RunEnd::stop || end == RunEnd::refused_learned ||
            refused_ > static_cast<std::uint64_t>(tactics_.max_refusals);
   };
   const unsigned depth = nodes_[static_cast<std::size_t>(id)].depth + 1;
+  RunEnd end = RunEnd::blocked;
   if (stages_[stage] == Stage::twists) {
     for (const Twist& twist : twists_at(nodes_[static_cast<std::size_t>(id)]))
-      if (const RunEnd end = follow_screw(id, twist, depth, result); over(end))
-        return end == RunEnd::blocked ? RunEnd::refused : end;
+      if (over(end = follow_screw(id, twist, depth, result))) break;
   } else {
     for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage]))
-      if (const RunEnd end = follow(id, action, stages_[stage], depth, result); over(end))
-        return end == RunEnd::blocked ? RunEnd::refused : end;
+      if (over(end = follow(id, action, stages_[stage], depth, result))) break;
   }
+  if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // whoever goes on makes up for the rest
+  if (over(end)) return end == RunEnd::blocked ? RunEnd::refused : end;
   nodes_[static_cast<std::size_t>(id)].work += steps_ + looks_ - before;
   if (stage + 1 < stages_.size()) enqueue(id);
   return RunEnd::blocked;
@@ -378,7 +378,6 @@ PathResult Search::run(const Limits& limits) {
     }
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->relax();
-    relaxed_ = true;
     may_relax_ = false;
     reset();  // once more, with all the overlap that the judge allows
   }

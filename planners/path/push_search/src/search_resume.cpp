@@ -15,10 +15,6 @@ std::vector<PartId> still_parts(const Cast& cast) {
   return parts;
 }
 
-bool have_common(const std::vector<PartId>& a, const std::vector<PartId>& b) {
-  return std::any_of(a.begin(), a.end(), [&](PartId id) { return std::binary_search(b.begin(), b.end(), id); });
-}
-
 }  // namespace
 
 Tree Search::tree() const {
@@ -27,7 +23,7 @@ Tree Search::tree() const {
   tree.nodes = nodes_;
   tree.passed = passed_;
   tree.passed_before = passed_before_;
-  tree.relaxed = relaxed_;
+  tree.relaxed = !may_relax_;
   tree.lessons = lessons_;
   tree.short_glides = short_glides_;
   return tree;
@@ -43,7 +39,6 @@ void Search::resume(const Tree& tree) {
   others_left_ = !left.empty();
   if (tree.relaxed) {
     world_->relax();
-    relaxed_ = true;
     may_relax_ = false;
   }
   for (const Lesson& lesson : tree.lessons) {
@@ -58,16 +53,15 @@ void Search::resume(const Tree& tree) {
   for (const Node& known : tree.nodes) {
     const std::int32_t id = add_node(known.parent, known.depth, known.state, known.way, known.middle);
     Node& node = nodes_[static_cast<std::size_t>(id)];
-    node.may_wait = known.may_wait;
-    if (have_common(known.touched, left)) {
-      node.may_wait = true;
-      continue;
-    }
+    std::set_difference(known.touched.begin(), known.touched.end(), left.begin(), left.end(),
+                        std::back_inserter(node.touched));
+    for (const PartId part : node.touched) ++touched_[part];
+    const bool freed = node.touched.size() < known.touched.size();
+    node.may_wait = known.may_wait || freed;
+    if (freed) continue;
     node.stage = known.stage;
-    node.touched = known.touched;
     node.work = known.work;
     if (node.stage > 0) places_.add(node.state, 0);
-    for (const PartId part : node.touched) ++touched_[part];
     kept_ += node.stage;
     spared_ += node.work;
   }

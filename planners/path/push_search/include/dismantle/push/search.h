@@ -122,7 +122,6 @@ class Search {
   bool paused_ = false;
   bool may_relax_ = true;
   bool short_glides_ = false;  ///< the judge refused one
-  bool relaxed_ = false;       ///< so is the world
   std::vector<Lesson> lessons_;
   bool begun_ = false;                                 ///< run() has been called
   bool others_left_ = false;                           ///< there are fewer still parts than in the search resumed
