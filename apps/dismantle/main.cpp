@@ -14,7 +14,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/stopped.h"
-#include "dismantle/suggest.h"
+#include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "dismantle/plan/plan.h"
+#include "dismantle/plan.h"
 
 namespace dismantle::app {
 

@@ -1,4 +1,4 @@
-#include "side_by_side.h"
+#include "dismantle/side_by_side.h"
 
 #include <atomic>
 #include <exception>

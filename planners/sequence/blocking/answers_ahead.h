@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "dismantle/crew.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 

@@ -9,9 +9,10 @@
 
 #include "barred_shaft.h"
 #include "blocking/proofs_ahead.h"
-#include "dismantle/plan/check_plan.h"
-#include "fake_planning.h"
-#include "held_shapes.h"
+#include "dismantle/verification/check_plan.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/fake_planning.h"
+#include "dismantle/testing/held_shapes.h"
 
 namespace dismantle {
 namespace {

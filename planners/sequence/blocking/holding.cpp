@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "blocking/taking_apart.h"
-#include "dismantle/verify/explanations.h"
+#include "dismantle/verification/explanations.h"
 
 namespace dismantle::blocking {
 namespace {

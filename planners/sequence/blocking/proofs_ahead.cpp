@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verify/explanations.h"
+#include "dismantle/verification/explanations.h"
 
 namespace dismantle::blocking {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "dismantle/crew.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 

@@ -13,7 +13,7 @@
 
 #include "blocking/answers_ahead.h"
 #include "blocking/directions.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 

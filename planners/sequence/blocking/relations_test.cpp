@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barred_shaft.h"
-#include "fake_planning.h"
+#include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {
 namespace {

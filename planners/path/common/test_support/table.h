@@ -9,8 +9,8 @@
 
 #include "dismantle/crew.h"
 #include "dismantle/path_planner.h"
-#include "dismantle/registry.h"
-#include "dismantle/verify/verdict.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/verification/verdict.h"
 #include "solids.h"
 
 namespace dismantle::path::test {
