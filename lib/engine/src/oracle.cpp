@@ -14,7 +14,9 @@ bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 
 
 /// A search that ended for a reason other than its depth ends the same way when it may go deeper; one that found
 /// nothing to search ends the same way at any depth.
-bool holds_for_deeper(Outcome o) { return o == Outcome::exhausted || o == Outcome::timeout; }
+bool holds_for_deeper(Outcome o) {
+  return o == Outcome::exhausted || o == Outcome::infeasible || o == Outcome::timeout;
+}
 bool holds_for_all(Outcome o) {
   return o == Outcome::start_is_goal || o == Outcome::invalid_start || o == Outcome::unsupported;
 }
