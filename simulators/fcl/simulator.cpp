@@ -39,7 +39,8 @@ void in_parallel(std::size_t count, unsigned threads, const std::function<void(s
 
 }  // namespace
 
-std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, RunContext& context) {
+std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, double /*tolerance*/,
+                                                      RunContext& context) {
   auto prepared = std::make_shared<PreparedBodies>();
   const std::size_t n = assembly.parts.size();
   prepared->placed.resize(n);

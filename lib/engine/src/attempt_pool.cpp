@@ -149,7 +149,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
       std::erase(queue_, key);  // never begun
       job->done = true;
       job->result.computed.interrupted = true;
-      job->result.computed.answer.result.outcome = Outcome::cancelled;
+      job->result.computed.answer.result.fail(Outcome::cancelled);
     }
     if (my_place_is_free && !job->hands_place) crew_->enter();
     PooledAttempt result = std::move(job->result);
@@ -157,8 +157,7 @@ PooledAttempt AttemptPool::take(const AttemptKey& key, const Attempt& attempt, c
     // Interrupted for a reason that is not the asker's (it had been computed ahead and was given up): once more.
     if (result.computed.interrupted && !context.should_stop()) continue;
     if (result.computed.interrupted && !context.cancel.cancelled()) {
-      result.computed.answer.result.outcome = Outcome::timeout;
-      result.computed.answer.result.message = "the time limit of the whole run passed during the attempt";
+      result.computed.answer.result.fail(Outcome::timeout, "the time limit of the whole run passed during the attempt");
     }
     return result;
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <condition_variable>
-#include <functional>
 #include <mutex>
 
 #include "dismantle/crew.h"
@@ -18,9 +17,9 @@ class GiveWay {
   explicit GiveWay(Crew& crew) : crew_(crew) {}
 
   /// Of the one search, from any of its threads.
-  Verdict judged(const std::function<Verdict(const Path&)>& judge, const Path& path) {
+  PathCheck judged(const PathChecker& checker, const Path& path) {
     const Turn turn(*this);
-    return judge(path);
+    return checker.check(path);
   }
 
   /// Of the other, by a thread that has a place: as long as a way is judged.

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "dismantle/testing/path_checking.h"
+
 namespace dismantle::guided {
 namespace {
 
@@ -24,20 +26,21 @@ TEST(GiveWay, ItsPlaceIsForThoseWhoHelpTheJudge) {
       },
       Crew::Rank::part);
   while (rounds == 0) std::this_thread::yield();
-  const auto judge = [&](const Path&) {
+  const fake::RuleChecker checker([&](const Path&) {
     Crew::Offer helper = crew.offer([] {}, Crew::Rank::part);
     while (!helper.done()) std::this_thread::yield();  // there is a place for it
     const int before = rounds;
     for (int k = 0; k < 1000; ++k) std::this_thread::yield();
     EXPECT_EQ(rounds, before) << "it waits";
-    return Verdict{};
-  };
+    return fake::Ruling{};
+  });
   for (int k = 0; k < 20; ++k) {
-    give_way.judged(judge, {});
+    give_way.judged(checker, {});
     const int before = rounds;
     while (rounds == before) std::this_thread::yield();  // it goes on
   }
-  EXPECT_THROW(give_way.judged([](const Path&) -> Verdict { throw std::runtime_error("no"); }, {}), std::runtime_error);
+  const fake::RuleChecker broken([](const Path&) -> fake::Ruling { throw std::runtime_error("no"); });
+  EXPECT_THROW(give_way.judged(broken, {}), std::runtime_error);
   const int before = rounds;
   while (rounds == before) std::this_thread::yield();
   over = true;
