@@ -179,6 +179,12 @@ class DISMANTLE_API DepthBody {
   std::unique_ptr<const Impl> impl_;
 };
 
+/// How deep two parts penetrate each other, and where. Depth 0: they do not, and `point` means nothing.
+struct Penetration {
+  double depth = 0;                                 ///< >= 0, in the unit of the meshes
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< deepest surface point that was found, world
+};
+
 /// Depth in assembly units to which the surfaces of the two meshes penetrate each other: the largest
 /// distance from a surface point of one, inside the other, to the other's surface, both ways.
 /// Shell by shell as in the verifier's law. Exact to `tolerance` (> 0) from below; 0 when they only touch. Should the
@@ -186,6 +192,9 @@ class DISMANTLE_API DepthBody {
 /// made of it is never too large. Poses place the meshes. @throws std::invalid_argument unless tolerance > 0.
 DISMANTLE_API double penetration_depth(const Mesh& a, const Pose& pose_a, const Mesh& b, const Pose& pose_b,
                                        double tolerance);
+/// The same with the place of the deepest point.
+DISMANTLE_API Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b,
+                                              const Pose& pose_b, double tolerance);
 DISMANTLE_API double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                        double tolerance);
 
