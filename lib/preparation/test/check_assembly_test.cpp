@@ -90,7 +90,7 @@ TEST(CheckAssembly, DuplicatesAndOpenMeshesAreNamed) {
 TEST(CheckAssembly, PartAwayFromTheOthersIsIsolatedAndOthersAreNot) {
   Rng rng(11);
   for (int trial = 0; trial < 20; ++trial) {
-    const double gap = rng.uniform(0.2, 30);
+    const double gap = rng.uniform(0.5, 30);
     const AssemblyCheck check =
         checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {2, 2, 10}, {8, 8, 20}),
                  raw_box("far", {10 + gap, 0, 0}, {20 + gap, 10, 10})});

@@ -16,7 +16,7 @@ namespace {
 /// An overlap deeper than this share of the assembly's longest edge allows motions that a user would call a collision.
 constexpr double kDeepOverlap = 0.01;
 /// Parts closer than this share of the assembly's longest edge count as touching.
-constexpr double kTouching = 0.001;
+constexpr double kTouching = 0.01;
 
 void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
   for (const PartReport& part : report.parts) {
