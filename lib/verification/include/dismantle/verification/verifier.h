@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/assembly.h"
+#include "dismantle/executor.h"
+#include "dismantle/export.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/run_context.h"
 
@@ -116,8 +117,8 @@ struct Interlock {
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
  public:
-  /// `threads` (>= 1): how many may build it; it does not depend on that.
-  Verifier(const Assembly& assembly, VerifyOptions options, unsigned threads = 1);
+  /// Idle threads of `executor`, which may be null, help to build it; it does not depend on that.
+  Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
   ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
