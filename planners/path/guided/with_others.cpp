@@ -6,11 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/push/plan.h"
 #include "dismantle/tolerant_walk/walk.h"
-#include "give_way.h"
 #include "growth.h"
 
 namespace dismantle::guided {
@@ -40,15 +39,18 @@ bool is_large(const PathQuery& query) {
 /// Nothing was found and nobody stopped it: it may go on, or has nothing left.
 bool undecided(const PathResult& r) { return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted; }
 
-/// Lets the search that runs beside wait while a path is checked.
+/// Pauses the search that runs beside while a path is checked.
 class PausingChecker final : public PathChecker {
  public:
   /// Both outlive it.
-  PausingChecker(GiveWay& give_way, const PathChecker& checker) : give_way_(give_way), checker_(checker) {}
-  PathCheck check(const Path& path) const override { return give_way_.judged(checker_, path); }
+  PausingChecker(Executor& executor, const PathChecker& checker) : executor_(executor), checker_(checker) {}
+  PathCheck check(const Path& path) const override {
+    const Executor::PauseScope pause(executor_);
+    return checker_.check(path);
+  }
 
  private:
-  GiveWay& give_way_;
+  Executor& executor_;
   const PathChecker& checker_;
 };
 
@@ -79,14 +81,15 @@ class Others {
       own.on_progress = nullptr;
       own.on_log = nullptr;
       std::optional<Others> rest;
-      std::optional<GiveWay> give_way;
       std::optional<PausingChecker> pausing;
-      std::optional<Crew::Offer> offer;
-      if (context_.crew && context_.crew->threads() > 1 && limits_.steps_left == nullptr) {
+      Executor::TaskHandle beside;
+      if (context_.executor && context_.executor->threads() > 1 && limits_.steps_left == nullptr) {
+        // If a candidate path of the walk is accepted, the rest is not needed: it pauses while one is verified.
+        Executor& executor = *context_.executor;
         rest.emplace(Others(query_, parameters_, tactics_, cache_, own, thin_));
-        give_way.emplace(*context_.crew);
-        pausing.emplace(*give_way, query_.checker);
-        offer = context_.crew->offer([&] { rest->push_and_walk([&] { give_way->wait(); }); }, Crew::Rank::part);
+        pausing.emplace(executor, query_.checker);
+        beside = executor.submit([&] { rest->push_and_walk([&] { executor.pause_point(); }); },
+                                 Executor::Priority::fork_join);
       }
       lead(with_checker(query_, pausing ? static_cast<const PathChecker&>(*pausing) : query_.checker),
            depth <= kLeastDepthOfLead ? 1 : 0);
@@ -94,8 +97,8 @@ class Others {
         own.cancel.cancel();
         return together(led_);
       }
-      if (offer && !offer->withdraw()) {
-        offer->wait(context_, own.cancel);
+      if (beside && !beside.withdraw()) {
+        beside.wait(context_, own.cancel);
         pushes_ = rest->pushes_;
         squeezed_ = rest->squeezed_;
         return pushed_or_walked();
