@@ -9,12 +9,12 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/ingredients.h"
-#include "dismantle/plan_io/summary.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/plan_file.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/report_text.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle::app {
 namespace {

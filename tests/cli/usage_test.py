@@ -12,7 +12,8 @@ class Usage(CliTest):
     def test_unknown_command_and_option(self):
         self.assert_fails(2, "'dissemble'", "dissemble")
         self.assert_fails(2, "did you mean 'verify'", "verifi", "plan.json")
-        self.assert_fails(2, "its commands are list, describe", "plugins", "check", "x.so")
+        self.assert_fails(2, "its commands are list, describe, check", "plugins", "test", "x.so")
+        self.run_program("plugins", "check", "nothing.of.this.name", status=2)
         self.assert_fails(2, "--fast", "plan", "x", "--fast")
         self.assert_fails(2, "--format", "plan", "x", "--format", "xml")
         self.assert_fails(2, "INPUT", "plan")
@@ -30,6 +31,7 @@ class Usage(CliTest):
 
     def test_help_shows_options_and_an_example(self):
         commands = (["plan"], ["prepare"], ["verify"], ["explain"], ["plugins"], ["plugins", "list"], ["plugins", "describe"],
+                    ["plugins", "check"],
                     ["sample"], [])
         for command in commands:
             done = self.run_program(*command, "--help", status=0)

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "barred_shaft.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "blocking/proofs_ahead.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/fake_planning.h"

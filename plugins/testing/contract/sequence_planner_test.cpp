@@ -7,36 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/host/registry.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/fake_planning.h"
-#include "one_by_one/fake_oracle.h"
+#include "dismantle/testing/fake_oracle.h"
+#include "selection.h"
 
 namespace dismantle {
 namespace {
 
-const Registry& registry() {
-  static const std::unique_ptr<Registry> all = [] {
-    auto r = std::make_unique<Registry>();
-    r->scan();
-    return r;
-  }();
-  return *all;
-}
+using namespace contract;
 
-std::vector<std::string> ids() {
-  std::vector<std::string> found;
-  for (const RegisteredType* t : registry().types(PluginKind::sequence_planner)) found.push_back(t->type.id);
-  return found;
-}
-
-TEST(SequencePlanners, TheOnesOfThisProjectAreThere) {
-  const std::vector<std::string> found = ids();
-  for (const char* id : {"blocking", "progressive", "queue", "random"})
-    EXPECT_EQ(std::count(found.begin(), found.end(), id), 1)
-        << registry().why_missing(PluginKind::sequence_planner, id);
-}
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SequencePlannerContract);
 
 class SequencePlannerContract : public testing::TestWithParam<std::string> {
  protected:
@@ -170,12 +152,8 @@ TEST_P(SequencePlannerContract, SamePlanOnAnyNumberOfThreads) {
   EXPECT_EQ(memoised.size(), 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registered, SequencePlannerContract, testing::ValuesIn(ids()), [](const auto& instance) {
-  std::string name = instance.param;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Registered, SequencePlannerContract, testing::ValuesIn(ids(PluginKind::sequence_planner)),
+                         test_name);
 
 }  // namespace
 }  // namespace dismantle

@@ -1,43 +1,19 @@
-/// What the contract tests of simulators and path planners try them on: samples, small, and the registry.
+/// What the contract tests of simulators and path planners try them on: small samples.
 #pragma once
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "dismantle/host/registry.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
 #include "dismantle/testing/path_checking.h"
+#include "selection.h"
 
 namespace dismantle::contract {
 
 using Eigen::Vector3d;
-
-inline const Registry& registry() {
-  static const std::unique_ptr<Registry> all = [] {
-    auto r = std::make_unique<Registry>();
-    r->scan();
-    return r;
-  }();
-  return *all;
-}
-
-inline std::vector<std::string> ids(PluginKind kind) {
-  std::vector<std::string> found;
-  for (const RegisteredType* t : registry().types(kind)) found.push_back(t->type.id);
-  return found;
-}
-
-inline std::string test_name(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
-  return name;
-}
 
 /// A sample, its largest edge scaled to 3 assembly units, and a part of it that can leave first.
 struct Small {
