@@ -17,7 +17,7 @@ class BoxImporter : public Importer {
  public:
   std::vector<std::string> extensions() const override { return {"box", "cube"}; }
   std::optional<std::uint64_t> count_triangles(const fs::path& file) const override { return fs::file_size(file); }
-  std::vector<RawPart> read(const fs::path& file) override {
+  std::vector<RawPart> read(const fs::path& file, const RunContext&) override {
     ++files_read;
     std::ifstream in(file);
     std::vector<RawPart> parts;
