@@ -2,6 +2,8 @@
 
 #include <TCollection_AsciiString.hxx>
 #include <TDataStd_Name.hxx>
+#include <map>
+#include <set>
 
 namespace dismantle::step_import {
 namespace {
@@ -110,11 +112,18 @@ std::string name_of(const TDF_Label& label) {
   return name.substr(first, name.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-std::string UniqueNames::take(const std::string& name) {
-  if (used_.insert(name).second) return name;
-  for (int& n = last_.try_emplace(name, 1).first->second;;) {
-    std::string next = name + "#" + std::to_string(++n);
-    if (used_.insert(next).second) return next;
+void make_unique(const std::vector<std::string*>& names) {
+  std::set<std::string> given, used;
+  for (const auto* name : names) given.insert(*name);
+  std::map<std::string, int> last;
+  for (auto* name : names) {
+    if (used.insert(*name).second) continue;
+    std::string next;
+    int& n = last.try_emplace(*name, 1).first->second;
+    do {
+      next = *name + "#" + std::to_string(++n);
+    } while (given.count(next) || !used.insert(next).second);
+    *name = next;
   }
 }
 

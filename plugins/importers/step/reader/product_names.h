@@ -2,9 +2,8 @@
 #pragma once
 
 #include <TDF_Label.hxx>
-#include <map>
-#include <set>
 #include <string>
+#include <vector>
 
 namespace dismantle::step_import {
 
@@ -15,15 +14,8 @@ std::string name_of(const TDF_Label& label);
 /// See name_of; for tests.
 std::string decoded(const std::string& text);
 
-/// Gives every body a name of its own: the first keeps the name, the next are "nut#2", "nut#3", never one that is
-/// taken.
-class UniqueNames {
- public:
-  std::string take(const std::string& name);
-
- private:
-  std::set<std::string> used_;
-  std::map<std::string, int> last_;
-};
+/// Makes names unique: the first keeps its name, the next are "nut#2", "nut#3"; a name that the file gives to another
+/// is left to that one.
+void make_unique(const std::vector<std::string*>& names);
 
 }  // namespace dismantle::step_import

@@ -118,8 +118,9 @@ class Walker {
       for (const auto& [body, product] : bearers)
         tree_.bodies[body].name = tree_.bodies[body].parents.back() + "/" + name;
     }
-    UniqueNames names;
-    for (auto& body : tree_.bodies) body.name = names.take(body.name);
+    std::vector<std::string*> names;
+    for (auto& body : tree_.bodies) names.push_back(&body.name);
+    make_unique(names);
   }
 
   /// Once for each name: a repeated part would repeat it.

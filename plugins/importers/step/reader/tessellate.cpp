@@ -1,6 +1,7 @@
 #include "tessellate.h"
 
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
@@ -151,7 +152,9 @@ Surface tessellate(const TopoDS_Shape& shape, double linear, double angular) {
   const TopoDS_Shape local = shape.Located(TopLoc_Location());
   // One thread: the result must not depend on how many there are.
   BRepMesh_IncrementalMesh mesher(local, linear, Standard_False, angular, Standard_False);
-  return Welder().weld(local);
+  Surface surface = Welder().weld(local);
+  BRepTools::Clean(local);  // what Open CASCADE keeps is no longer needed
+  return surface;
 }
 
 }  // namespace dismantle::step_import
