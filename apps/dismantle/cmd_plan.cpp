@@ -87,14 +87,16 @@ bool any_crash(const RunResult& result) {
 }
 
 /// `constrained`: the outcome says whether all was done that the constraints leave to do.
-int status_of(const RunResult& result, bool one_part, bool constrained, const RunContext& context) {
+int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
+              const RunContext& context) {
   const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
-  if (done) return kComplete;
+  if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
   if (context.cancel.cancelled()) return kInterrupted;
   return any_crash(result) ? kPluginFailed : kPartial;
 }
 
-nlohmann::ordered_json result_json(const RunResult& result, int status, const fs::path& plan) {
+nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
+                                   const fs::path& plan) {
   const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
   const char* words = status == kComplete      ? "complete"
                       : status == kInterrupted ? "interrupted"
@@ -106,6 +108,7 @@ nlohmann::ordered_json result_json(const RunResult& result, int status, const fs
                                 {"removed", parts - left},
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},
+                                {"unusable", unusable_parts(assembly)},
                                 {"unsolved", result.plan.unsolved.size()},
                                 {"assembly", std::string(to_string(result.plan.assembly_status))},
                                 {"plan", plan.string()}};
@@ -124,7 +127,7 @@ int plan(const PlanOptions& options) {
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
   PrepareReport report;
   if (!options.folder.empty()) open_output_folder(folder);
-  const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+  const Assembly assembly = load_assembly(options.input, config, registry, context, report, options.part);
   open_output_folder(folder);
   write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
 
@@ -138,7 +141,7 @@ int plan(const PlanOptions& options) {
   const auto files = write_results(result, assembly, folder);
   console.end_progress();
 
-  const int status = status_of(result, !options.part.empty(), !run_options.constraints.empty(), context);
+  const int status = status_of(result, assembly, !options.part.empty(), !run_options.constraints.empty(), context);
   std::string text = summary_text(result.plan);
   text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)",
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
@@ -146,11 +149,14 @@ int plan(const PlanOptions& options) {
     text += fmt::format(", {} ways proposed ({} refused)", result.counts.proposed, result.counts.refused);
   for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
   text += "\n";
+  if (const auto names = unusable_parts(assembly); !names.empty())
+    text += fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
+                        names.size(), assembly.parts.size() + assembly.excluded.size(), names.size() == 1 ? "is" : "are");
   if (status == kInterrupted) text += "interrupted: this is what was done until then\n";
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
-  console.result(result_json(result, status, folder / "plan.json"));
+  console.result(result_json(result, assembly, status, folder / "plan.json"));
   return status;
 }
 

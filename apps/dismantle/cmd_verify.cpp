@@ -66,7 +66,8 @@ int verify(const Verify& options) {
   ReadOptions read;
   read.max_triangles = std::numeric_limits<std::int64_t>::max();
   const Assembly assembly = stoppable(context, [&] {
-    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
+    const auto importers = importers_of(registry, plan.assembly.import_params);
+    return assembly_of_plan(plan, read_input(source, importers, read, context), source, context);
   });
   VerifyOptions tolerance;
   tolerance.max_penetration = tolerance_of(plan, assembly, console);

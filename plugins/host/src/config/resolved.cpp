@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dismantle/host/config.h"
+#include "dismantle/host/ingredients.h"
 
 namespace dismantle {
 namespace {
@@ -109,6 +110,20 @@ class Writer {
     values(section.name, type.type.params, choice.params);
   }
 
+  /// Only what is not the default: whoever reads meshes needs no importer of CAD files.
+  void importers(const ImportParams& params) {
+    if (params.empty()) return;
+    line("importers:");
+    for (const auto& [id, values] : params) {
+      line(fmt::format("  {}:", plain_or_quoted(id)));
+      for (const auto& [name, given] : values) {
+        const auto* text = std::get_if<std::string>(&given);
+        out_ += "  ";
+        value("importers." + id, name, text != nullptr ? quoted(*text) : to_text(given));
+      }
+    }
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -144,6 +159,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
       writer.values(name, specs, config.sections.at(name));
     }
   };
+  writer.importers(import_params_of(config, registry));
   fixed("assembly");
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};

@@ -71,6 +71,11 @@ std::string json_schema(const Registry& registry) {
                                     {"description", "Folders of plugins, relative to this file."}}}});
   for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry);
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs));
+  Json importers = Json::object();
+  for (const auto* type : registry.types(PluginKind::importer))
+    if (!type->type.params.empty()) importers[type->type.id] = object(properties_of(type->type.params));
+  properties["importers"] = object(std::move(importers));
+  properties["importers"]["description"] = "Parameters of importers, by id.";
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
   const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};

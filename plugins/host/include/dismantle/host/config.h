@@ -55,6 +55,7 @@ struct RunConfig {
   VerifyOptions verify;
   LayoutOptions layout;
   NamedConstraints constraints;
+  std::map<std::string, ParamSet> importers;  ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
   /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
