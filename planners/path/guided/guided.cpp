@@ -21,7 +21,7 @@ class Guided final : public FunctionPathPlanner {
     const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0 || parameters_.lead_looks > 0) &&
                         parameters_.motion == push::Motion::automatic && can_grow(query) && query.goal.any_of.empty();
     return others ? plan_with_others(query, parameters_, tactics_, cache_, context)
-                  : push::plan(query, tactics_, context);
+                  : run_to_end(*push::start(query, tactics_, context));
   }
 
  private:

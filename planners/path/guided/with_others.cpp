@@ -132,9 +132,10 @@ class Others {
         if (thin_ && !pushing_ends) continue;
       }
       if (!forest_ends) {
-        if (!growth) growth.emplace(tunnel_forest::Parameters{}, query_, context_);
+        if (!growth) growth.emplace(tunnel_forest::Parameters{}, query_, context_, most);
         const std::uint64_t before = growth->used();
-        forest_ = growth->run(std::min(most, before + std::min(steps_left_, limits_.pause_after)));
+        growth->run({.max_steps = std::min(steps_left_, limits_.pause_after)});
+        forest_ = growth->result();
         spend(growth->used() - before);
         if (!undecided(forest_)) return together(forest_);
         if (steps_left_ == 0) {
@@ -167,7 +168,8 @@ class Others {
   /// `between`: states that are given pushes.
   void push_and_walk(const std::function<void()>& between = {}) {
     const unsigned depth = query_.budget.max_depth;
-    pushes_ = push::plan(from(query_, &Reached::pushed), tactics_, context_, between);
+    const PathQuery to_push = from(query_, &Reached::pushed);
+    pushes_ = run_to_end(*push::start(to_push, tactics_, context_, between));
     spend(pushes_.stats.steps + pushes_.stats.state_checks);
     if (!undecided(pushes_)) return;
     // Ways that the judge refused lead out, and only cut a little too deep.
@@ -204,8 +206,8 @@ class Others {
     const std::uint64_t most = std::min(static_cast<std::uint64_t>(looks), steps_left_);
     if (most > 0) {
       const PathQuery query = from(query_, &Reached::squeezed);
-      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query, context_, cache_);
-      squeezed_ = walk.run(most);
+      tolerant_walk::Walk walk(tolerant_walk::Parameters{}, query, context_, cache_, most);
+      squeezed_ = run_to_end(walk);
       spend(walk.looks());
     }
     if (undecided(squeezed_) && steps_left_ == 0) squeezed_.fail(Outcome::timeout);
@@ -236,10 +238,12 @@ class Others {
             double patience, unsigned most_detours) {
     const bool only_near_start = overlap == tolerant_walk::Overlap::near_start;
     const PathQuery own = from(query, only_near_start ? &Reached::led_thin : &Reached::led);
-    free_space::LedWalk walk(parameters, own, context_, static_cast<std::size_t>(parameters_.lead_cells), overlap,
+    free_space::LedWalk walk(parameters, own, context_,
+                             {static_cast<std::size_t>(parameters_.lead_cells), patience, most_detours}, overlap,
                              cache_);
-    if (walk.leads_out()) {
-      led_ = walk.run(steps_left_, patience, most_detours);
+    if (walk.leads_out() && steps_left_ > 0) {
+      walk.run({.max_steps = steps_left_});
+      led_ = walk.result();
       (only_near_start ? led_thin_reached_ : led_reached_) = led_.state;
     }
     spend(walk.looks());
