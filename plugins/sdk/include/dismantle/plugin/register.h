@@ -14,7 +14,7 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 Prepared, Simulator, Effort, Verdict, Reached, PathQuery, PathResult, PathPlanner, TransferQuery,
                 TransferPlanner, Attempt, AttemptResult, OracleCounts, PathOracle, Removal, Unsolved, SequenceResult,
                 SequenceObserver, SequencePlanner, Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue,
-                ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType, Registrar>();
+                ParamSet, ParamChoice, ParamSpec, PluginChoice, PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,
