@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verification/verifier.h"
 #include "bar_middle.h"
 #include "computed_once.h"
+#include "dismantle/verification/verifier.h"
 #include "hulls_apart.h"
 #include "shut_in.h"
 #include "solid.h"
@@ -31,7 +31,7 @@ struct Verifier::Impl {
     Aabb swept;  // world
   };
 
-  Impl(const Assembly& assembly, VerifyOptions options, unsigned threads);
+  Impl(const Assembly& assembly, VerifyOptions options, Executor* executor);
 
   /// The pair's when assembled.
   double overlap(PartId a, PartId b) const;

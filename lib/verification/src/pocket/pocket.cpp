@@ -26,7 +26,7 @@ std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Soli
   PinWalk walk(pinned, far);
   walk.wander(kLooks, context);
   if (walk.away()) return std::nullopt;
-  SideBySide both(context);
+  ForkJoin both(context);
   PoseFlood flood(pinned, walk, {0.5 * std::numbers::pi, 2 * far}, both);
   if (flood.run(kDivisions, context) != PoseFlood::End::closed) return std::nullopt;
   return Pocket{flood.bounds().lo, flood.bounds().hi, flood.cells()};
