@@ -7,12 +7,13 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::array<std::pair<Outcome, std::string_view>, 9> kNames{{
+constexpr std::array<std::pair<Outcome, std::string_view>, 10> kNames{{
     {Outcome::solved, "solved"},
     {Outcome::start_is_goal, "start_is_goal"},
     {Outcome::timeout, "timeout"},
     {Outcome::depth_limit, "depth_limit"},
     {Outcome::exhausted, "exhausted"},
+    {Outcome::infeasible, "infeasible"},
     {Outcome::invalid_start, "invalid_start"},
     {Outcome::cancelled, "cancelled"},
     {Outcome::unsupported, "unsupported"},

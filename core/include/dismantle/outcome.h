@@ -10,14 +10,15 @@ namespace dismantle {
 
 enum class Outcome {
   solved,
-  start_is_goal,   ///< nothing to do: the part is out already
-  timeout,         ///< seconds or step budget used up
-  depth_limit,     ///< searched to the depth allowed; deeper might succeed
-  exhausted,       ///< no state left to search at this resolution
-  invalid_start,   ///< the start state is not valid
-  cancelled,       ///< the user asked to stop
-  unsupported,     ///< the simulator lacks a capability that the planner needs
-  crashed,         ///< the plugin threw; set by the oracle only
+  start_is_goal,  ///< nothing to do: the part is out already
+  timeout,        ///< seconds or step budget used up
+  depth_limit,    ///< searched to the depth allowed; deeper might succeed
+  exhausted,      ///< no state left to search at this resolution; another search may still succeed
+  infeasible,     ///< proved: no motion exists that separates the parts
+  invalid_start,  ///< the start state is not valid
+  cancelled,      ///< the user asked to stop
+  unsupported,    ///< the simulator lacks a capability that the planner needs
+  crashed,        ///< the plugin threw; set by the oracle only
 };
 
 constexpr bool is_success(Outcome o) { return o == Outcome::solved || o == Outcome::start_is_goal; }

@@ -1,12 +1,12 @@
-/// One attempt, from question to judged answer. The only place where a path planner is called.
+/// One attempt, from question to verified answer. The only place where a path planner is called.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "dismantle/path_oracle.h"
-#include "dismantle/engine/run.h"
 #include "attempt_key.h"
+#include "dismantle/engine/run.h"
+#include "dismantle/path_oracle.h"
 #include "path_normalizer.h"
 
 namespace dismantle {
@@ -28,19 +28,18 @@ class AttemptRunner {
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
                       const RunContext& context) const;
 
-  /// Judges a way in place of a search. `attempt` and the columns of `way` in the same order.
-  ComputedAttempt judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const;
+  /// Verifies a way in place of a search. `attempt` and the columns of `way` in the same order.
+  ComputedAttempt check_proposal(const Attempt& attempt, const Path& way, const RunContext& context) const;
 
   const std::string& planner_id() const { return planner_id_; }
 
  private:
-  struct Judgement;
-  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, const RunContext& run,
-                  Judgement& last) const;
+  class Checker;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, RunContext& context, const Checker& checker) const;
   const Lock* locked(const Attempt& attempt) const;
   std::optional<Cage> caged(const Attempt& attempt, const RunContext& context) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
-  Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
+  void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 
   const Assembly& assembly_;

@@ -14,7 +14,9 @@ bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 
 
 /// A search that ended for a reason other than its depth ends the same way when it may go deeper; one that found
 /// nothing to search ends the same way at any depth.
-bool holds_for_deeper(Outcome o) { return o == Outcome::exhausted || o == Outcome::timeout; }
+bool holds_for_deeper(Outcome o) {
+  return o == Outcome::exhausted || o == Outcome::infeasible || o == Outcome::timeout;
+}
 bool holds_for_all(Outcome o) {
   return o == Outcome::start_is_goal || o == Outcome::invalid_start || o == Outcome::unsupported;
 }
@@ -45,7 +47,7 @@ std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
   }
   std::shared_ptr<PathPlanner> planner = make_planner_();
   if (!planner) throw std::runtime_error("nothing was made");
-  if (planner->is_concurrent()) concurrent_planner_ = planner;
+  if (planner->traits().concurrent) concurrent_planner_ = planner;
   return planner;
 }
 
@@ -77,8 +79,8 @@ LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, Run
     return result;
   }
   PathResult& crashed = result.computed.answer.result;
-  crashed.outcome = Outcome::crashed;
-  crashed.message = fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem);
+  crashed.fail(Outcome::crashed,
+               fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem));
   context.log(LogLevel::error, crashed.message);
   return result;
 }
@@ -90,7 +92,7 @@ const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   const auto known = finals_.find(key.cast);
   if (known == finals_.end()) return nullptr;
   const auto& [depth, answer] = known->second;
-  if (!holds_for_all(answer->result.outcome) && !is_deeper(key.max_depth, depth)) return nullptr;
+  if (!holds_for_all(answer->result.outcome()) && !is_deeper(key.max_depth, depth)) return nullptr;
   return answer;
 }
 
@@ -101,7 +103,7 @@ AttemptKey Oracle::key_of(Attempt& question) const {
   const AttemptResult* const after = std::exchange(question.after, nullptr);
   if (after == nullptr) return key;
   const AskedAbout* asked = asked_about(after);
-  if (asked == nullptr || is_success(after->result.outcome))
+  if (asked == nullptr || is_success(after->result.outcome()))
     throw std::invalid_argument("attempt that is to go on from what is not an attempt in vain of this oracle");
   if (!asked->resumable) return key;
   if (!may_follow(question, *asked->resumable))
@@ -118,24 +120,24 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
   }
   if (context.should_stop()) {
     AttemptResult stopped;
-    stopped.result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
-    stopped.result.message = "not begun: the run was told to stop";
+    stopped.result.fail(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout,
+                        "not begun: the run was told to stop");
     return keep(std::move(stopped));
   }
   const auto compute_it = [&](const RunContext& c) { return compute(attempt, key, c); };
   LoggedAttempt logged = computed_ahead_.get(key, compute_it, context);
   for (const auto& line : logged.log) context.log(line.level, line.text);
   ComputedAttempt& computed = logged.computed;
-  if (!attempt.keep_reached) computed.answer.result.reached = nullptr;
+  if (!attempt.keep_reached) computed.answer.result.state = nullptr;
   const AttemptResult& result = keep(std::move(computed.answer));
-  for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
+  for (const auto& [name, count] : result.result.stats.by_name()) planner_counts_[name] += count;
   if (computed.interrupted) return result;  // says nothing about the question: not remembered
   ++planned_;
   answers_.emplace(key, &result);
-  const Outcome outcome = result.result.outcome;
+  const Outcome outcome = result.result.outcome();
   if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
   asked_about_.emplace(&result, AskedAbout{key, ids_of(attempt.moving), attempt.leaving,
-                                           result.result.reached ? std::make_shared<Attempt>(attempt) : nullptr});
+                                           result.result.state ? std::make_shared<Attempt>(attempt) : nullptr});
   return result;
 }
 
@@ -152,7 +154,10 @@ const AttemptResult& Oracle::reordered(const AttemptResult& result, const std::v
     for (std::size_t i = 0; i < column.size(); ++i) poses[i] = old[column[i]];
   };
   AttemptResult copy = result;
-  for (auto& instant : copy.result.path) permute(instant);
+  if (result.result.outcome() == Outcome::start_is_goal)
+    copy.result.start_is_goal(result.result.path()->reordered(column));
+  else if (result.result.path())
+    copy.result.solve(result.result.path()->reordered(column), result.result.depth);
   if (!copy.result.best_pose.empty()) permute(copy.result.best_pose);
   const AttemptResult& kept = keep(std::move(copy));
   reordered_.emplace(std::pair{&result, order}, &kept);
@@ -193,11 +198,11 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
 const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
   const CastDigest cast = digest_of(canonical(attempt, part_count_));
   const std::lock_guard lock(ask_mutex_);
-  ComputedAttempt computed = runner_.judge_way(attempt, way, context);
+  ComputedAttempt computed = runner_.check_proposal(attempt, way, context);
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;
-  if (is_success(result.result.outcome))
+  if (is_success(result.result.outcome()))
     asked_about_.emplace(&result, AskedAbout{{.cast = cast}, ids_of(attempt.moving), attempt.leaving});
   else
     ++refused_;

@@ -47,7 +47,8 @@ class Oracle final : public PathOracle {
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
-  /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
+  /// PathResult::stats by name, summed over the answers that were asked for, in the order of asking; interrupted ones
+  /// included.
   const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
 
  private:

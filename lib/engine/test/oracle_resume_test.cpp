@@ -20,21 +20,21 @@ Attempt keeping(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
 }
 
 /// How many searches it took to come there, and a number drawn by each.
-struct Chain final : Reached {
+struct Chain final : SearchState {
   int length = 0;
   double drawn = 0;
 };
 
 /// Never finds anything, and keeps what it had.
 PathResult in_vain(const PathQuery& query, RunContext& context) {
-  const auto* before = dynamic_cast<const Chain*>(query.reached);
+  const auto* before = dynamic_cast<const Chain*>(query.resume_from);
   auto chain = std::make_shared<Chain>();
   chain->length = 1 + (before != nullptr ? before->length : 0);
   chain->drawn = context.rng.uniform() + (before != nullptr ? 10 * before->drawn : 0);
   PathResult r = fake::outcome(Outcome::depth_limit);
-  r.counts["length"] = chain->length;
-  r.counts["drawn"] = chain->drawn;
-  r.reached = chain;
+  r.stats.extra["length"] = chain->length;
+  r.stats.extra["drawn"] = chain->drawn;
+  r.state = chain;
   return r;
 }
 
@@ -47,11 +47,11 @@ Attempt after(Attempt attempt, const AttemptResult& earlier, std::optional<PartI
 TEST(OracleResume, ThePlannerIsGivenWhatTheEarlierOneReached) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
   const AttemptResult& first = s.ask(keeping(s.assembly, 0, 1));
-  EXPECT_EQ(first.result.counts.at("length"), 1);
+  EXPECT_EQ(first.result.stats.extra.at("length"), 1);
   const AttemptResult& deeper = s.ask(after(keeping(s.assembly, 0, 2), first));
-  EXPECT_EQ(deeper.result.counts.at("length"), 2);
+  EXPECT_EQ(deeper.result.stats.extra.at("length"), 2);
   const AttemptResult& fewer = s.ask(after(keeping(s.assembly, 0, 2), deeper, PartId{3}));
-  EXPECT_EQ(fewer.result.counts.at("length"), 3);
+  EXPECT_EQ(fewer.result.stats.extra.at("length"), 3);
   EXPECT_EQ(s.oracle->counts().attempts, 3u);
 }
 
@@ -70,12 +70,12 @@ TEST(OracleResume, WhatItGoesOnFromIsPartOfTheQuestion) {
   // So is what that one went on from.
   const AttemptResult& two_after_one = s.ask(after(keeping(s.assembly, 0, 2), one));
   EXPECT_NE(&s.ask(after(question, two_after_one)), &after_two);
-  EXPECT_EQ(s.ask(after(question, two_after_one)).result.counts.at("length"), 3);
+  EXPECT_EQ(s.ask(after(question, two_after_one)).result.stats.extra.at("length"), 3);
 }
 
 TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
   const auto keeps_nothing = [](const PathQuery& query, RunContext&) {
-    EXPECT_EQ(query.reached, nullptr);
+    EXPECT_EQ(query.resume_from, nullptr);
     return fake::outcome(Outcome::depth_limit);
   };
   Rig s(fake::row(4), fake::ingredients(keeps_nothing));
@@ -87,8 +87,8 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
 TEST(OracleResume, WhereNobodyWantsToGoOnNothingIsKept) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
   const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
-  EXPECT_EQ(first.result.reached, nullptr);
-  EXPECT_EQ(s.ask(after(keeping(s.assembly, 0, 2), first)).result.counts.at("length"), 1);
+  EXPECT_EQ(first.result.state, nullptr);
+  EXPECT_EQ(s.ask(after(keeping(s.assembly, 0, 2), first)).result.stats.extra.at("length"), 1);
 }
 
 TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
@@ -111,13 +111,13 @@ TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
 TEST(OracleResume, SuccessLeavesNothingToGoOnFrom) {
   const auto finds = [](const PathQuery& query, RunContext& context) {
     PathResult r = fake::push(query, context);
-    r.reached = std::make_shared<Chain>();
+    r.state = std::make_shared<Chain>();
     return r;
   };
   Rig s(fake::row(3), fake::ingredients(finds));
   const AttemptResult& out = s.ask(keeping(s.assembly, 0));
-  ASSERT_EQ(out.result.outcome, Outcome::solved);
-  EXPECT_EQ(out.result.reached, nullptr);
+  ASSERT_EQ(out.result.outcome(), Outcome::solved);
+  EXPECT_EQ(out.result.state, nullptr);
   EXPECT_THROW(s.ask(after(keeping(s.assembly, 0), out)), std::invalid_argument);
 }
 
@@ -142,10 +142,10 @@ TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
       for (PartId k = 0; k < 5; ++k) {
         const PartId part = backwards ? 4 - k : k;
         last[part] = &s.ask(question(part, depth));
-        drawn[part] = last[part]->result.counts.at("drawn");
+        drawn[part] = last[part]->result.stats.extra.at("drawn");
       }
     }
-    for (const AttemptResult* answer : last) EXPECT_EQ(answer->result.counts.at("length"), 4);
+    for (const AttemptResult* answer : last) EXPECT_EQ(answer->result.stats.extra.at("length"), 4);
     return drawn;
   };
   const std::vector<double> expected = chains(1, false, false);

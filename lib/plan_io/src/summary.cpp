@@ -50,6 +50,8 @@ const char* meaning(Outcome outcome) {
       return "searched to the depth allowed; deeper may help";
     case Outcome::exhausted:
       return "nothing was left to search at this resolution";
+    case Outcome::infeasible:
+      return "proved: no motion separates it from what holds it";
     case Outcome::invalid_start:
       return "its start is not valid: it penetrates another part beyond what was measured";
     case Outcome::cancelled:

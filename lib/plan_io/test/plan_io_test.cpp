@@ -69,7 +69,7 @@ Plan any_plan(Rng& rng) {
       s.max_penetration = rng.uniform();
       s.seconds = rng.uniform();
       s.planner = "bfs";
-      s.depth = static_cast<unsigned>(rng.below(9));
+      s.depth = static_cast<unsigned>(rng.below(10));
       s.contacts = {part()};
     }
     return out;

@@ -5,12 +5,13 @@
 namespace dismantle::bfs {
 namespace {
 
-class Bfs final : public PathPlanner {
+class Bfs final : public FunctionPathPlanner {
  public:
   explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
 
-  Capabilities needs() const noexcept override { return push::required(); }
-  bool moves_each_its_way() const noexcept override { return true; }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
+  }
   PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
 
  private:

@@ -13,21 +13,18 @@ constexpr Capabilities kNeeds{.dynamics = true};
 /// Simulated steps of the first turn of a tree where two grow in turn; each round doubles it.
 constexpr std::uint64_t kFirstTurn = 4'000;
 
-class BkRrt final : public PathPlanner {
+class BkRrt final : public FunctionPathPlanner {
  public:
   explicit BkRrt(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return kNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     PathResult result;
     const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || has.max_moving < query.cast.moving.size()) {
-      result.outcome = Outcome::unsupported;
-      result.message = "needs a simulator with dynamics for all moving parts";
-      return result;
-    }
-    const Deadline deadline = query.effort.timeout > 0
-                                  ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+    if (!has.dynamics || has.max_moving < query.cast.moving.size())
+      return PathResult::failure(Outcome::unsupported, "needs a simulator with dynamics for all moving parts");
+    const Deadline deadline = query.budget.timeout > 0
+                                  ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                   : context.deadline;
     std::vector<std::unique_ptr<RandomTree>> trees;
     const auto add = [&](MotionSpace motion, std::uint64_t stream) {
@@ -36,13 +33,12 @@ class BkRrt final : public PathPlanner {
     if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
     if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
     if (trees.front()->starts_out()) {
-      result.outcome = Outcome::start_is_goal;
-      result.path = {trees.front()->farthest(), trees.front()->farthest()};
+      result.start_is_goal();
       return result;
     }
 
-    const std::uint64_t budget = query.effort.max_steps > 0 ? query.effort.max_steps : kNone;
-    const std::uint64_t level = level_limit(query.effort);
+    const std::uint64_t budget = query.budget.max_steps > 0 ? query.budget.max_steps : kNone;
+    const std::uint64_t level = level_limit(query.budget);
     const auto used = [&] {
       std::uint64_t steps = 0;
       for (const auto& t : trees) steps += t->steps();
@@ -59,9 +55,7 @@ class BkRrt final : public PathPlanner {
         if (solved || stopped) break;
       }
     if (!solved) {
-      result.outcome = !stopped                     ? Outcome::depth_limit
-                       : context.cancel.cancelled() ? Outcome::cancelled
-                                                    : Outcome::timeout;
+      result.fail(!stopped ? Outcome::depth_limit : context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout);
       const auto& best = *std::max_element(trees.begin(), trees.end(), [](const auto& a, const auto& b) {
         return a->farthest_way() < b->farthest_way();
       });
@@ -74,7 +68,7 @@ class BkRrt final : public PathPlanner {
  private:
   static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
 
-  std::uint64_t level_limit(const Effort& effort) const {
+  std::uint64_t level_limit(const Budget& effort) const {
     if (effort.max_depth == 0) return kNone;
     const double steps =
         std::ldexp(static_cast<double>(parameters_.level_steps), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
@@ -85,9 +79,10 @@ class BkRrt final : public PathPlanner {
                      PathResult& result) {
     std::map<PartId, std::uint64_t> touched;
     for (const auto& tree : trees) {
-      result.counts["nodes"] += static_cast<double>(tree->size());
-      result.counts["steps"] += static_cast<double>(tree->steps());
-      result.counts["refused"] += static_cast<double>(tree->refused());
+      result.stats += {.steps = tree->steps(),
+                       .nodes = tree->size(),
+                       .refused = tree->refused(),
+                       .cost = static_cast<double>(tree->steps())};
       for (const auto& [part, times] : tree->touched()) touched[part] += times;
     }
     result.blocked_by = path::most_touched(touched, moving);

@@ -104,24 +104,21 @@ Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of
 bool RandomTree::judged(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
-  Path path = path::thin(full, bodies_, parameters_.thinning);
-  const Verdict verdict = query_.judge(path);
-  if (verdict.accepted) {
-    result.outcome = Outcome::solved;
-    result.depth = nodes_[node].depth;
-    result.path = std::move(path);
-    result.message.clear();
+  const Path path = path::thin(full, bodies_, parameters_.thinning);
+  PathCheck check = query_.checker.check(path);
+  if (check.accepted()) {
+    result.solve(std::move(*check.verified), nodes_[node].depth);
     return true;
   }
   ++refused_;
-  result.message = verdict.reason;
-  if (!verdict.has_witness) {
+  result.message = check.reason;
+  if (!check.has_witness) {
     discard(node);
     return false;
   }
-  world_->learn(verdict.part, verdict.other, verdict.point);
+  world_->learn(check.part, check.other, check.point);
   // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
-  const auto& after = path[std::min(verdict.instant + 1, path.size() - 1)];
+  const auto& after = path[std::min(check.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;
   discard(node_of[k]);

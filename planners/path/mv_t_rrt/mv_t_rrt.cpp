@@ -24,10 +24,10 @@ struct Parameters : sampling::TreeParameters {
   }
 };
 
-class MatingVectorTargetlessRrt final : public PathPlanner {
+class MatingVectorTargetlessRrt final : public FunctionPathPlanner {
  public:
   explicit MatingVectorTargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
   PathResult plan(const PathQuery& query, RunContext& context) override {
     return sampling::plan_by_trees(
         query, context, parameters_,

@@ -34,10 +34,10 @@ class OneGoal final : public TargetRule {
   std::set<std::uint32_t> tried_;
 };
 
-class Rrt final : public PathPlanner {
+class Rrt final : public FunctionPathPlanner {
  public:
   explicit Rrt(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
   PathResult plan(const PathQuery& query, RunContext& context) override {
     return sampling::plan_by_trees(query, context, parameters_,
                                    [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });

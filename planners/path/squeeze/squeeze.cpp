@@ -7,15 +7,16 @@
 namespace dismantle::squeeze {
 namespace {
 
-class Squeeze final : public PathPlanner {
+class Squeeze final : public FunctionPathPlanner {
  public:
   explicit Squeeze(const tolerant_walk::Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return tolerant_walk::kNeeds; }
-  bool is_concurrent() const noexcept override { return true; }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = tolerant_walk::kNeeds, .concurrent = true, .resumable = true};
+  }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     tolerant_walk::Walk walk(parameters_, query, context, cache_);
-    return walk.run(limit(query.effort.max_depth));
+    return walk.run(limit(query.budget.max_depth));
   }
 
  private:

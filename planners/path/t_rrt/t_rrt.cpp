@@ -13,10 +13,10 @@ struct Parameters : sampling::TreeParameters {
   }
 };
 
-class TargetlessRrt final : public PathPlanner {
+class TargetlessRrt final : public FunctionPathPlanner {
  public:
   explicit TargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
   PathResult plan(const PathQuery& query, RunContext& context) override {
     return sampling::plan_by_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
       return std::make_unique<sampling::NearestExit>(scene);

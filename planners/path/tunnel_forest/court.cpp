@@ -82,22 +82,20 @@ Path Forest::eased(const Path& path) {
   return path::thin(dense, guide_.bodies(), parameters_.thinning);
 }
 
-/// True when the judge accepts the path, after easing it again where it cuts; then `result` holds it. Else `verdict` is
+/// True when the judge accepts the path, after easing it again where it cuts; then `result` holds it. Else `check` is
 /// the judge's last, about `shown`.
-bool Forest::passes(const Path& path, PathResult& result, Verdict& verdict, Path& shown) {
+bool Forest::passes(const Path& path, unsigned depth, PathResult& result, PathCheck& check, Path& shown) {
   shown = eased(path);
   for (int round = 0; round <= kRepairs && !halted_(); ++round) {
-    verdict = query_.judge(shown);
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.path = std::move(shown);
-      result.message.clear();
+    check = query_.checker.check(shown);
+    if (check.accepted()) {
+      result.solve(std::move(*check.verified), depth);
       return true;
     }
     ++refused_;
-    result.message = verdict.reason;
-    if (!verdict.has_witness) return false;
-    world_->learn(verdict.part, verdict.other, verdict.point);
+    result.message = check.reason;
+    if (!check.has_witness) return false;
+    world_->learn(check.part, check.other, check.point);
     if (round < kRepairs) shown = eased(shown);
   }
   return false;
@@ -116,19 +114,18 @@ bool Forest::judged(PathResult& result) {
       ends.push_back(at);
     }
     const Path thinned = path::thin(full, guide_.bodies(), parameters_.thinning);
-    Verdict verdict;
+    PathCheck check;
     Path shown;
     const Path shorter = shortcut(thinned);
-    if ((shorter.size() < thinned.size() && passes(shorter, result, verdict, shown)) ||
-        passes(thinned, result, verdict, shown)) {
-      result.depth = static_cast<unsigned>(edges.size());
+    const auto depth = static_cast<unsigned>(edges.size());
+    if ((shorter.size() < thinned.size() && passes(shorter, depth, result, check, shown)) ||
+        passes(thinned, depth, result, check, shown))
       return true;
-    }
     if (halted_()) return false;
     // Easing moves instants by little: the edge at fault is the one that comes nearest to where it cuts.
     std::size_t guilty = edges.size() - 1;
-    if (verdict.has_witness) {
-      const auto& place = shown[std::min(verdict.instant, shown.size() - 1)];
+    if (check.has_witness) {
+      const auto& place = shown[std::min(check.instant, shown.size() - 1)];
       double least = std::numeric_limits<double>::infinity();
       Index at = 0;
       for (std::size_t e = 0; e < edges.size(); ++e) {

@@ -68,7 +68,7 @@ class Forest {
   void note_contacts(const State& state);
 
   bool judged(PathResult& result);
-  bool passes(const Path& path, PathResult& result, Verdict& verdict, Path& shown);
+  bool passes(const Path& path, unsigned depth, PathResult& result, PathCheck& check, Path& shown);
   Path eased(const Path& path);
   Path shortcut(const Path& path);
   bool is_free(const std::vector<Pose>& poses);

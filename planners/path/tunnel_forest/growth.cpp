@@ -20,7 +20,7 @@ Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext&
     : parameters_(parameters),
       query_(query),
       context_(context),
-      deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+      deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                          : context.deadline) {
   if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
   if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
@@ -36,8 +36,7 @@ PathResult Growth::run(std::uint64_t until) {
   until_ = until;
   PathResult result;
   if (forests_.front().forest->starts_out()) {
-    result.outcome = Outcome::start_is_goal;
-    result.path = {forests_.front().forest->farthest(), forests_.front().forest->farthest()};
+    result.start_is_goal();
     return result;
   }
   bool solved = false;
@@ -80,7 +79,7 @@ std::uint64_t Growth::used() const {
 
 bool Growth::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
 
-bool Growth::stopped() const { return halted() || (query_.effort.max_steps > 0 && used() >= query_.effort.max_steps); }
+bool Growth::stopped() const { return halted() || (query_.budget.max_steps > 0 && used() >= query_.budget.max_steps); }
 
 bool Growth::given_up() const {
   return std::any_of(forests_.begin(), forests_.end(),
@@ -91,10 +90,10 @@ bool Growth::given_up() const {
 }
 
 void Growth::say_why(PathResult& result) const {
-  result.outcome = context_.cancel.cancelled() ? Outcome::cancelled
-                   : stopped()                 ? Outcome::timeout
-                   : given_up()                ? Outcome::exhausted
-                                               : Outcome::depth_limit;
+  result.fail(context_.cancel.cancelled() ? Outcome::cancelled
+              : stopped()                 ? Outcome::timeout
+              : given_up()                ? Outcome::exhausted
+                                          : Outcome::depth_limit);
   const auto& best = *std::max_element(forests_.begin(), forests_.end(), [](const Grown& a, const Grown& b) {
     return a.forest->farthest_way() < b.forest->farthest_way();
   });
@@ -104,11 +103,12 @@ void Growth::say_why(PathResult& result) const {
 void Growth::finish(PathResult& result) const {
   std::map<PartId, std::uint64_t> touched;
   for (const auto& g : forests_) {
-    result.counts["nodes"] += static_cast<double>(g.forest->size());
-    result.counts["steps"] += static_cast<double>(g.forest->steps());
-    result.counts["looks"] += static_cast<double>(g.forest->looks());
-    result.counts["tunnels"] += static_cast<double>(g.forest->tunnels());
-    result.counts["refused"] += static_cast<double>(g.forest->refused());
+    result.stats += {.steps = g.forest->steps(),
+                     .state_checks = g.forest->looks(),
+                     .nodes = g.forest->size(),
+                     .refused = g.forest->refused(),
+                     .cost = static_cast<double>(g.forest->steps() + g.forest->looks()),
+                     .extra = {{"tunnels", static_cast<double>(g.forest->tunnels())}}};
     for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
   }
   result.blocked_by = path::most_touched(touched, query_.cast.moving);

@@ -7,20 +7,17 @@
 namespace dismantle::tunnel_forest {
 namespace {
 
-class TunnelForest final : public PathPlanner {
+class TunnelForest final : public FunctionPathPlanner {
  public:
   explicit TunnelForest(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return kNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
-    PathResult result;
     const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size()) {
-      result.outcome = Outcome::unsupported;
-      result.message = "needs a simulator with dynamics and distances for all moving parts";
-      return result;
-    }
-    return Growth(parameters_, query, context).run(level_limit(query.effort.max_depth));
+    if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
+      return PathResult::failure(Outcome::unsupported,
+                                 "needs a simulator with dynamics and distances for all moving parts");
+    return Growth(parameters_, query, context).run(level_limit(query.budget.max_depth));
   }
 
  private:

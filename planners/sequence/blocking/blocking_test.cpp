@@ -21,7 +21,7 @@ PathResult helpless(const PathQuery&, RunContext&) { return fake::outcome(Outcom
 
 /// As if it touched all that is there, and might find more a little deeper.
 PathResult shallow(const PathQuery& query, RunContext&) {
-  PathResult r = fake::outcome(query.effort.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
+  PathResult r = fake::outcome(query.budget.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
   for (const PlacedPart& p : query.cast.still) r.blocked_by.push_back(p.part);
   return r;
 }

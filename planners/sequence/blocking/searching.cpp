@@ -16,13 +16,6 @@ constexpr unsigned kDeepForPair = 4;  // levels searched in vain, after which a 
 constexpr double kCostOctaves = 0.5;  // searches whose costs differ by less come in the order of use
 constexpr std::size_t kTouchedMost = 3;  // parts, without one of which a search of depth 2 or more is made again
 
-double sum_of(const std::map<std::string, double>& counts, const std::string& name) {
-  double sum = 0;
-  for (const auto& [counted, value] : counts)
-    if (counted.ends_with(name)) sum += value;
-  return sum;
-}
-
 bool translated_only(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
 }  // namespace
@@ -38,7 +31,7 @@ bool TakingApart::shift(Group& group, const std::vector<UnitId>& units, const Ei
     way[1].push_back({p.pose.t + by, p.pose.q});
   }
   answer = &oracle_.propose(attempt, way, context_);
-  if (!is_success(answer->result.outcome)) return false;
+  if (!is_success(answer->result.outcome())) return false;
   const bool groups_done = group.groups_done;
   book(group, units, attempt, *answer);
   group.groups_done = groups_done;
@@ -156,18 +149,17 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
   if (context_.threads > 1) prefetch(group, question_now, next);
   const AttemptResult& answer = oracle_.attempt(question_now, context_);
   const PathResult& result = answer.result;
-  const double known = sum_of(result.counts, "resumed_nodes"), spared = sum_of(result.counts, "spared");
+  const std::uint64_t known = result.stats.resumed_nodes, spared = result.stats.spared;
   std::string line = "search for a way of '" + assembly_.parts[part].name + "' to depth " + std::to_string(depth) +
-                     ": " + std::string(to_string(result.outcome)) + ", " + std::to_string(answer.seconds) + " s";
+                     ": " + std::string(to_string(result.outcome())) + ", " + std::to_string(answer.seconds) + " s";
   if (known > 0)
-    line += ", from " + std::to_string(std::llround(known)) + " states known, " + std::to_string(std::llround(spared)) +
-            " steps and looks spared";
+    line += ", from " + std::to_string(known) + " states known, " + std::to_string(spared) + " steps and looks spared";
   context_.log(LogLevel::debug, line);
   if (known > 0) {
     ++counts_["resumed"];
-    counts_["spared_steps"] += spared;
+    counts_["spared_steps"] += static_cast<double>(spared);
   }
-  if (is_success(result.outcome)) {
+  if (is_success(result.outcome())) {
     if (context_.threads > 1) drop_hints_if_in(group, question_now);
     const unsigned reached = group.depth;
     book(group, {unit}, question_now, answer);
@@ -176,9 +168,9 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
     return true;
   }
   if (!stop() || !said_.contains(part))
-    said_[part] = Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message};
-  tried_[part] = {depth,   result.outcome, result.blocked_by, group.units.size(),
-                  &answer, poses_[part],   question_now.after};
+    said_[part] = Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message};
+  tried_[part] = {depth,   result.outcome(), result.blocked_by, group.units.size(),
+                  &answer, poses_[part],     question_now.after};
   cost_[part] = cost_of(part, result);
   return false;
 }
@@ -223,10 +215,7 @@ void TakingApart::sort_by_use(const Group& group, std::vector<UnitId>& units) {
 /// Steps of simulation, and looks at poses, take the longer the more triangles there are to touch. Counts, not seconds:
 /// these are the same everywhere.
 int TakingApart::cost_of(PartId part, const PathResult& result) const {
-  double work = 1;
-  for (const auto& [name, count] : result.counts)
-    if (name.ends_with("steps") || name.ends_with("looks")) work += count;
-  work *= static_cast<double>(assembly_.parts[part].mesh->triangles.size());
+  const double work = (1 + result.stats.cost) * static_cast<double>(assembly_.parts[part].mesh->triangles.size());
   return static_cast<int>(std::log2(std::max(1.0, work)) / kCostOctaves);
 }
 

@@ -225,12 +225,12 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
   const AttemptResult& answer = oracle_.propose(attempt, way, context_);
   context_.log(LogLevel::debug, "straight way of '" + assembly_.parts[attempt.moving.front().part].name + "' and " +
                                     std::to_string(attempt.moving.size() - 1) +
-                                    " more: " + std::string(to_string(answer.result.outcome)) + ", " +
+                                    " more: " + std::string(to_string(answer.result.outcome())) + ", " +
                                     std::to_string(answer.seconds) + " s " + answer.result.message);
-  if (!is_success(answer.result.outcome)) {
+  if (!is_success(answer.result.outcome())) {
     refused_.insert({parts_of(units), direction});
     for (const PartId id : parts_of(units))
-      said_[id] = Unsolved{id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message};
+      said_[id] = Unsolved{id, answer.result.outcome(), answer.result.blocked_by, {}, answer.result.message};
     return false;
   }
   book(group, units, attempt, answer);

@@ -184,7 +184,7 @@ void TakingApart::book(Group& group, const std::vector<UnitId>& units, const Att
   for (std::size_t i = 0; i < attempt.moving.size(); ++i) {
     const PartId id = attempt.moving[i].part;
     removal.parts.push_back(id);
-    poses_[id] = answer.result.path.back()[i];
+    poses_[id] = answer.result.path()->poses().back()[i];
     if (relations_) turn_[id] = relations_->turn(poses_[id].q);
   }
   removal.attempt = &answer;
@@ -239,7 +239,7 @@ void TakingApart::tell_locked(UnitId unit) {
       u = held->second;
     } else if (locked_[id]) {
       const PathResult& result = oracle_.attempt(attempt, context_).result;
-      u.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
+      u.outcome = is_success(result.outcome()) ? Outcome::exhausted : result.outcome();
       u.blocked_by = result.blocked_by;
       u.message = result.message;
     } else {

@@ -88,22 +88,21 @@ bool TakingApart::together(Group& group, const std::vector<UnitId>& units,
   }
   const AttemptResult& answer = oracle_.attempt(*asked, context_);
   const PathResult& result = answer.result;
-  const auto count = result.counts.find("steps");
-  const auto steps = static_cast<std::uint64_t>(count == result.counts.end() ? 0 : count->second);
+  const std::uint64_t steps = result.stats.steps;
   std::string names;
   for (const UnitId u : units) names += (names.empty() ? "'" : "', '") + assembly_.parts[units_[u].front()].name;
   context_.log(LogLevel::debug, "moving " + names + "' at once to depth " + std::to_string(asked->max_depth) + ": " +
-                                    std::string(to_string(result.outcome)) + ", " + std::to_string(answer.seconds) +
+                                    std::string(to_string(result.outcome())) + ", " + std::to_string(answer.seconds) +
                                     " s, " + std::to_string(steps) + " steps " + result.message);
-  if (is_success(result.outcome)) {
+  if (is_success(result.outcome())) {
     const unsigned reached = group.depth;
     book(group, units, *asked, answer);
     group.depth = reached;
     ++counts_["at_once"];
     return true;
   }
-  none_at_once_ = none_at_once_ || result.outcome == Outcome::unsupported;
-  tried_at_once_[units] = {asked->max_depth, result.outcome, result.blocked_by, group.units.size()};
+  none_at_once_ = none_at_once_ || result.outcome() == Outcome::unsupported;
+  tried_at_once_[units] = {asked->max_depth, result.outcome(), result.blocked_by, group.units.size()};
   std::size_t moved = 0;
   for (std::size_t i = 0; i < result.best_pose.size(); ++i) {
     const PlacedPart& p = asked->moving[i];

@@ -76,7 +76,7 @@ bool TakingApart::turns_to(Group& group, UnitId unit, const Path& way) {
   Attempt attempt = question(group, {unit});
   attempt.part_way = true;
   const AttemptResult& answer = oracle_.propose(attempt, way, context_);
-  if (!is_success(answer.result.outcome)) return false;
+  if (!is_success(answer.result.outcome())) return false;
   book(group, {unit}, attempt, answer);
   ++counts_["turns"];
   return true;

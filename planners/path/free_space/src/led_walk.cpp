@@ -88,7 +88,7 @@ LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& q
       slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
   }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
-  if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.reached);
+  if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
       reached != nullptr && reached->has_room_now(query.cast)) {
     tree_.resume(*reached);
     resumed_ = true;
@@ -296,7 +296,7 @@ bool LedWalk::fly(PathResult& result) {
 
 PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most_detours) {
   PathResult result;
-  if (query_.effort.max_steps > 0) most_looks = std::min(most_looks, query_.effort.max_steps);
+  if (query_.budget.max_steps > 0) most_looks = std::min(most_looks, query_.budget.max_steps);
   bool solved = false;
   unsigned detours = 0;
   progress_at_ = work();
@@ -322,8 +322,8 @@ PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most
     if (in_vain && (++detours > most_detours || !detour())) break;
   }
   tree_.finish(solved, best_, result);
-  result.counts["detours"] = detours;
-  result.counts["left"] = best_left_;
+  result.stats.extra["detours"] = detours;
+  result.stats.extra["left"] = best_left_;
   return result;
 }
 

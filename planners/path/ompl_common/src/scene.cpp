@@ -31,17 +31,17 @@ void silence_ompl() {
 
 }  // namespace
 
-Budget::Budget(const PathQuery& query, const RunContext& run)
-    : max_checks(query.effort.max_steps),
+CheckBudget::CheckBudget(const PathQuery& query, const RunContext& run)
+    : max_checks(query.budget.max_steps),
       context(run),
-      deadline(query.effort.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+      deadline(query.budget.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                         : run.deadline) {}
 
-bool Budget::spent() const {
+bool CheckBudget::spent() const {
   return (max_checks > 0 && checks >= max_checks) || context.cancel.cancelled() || deadline.passed();
 }
 
-Outcome Budget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
+Outcome CheckBudget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
 
 Surroundings::Surroundings(const PathQuery& query, const World& world, const Pose& goal) {
   const auto& moving = query.cast.moving;
@@ -97,7 +97,7 @@ class Scene::Validator final : public ompl::base::MotionValidator {
   Scene& scene_;
 };
 
-Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget,
+Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
              const Pose& goal)
     : query_(query),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),

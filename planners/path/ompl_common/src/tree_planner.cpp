@@ -32,19 +32,15 @@ class Court {
  private:
   bool shown(Scene& scene, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
     std::vector<std::size_t> edge_of;
-    Path path = scene.path(states, &edge_of);
-    const Verdict verdict = query_.judge(path);
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.depth = static_cast<unsigned>(states.size() - 1);
-      result.path = std::move(path);
-      result.message.clear();
+    PathCheck check = query_.checker.check(scene.path(states, &edge_of));
+    if (check.accepted()) {
+      result.solve(std::move(*check.verified), static_cast<unsigned>(states.size() - 1));
       return true;
     }
     ++refused_;
-    result.message = verdict.reason;
+    result.message = check.reason;
     // The instant is the last one before the fault: the edge that follows is to blame. Without a place, the last.
-    edge = verdict.has_witness ? edge_of[std::min(verdict.instant + 1, edge_of.size() - 1)] : states.size() - 1;
+    edge = check.has_witness ? edge_of[std::min(check.instant + 1, edge_of.size() - 1)] : states.size() - 1;
     edge = std::max<std::size_t>(edge, 1);
     return false;
   }
@@ -57,9 +53,9 @@ class Court {
 /// One tree in one state space.
 class Search {
  public:
-  Search(const PathQuery& query, MotionSpace motion, const TreeParameters& p, const MakeRule& make_rule, Budget& budget,
-         const Rng& rng)
-      : scene_(query, motion, p.max_penetration, p.step, budget),
+  Search(const PathQuery& query, MotionSpace motion, const TreeParameters& p, const MakeRule& make_rule,
+         CheckBudget& budget, const Rng& rng)
+      : scene_(query, motion, p.tolerance_share * query.tolerance, p.step, budget),
         tree_(scene_, {p.goal_bias, p.range}, make_rule(scene_, rng.fork(1)), rng.fork(2)) {
     auto problem = std::make_shared<ompl::base::ProblemDefinition>(scene_.information());
     const StateType start = scene_.space().start();
@@ -117,7 +113,7 @@ class Search {
 };
 
 /// Checks that a limit of depth allows; 0 = no limit.
-std::uint64_t level_limit(const Effort& effort, const TreeParameters& p) {
+std::uint64_t level_limit(const dismantle::Budget& effort, const TreeParameters& p) {
   if (effort.max_depth == 0) return 0;
   const double checks =
       std::ldexp(static_cast<double>(p.level_checks), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
@@ -131,12 +127,11 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
   PathResult result;
   const Capabilities has = query.simulator.capabilities();
   if (!has.distance || has.max_moving < query.cast.moving.size()) {
-    result.outcome = Outcome::unsupported;
-    result.message = "needs a simulator with distance queries for all moving parts";
+    result.fail(Outcome::unsupported, "needs a simulator with distance queries for all moving parts");
     return result;
   }
-  Budget budget(query, context);
-  const std::uint64_t level = level_limit(query.effort, parameters);
+  CheckBudget budget(query, context);
+  const std::uint64_t level = level_limit(query.budget, parameters);
   const std::uint64_t limit = level > 0 ? level : std::numeric_limits<std::uint64_t>::max();
   Court court(query, parameters.simplify);
 
@@ -151,9 +146,7 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
 
   Scene& first = searches.front()->scene();
   if (first.is_out(first.space().start())) {
-    const auto start = first.poses(first.space().start());
-    result.outcome = Outcome::start_is_goal;
-    result.path = {start, start};
+    result.start_is_goal();
     return result;
   }
 
@@ -166,7 +159,7 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
     }
 
   if (!solved) {
-    result.outcome = budget.spent() ? budget.why() : Outcome::depth_limit;
+    result.fail(budget.spent() ? budget.why() : Outcome::depth_limit);
     std::size_t furthest = 0;
     double most = -1;
     for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -181,14 +174,15 @@ PathResult plan_by_trees(const PathQuery& query, RunContext& context, const Tree
     if (!context.cancel.cancelled()) result.blocked_by = searches.front()->scene().blockers();
   }
   for (const auto& search : searches) {
-    result.counts["nodes"] += static_cast<double>(search->tree().size());
-    result.counts["iterations"] += static_cast<double>(search->tree().iterations());
-    if (make_lines) result.counts["lines"] += static_cast<double>(search->lines());
+    result.stats.nodes += search->tree().size();
+    result.stats.extra["iterations"] += static_cast<double>(search->tree().iterations());
+    if (make_lines) result.stats.extra["lines"] += static_cast<double>(search->lines());
   }
-  result.counts["checks"] = static_cast<double>(budget.checks);
-  result.counts["refused"] = static_cast<double>(court.refused());
+  result.stats.state_checks = budget.checks;
+  result.stats.refused = court.refused();
+  result.stats.cost = static_cast<double>(budget.checks);
   std::string text = "trees:";
-  for (const auto& [name, count] : result.counts)
+  for (const auto& [name, count] : result.stats.by_name())
     text += " " + name + " " + std::to_string(static_cast<std::uint64_t>(count));
   context.log(LogLevel::debug, text);
   return result;

@@ -10,17 +10,17 @@ constexpr std::uint64_t kStepsPerLevel = 2000;  // of a depth limit: simulated, 
 
 /// The result of the later search, with what the earlier one has counted and touched.
 PathResult merged(const PathResult& earlier, PathResult later) {
-  for (const auto& [name, value] : earlier.counts) later.counts[name] += value;
+  later.stats += earlier.stats;
   for (const PartId part : earlier.blocked_by)
     if (std::find(later.blocked_by.begin(), later.blocked_by.end(), part) == later.blocked_by.end())
       later.blocked_by.push_back(part);
-  if (later.message.empty() && later.outcome != Outcome::solved) later.message = earlier.message;
+  if (later.message.empty() && later.outcome() != Outcome::solved) later.message = earlier.message;
   return later;
 }
 
 /// What an earlier search in that space has reached; null where there was none.
 const Tree* reached_in(const PathQuery& query, MotionSpace space) {
-  const auto* reached = dynamic_cast<const Reached*>(query.reached);
+  const auto* reached = dynamic_cast<const Reached*>(query.resume_from);
   if (reached == nullptr) return nullptr;
   const std::optional<Tree>& tree = space == MotionSpace::translation ? reached->translation : reached->rigid;
   return tree ? &*tree : nullptr;
@@ -33,7 +33,7 @@ Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, 
 }
 
 bool in_vain(const PathResult& result) {
-  return result.outcome == Outcome::exhausted || result.outcome == Outcome::depth_limit;
+  return result.outcome() == Outcome::exhausted || result.outcome() == Outcome::depth_limit;
 }
 
 /// One search after the other, the first that finds something ending it.
@@ -53,8 +53,8 @@ class OneByOne {
     std::uint64_t* const all = share ? std::exchange(limits.steps_left, &own) : nullptr;
     PathResult result = search.run(limits);
     if (all != nullptr) *all -= most - own;
-    if (share && result.outcome == Outcome::timeout && own == 0 && most < left) result.outcome = Outcome::depth_limit;
-    if (!is_success(result.outcome))
+    if (share && result.outcome() == Outcome::timeout && own == 0 && most < left) result.fail(Outcome::depth_limit);
+    if (!is_success(result.outcome()))
       (space == MotionSpace::translation ? reached_->translation : reached_->rigid) = search.tree();
     result_ = any_ ? merged(result_, std::move(result)) : std::move(result);
     any_ = true;
@@ -62,11 +62,11 @@ class OneByOne {
   }
 
   PathResult result() {
-    if (in_vain(result_) || result_.outcome == Outcome::timeout) result_.reached = reached_;
+    if (in_vain(result_) || result_.outcome() == Outcome::timeout) result_.state = reached_;
     return result_;
   }
   PathResult result(Outcome instead) {
-    result_.outcome = instead;
+    result_.fail(instead);
     return result();
   }
 
@@ -115,11 +115,12 @@ ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& con
       context_(context),
       translation_(begun(query, MotionSpace::translation, tactics, context)),
       rank_(tactics.first_rank) {
-  first_.outcome = second_.outcome = Outcome::depth_limit;
+  first_.fail(Outcome::depth_limit);
+  second_.fail(Outcome::depth_limit);
 }
 
 PathResult ByTurns::run(const Search::Limits& limits) {
-  const auto goes_on = [](const PathResult& r) { return r.outcome == Outcome::depth_limit; };
+  const auto goes_on = [](const PathResult& r) { return r.outcome() == Outcome::depth_limit; };
   paused_ = false;
   Search::Limits turn = limits;
   while (goes_on(first_) || goes_on(second_)) {
@@ -128,7 +129,7 @@ PathResult ByTurns::run(const Search::Limits& limits) {
     Search& search = turning_ ? *rotation_ : translation_;
     PathResult& result = turning_ ? second_ : first_;
     if (goes_on(result)) result = search.run(turn);
-    if (!goes_on(result) && result.outcome != Outcome::exhausted) break;
+    if (!goes_on(result) && result.outcome() != Outcome::exhausted) break;
     paused_ = goes_on(result) && search.paused();
     if (paused_) break;
     if (turning_) ++rank_;
@@ -149,27 +150,25 @@ PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& cont
                 const std::function<void()>& between) {
   const Capabilities has = query.simulator.capabilities();
   if (!has.dynamics || !has.contacts || has.max_moving < query.cast.moving.size()) {
-    PathResult result;
-    result.outcome = Outcome::unsupported;
-    result.message = "pushing needs a simulator with dynamics and contacts for all moving parts";
-    return result;
+    return PathResult::failure(Outcome::unsupported,
+                               "pushing needs a simulator with dynamics and contacts for all moving parts");
   }
-  std::uint64_t steps_left = query.effort.max_steps;
+  std::uint64_t steps_left = query.budget.max_steps;
   Search::Limits limits;
-  limits.deadline = query.effort.timeout > 0 ? Deadline::after_seconds(query.effort.timeout) : Deadline();
-  limits.steps_left = query.effort.max_steps > 0 ? &steps_left : nullptr;
+  limits.deadline = query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline();
+  limits.steps_left = query.budget.max_steps > 0 ? &steps_left : nullptr;
   limits.between = between;
-  const unsigned depth = query.effort.max_depth;
+  const unsigned depth = query.budget.max_depth;
   if (tactics.motion != Motion::automatic) {
     OneByOne search(query, tactics, context);
     search.run(tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid, limits, {});
     return search.result();
   }
-  if (depth > 0 && !query.leaving.empty()) return each_its_way(query, tactics, depth, limits, context);
+  if (depth > 0 && !query.goal.any_of.empty()) return each_its_way(query, tactics, depth, limits, context);
   if (depth > 0) return up_to_depth(query, tactics, depth, limits, context);
   ByTurns turns(query, tactics, context);
   PathResult result = turns.run(limits);
-  if (in_vain(result) || result.outcome == Outcome::timeout) result.reached = turns.reached();
+  if (in_vain(result) || result.outcome() == Outcome::timeout) result.state = turns.reached();
   return result;
 }
 

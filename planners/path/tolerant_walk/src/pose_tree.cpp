@@ -29,10 +29,10 @@ PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunCont
       query_(query),
       context_(context),
       rng_(rng),
-      deadline_(query.effort.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+      deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                          : context.deadline),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.cast, parameters.max_penetration, overlap, cache) {
+      tolerance_(query.assembly, query.cast, parameters.tolerance_share * query.tolerance, overlap, cache) {
   const std::size_t count = query.cast.moving.size();
   for (std::size_t i = 0; i < count; ++i) {
     bodies_.push_back({world_->center(i), world_->radius(i)});
@@ -190,23 +190,20 @@ bool PoseTree::judged(std::uint32_t node, PathResult& result) {
   std::optional<PartId> by;
   for (int round = 0; round <= kRepairs && !halted() && !given_up(); ++round) {
     const std::vector<Pose> shorter = shortened(way);
-    Path path = path_of(shorter);
-    const Verdict verdict = query_.judge(path);
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.depth = static_cast<unsigned>(shorter.size() - 1);
-      result.path = std::move(path);
-      result.message.clear();
+    const Path path = path_of(shorter);
+    PathCheck check = query_.checker.check(path);
+    if (check.accepted()) {
+      result.solve(std::move(*check.verified), static_cast<unsigned>(shorter.size() - 1));
       return true;
     }
     ++refused_;
-    result.message = verdict.reason;
-    if (!verdict.has_witness) break;
-    const auto& instant = verdict.poses.empty() ? path[std::min(verdict.instant, path.size() - 1)] : verdict.poses;
-    by = stands(query_.cast, verdict.other) ? verdict.other : verdict.part;
+    result.message = check.reason;
+    if (!check.has_witness) break;
+    const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
+    by = stands(query_.cast, check.other) ? check.other : check.part;
     at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
-    lessons_.push_back({verdict.part, verdict.other, verdict.point, at_fault});
-    if (tolerance_.learn(verdict.part, verdict.other, verdict.point, at_fault)) {
+    lessons_.push_back({check.part, check.other, check.point, at_fault});
+    if (tolerance_.learn(check.part, check.other, check.point, at_fault)) {
       cut_disallowed();
       return false;
     }
@@ -254,21 +251,20 @@ void PoseTree::cut_disallowed() {
 
 void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const {
   if (!solved) {
-    result.outcome = context_.cancel.cancelled()                                        ? Outcome::cancelled
-                     : deadline_.passed()                                               ? Outcome::timeout
-                     : given_up()                                                       ? Outcome::exhausted
-                     : query_.effort.max_steps > 0 && looks_ >= query_.effort.max_steps ? Outcome::timeout
-                                                                                        : Outcome::depth_limit;
+    result.fail(context_.cancel.cancelled()                                        ? Outcome::cancelled
+                : deadline_.passed()                                               ? Outcome::timeout
+                : given_up()                                                       ? Outcome::exhausted
+                : query_.budget.max_steps > 0 && looks_ >= query_.budget.max_steps ? Outcome::timeout
+                                                                                   : Outcome::depth_limit);
     result.best_pose = poses(nodes_[best].pose);
-    result.reached = reached();
+    result.state = reached();
   }
-  result.counts = {{"nodes", static_cast<double>(nodes_.size())},
-                   {"looks", static_cast<double>(looks_)},
-                   {"refused", static_cast<double>(refused_)}};
-  if (resumed_ > 0) {
-    result.counts["resumed_nodes"] = static_cast<double>(resumed_);
-    result.counts["spared"] = static_cast<double>(spared_);
-  }
+  result.stats = {.state_checks = looks_,
+                  .nodes = nodes_.size(),
+                  .refused = refused_,
+                  .resumed_nodes = resumed_,
+                  .spared = spared_,
+                  .cost = static_cast<double>(looks_)};
   result.blocked_by = path::most_touched(touched_, query_.cast.moving);
 }
 

@@ -38,7 +38,7 @@ Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& con
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
       tree_(parameters_, query, context, rng_, Overlap::everywhere, cache) {
-  const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.reached);
+  const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
   if (reached == nullptr || !reached->has_room_now(query.cast)) return;
   tree_.resume(*reached);
   resumed_ = true;
@@ -121,11 +121,10 @@ bool Walk::judged(std::uint32_t node, PathResult& result) {
 PathResult Walk::run(std::uint64_t most_looks) {
   PathResult result;
   if (tree_.separated(Pose{})) {
-    result.outcome = Outcome::start_is_goal;
-    result.path = {tree_.poses(Pose{}), tree_.poses(Pose{})};
+    result.start_is_goal();
     return result;
   }
-  if (query_.effort.max_steps > 0) most_looks = std::min(most_looks, query_.effort.max_steps);
+  if (query_.budget.max_steps > 0) most_looks = std::min(most_looks, query_.budget.max_steps);
   most_looks -= std::min(tree_.spared(), most_looks / 2);
   bool solved = false;
   if (std::exchange(resumed_, false))  // what was in the way there may have left

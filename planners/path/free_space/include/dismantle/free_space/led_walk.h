@@ -35,7 +35,7 @@ class LedWalk {
   /// Until so many poses were looked at, or 12 times the `patience` is used up. After so much work without coming
   /// further the narrowest place ahead is taken for closed, and after so many detours it gives up; at once where the
   /// body has only some play. Unit of work: a look that takes 1000 distances; no look counts less than a quarter.
-  /// Outcomes as of tolerant_walk::Walk. Goes on from PathQuery::reached where that is of such a walk.
+  /// Outcomes as of tolerant_walk::Walk. Goes on from PathQuery::resume_from where that is of such a walk.
   PathResult run(std::uint64_t most_looks, double patience, unsigned most_detours);
   std::uint64_t looks() const { return tree_.looks(); }
   /// It has only some play where it starts, by what was found until now.

@@ -41,8 +41,8 @@ class ByTurns {
 
 /// Searches in the motion space that the tactics name, or, with `motion: auto`, by translation and by rotation:
 /// in turns of growing rank until both are exhausted; under a depth limit with a number of states for each.
-/// Goes on from PathQuery::reached where that is one of its own, and says what it has reached where it finds nothing.
-/// `between`: see Search::Limits.
+/// Goes on from PathQuery::resume_from where that is one of its own, and says what it has reached where it finds
+/// nothing. `between`: see Search::Limits.
 PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
                 const std::function<void()>& between = {});
 

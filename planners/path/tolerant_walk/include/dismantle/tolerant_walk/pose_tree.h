@@ -31,7 +31,7 @@ class PoseTree {
   };
 
   /// A tree as it was when a search ended in vain.
-  class Reached final : public dismantle::Reached {
+  class Reached final : public SearchState {
    public:
     /// Has what it was stuck at left since? Else it is stuck still: a random tree that begins anew, with other dice, is
     /// worth more than one that goes on from the same dead ends.

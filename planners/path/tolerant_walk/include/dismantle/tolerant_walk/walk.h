@@ -19,8 +19,8 @@ class Walk {
   Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache);
 
   /// Goes on until so many poses were looked at in all, those included, up to a half, that an earlier walk has looked
-  /// at from which it goes on (PathQuery::reached). `depth_limit`: that is the case; `exhausted`: the judge has refused
-  /// too much.
+  /// at from which it goes on (PathQuery::resume_from). `depth_limit`: that is the case; `exhausted`: the judge has
+  /// refused too much.
   PathResult run(std::uint64_t most_looks);
   std::uint64_t looks() const { return tree_.looks(); }
 
