@@ -34,9 +34,12 @@ constexpr std::uint64_t kPlenty = 30'000;
 
 TEST(PathPlanners, TheOnesOfThisProjectAreThere) {
   const auto found = ids(PluginKind::path_planner);
-  for (const char* id : {"bfs", "guided"})
+  for (const char* id : {"bfs", "guided", "contact_search", "navigation_tree", "tolerant_rrt", "tunnel_forest", "portfolio"})
     EXPECT_EQ(std::count(found.begin(), found.end(), id), 1) << registry().why_missing(PluginKind::path_planner, id);
 }
+
+/// Those that find the paths of all small assemblies.
+bool is_contact_search(const std::string& id) { return id == "bfs" || id == "guided" || id == "contact_search"; }
 
 class PathPlannerContract : public testing::TestWithParam<std::string> {
  protected:
@@ -179,7 +182,7 @@ TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
   for (std::size_t which = 0; which < small_assemblies().size(); ++which) {
     Run run;
     plan(run, which);
-    if (GetParam() == "bfs" || GetParam() == "guided") {
+    if (is_contact_search(GetParam())) {
       EXPECT_EQ(run.result.outcome(), Outcome::solved) << small_assemblies()[which].name;
     }
   }
@@ -251,7 +254,7 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
     EXPECT_EQ(again.result.outcome(), same_again.result.outcome());
     EXPECT_EQ(again.result.stats, same_again.result.stats);
     EXPECT_TRUE(same(poses_of(again.result), poses_of(same_again.result)));
-    if (GetParam() == "bfs" || GetParam() == "guided") {
+    if (is_contact_search(GetParam())) {
       EXPECT_NE(first.result.state, nullptr);
       EXPECT_EQ(is_success(again.result.outcome()), is_success(anew.result.outcome())) << part.name;
       solved += is_success(again.result.outcome()) ? 1 : 0;
@@ -261,7 +264,7 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
       EXPECT_EQ(again.result.state, nullptr);
     }
   }
-  if (GetParam() == "bfs" || GetParam() == "guided") {
+  if (is_contact_search(GetParam())) {
     EXPECT_GT(solved, 0);
   }
 }
@@ -355,7 +358,7 @@ TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {
   cast.moving[0].pose.t = Vector3d(0.01, -0.005, 0.4);
   Run run;
   plan(run, 0, {.max_steps = kPlenty}, {}, {}, &cast);
-  if (GetParam() == "bfs" || GetParam() == "guided") {
+  if (is_contact_search(GetParam())) {
     EXPECT_EQ(run.result.outcome(), Outcome::solved);
   }
 }

@@ -1,18 +1,22 @@
+#include <memory>
+
 #include "dismantle/plugin.h"
-#include "dismantle/push/plan.h"
+#include "dismantle/push/push_path_search.h"
 #include "parameters.h"
 
 namespace dismantle::bfs {
 namespace {
 
-class Bfs final : public FunctionPathPlanner {
+class Bfs final : public PathPlanner {
  public:
   explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
 
   PathPlannerTraits traits() const noexcept override {
     return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
   }
-  PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return std::make_unique<push::PushPathSearch>(query, tactics_, context);
+  }
 
  private:
   push::Tactics tactics_;

@@ -32,15 +32,16 @@ void Growth::add(MotionSpace motion, std::uint64_t stream) {
        kFirstTurn});
 }
 
-PathResult Growth::run(std::uint64_t until) {
+PathResult Growth::run(std::uint64_t until, const Deadline& pause_at) {
   until_ = until;
+  pause_at_ = pause_at;
   PathResult result;
   if (forests_.front().forest->starts_out()) {
     result.start_is_goal();
     return result;
   }
   bool solved = false;
-  while (!solved && !over() && used() < until_) {
+  while (!solved && !over() && used() < until_ && !pause_at_.passed()) {
     Grown& grown = forests_[next_];
     next_ = (next_ + 1) % forests_.size();
     if (grown.barren < kBarren) solved = take_turn(grown, result);
@@ -52,7 +53,7 @@ PathResult Growth::run(std::uint64_t until) {
 
 bool Growth::take_turn(Grown& grown, PathResult& result) {
   const std::uint64_t begin = used(), end = std::min(until_, begin + grown.turn);
-  const auto stop = [&] { return used() >= end || stopped(); };
+  const auto stop = [&] { return used() >= end || stopped() || pause_at_.passed(); };
   bool solved = false;
   // Extensions that are stopped at once, as where nothing can move, need a count of their own.
   std::uint64_t extensions = 0;

@@ -21,7 +21,8 @@ class Growth {
 
   /// Goes on where the last call stopped, until so many steps were simulated in all calls together. `depth_limit`: that
   /// is the case; `exhausted`: the judge has refused too much, or nothing new is seen any more.
-  PathResult run(std::uint64_t until);
+  /// ... or until `pause_at`.
+  PathResult run(std::uint64_t until, const Deadline& pause_at = {});
   /// Simulated so far.
   std::uint64_t used() const;
 
@@ -50,6 +51,7 @@ class Growth {
   std::vector<Grown> forests_;
   std::size_t next_ = 0;  ///< whose turn it is
   std::uint64_t until_ = 0;
+  Deadline pause_at_;
 };
 
 }  // namespace dismantle::tunnel_forest

@@ -294,35 +294,41 @@ bool LedWalk::fly(PathResult& result) {
   return false;
 }
 
-PathResult LedWalk::run(std::uint64_t most_looks, double patience, unsigned most_detours) {
+PathResult LedWalk::run(const Limits& limits) {
   PathResult result;
-  if (query_.budget.max_steps > 0) most_looks = std::min(most_looks, query_.budget.max_steps);
+  const std::uint64_t most_looks =
+      query_.budget.max_steps > 0 ? std::min(limits.most_looks, query_.budget.max_steps) : limits.most_looks;
+  const double patience = limits.patience;
   bool solved = false;
-  unsigned detours = 0;
-  progress_at_ = work();
-  const Left at_first = left(Pose{});
+  paused_ = false;
+  if (!std::exchange(begun_, true)) {
+    progress_at_ = work();
+    at_first_ = left(Pose{});
+  }
   // What was in the way where an earlier walk had come may have left.
   if (std::exchange(resumed_, false) && leads_out_ && best_ != 0 && tree_.separated(tree_[best_].pose)) {
     solved = tree_.judged(best_, result);
     if (!solved) begin_again();
   }
+  const std::uint64_t pause_at = limits.pause_after > 0 ? looks() + limits.pause_after : ~std::uint64_t{0};
   while (!solved && leads_out_ && looks() < most_looks && work() < kMostOfPatience * patience && !tree_.halted() &&
          !tree_.given_up()) {
+    if ((paused_ = looks() >= pause_at || limits.pause_at.passed())) break;
     solved = fly(result);
     if (solved) break;
     // What is held where it is has some play, too: it takes a good piece of the way to be worth more looks.
-    const bool play = !moves_ && at_first.back() - best_left_ < kHeld * tree_.radius();
+    const bool play = !moves_ && at_first_.back() - best_left_ < kHeld * tree_.radius();
     held_ = held_ && play;
     if (looks() >= first_look_ + kFirst && play) break;
     bool worth_it = moves_;  // what is threaded through somewhere has long come no further
     for (std::size_t r = 0; r < kRanks; ++r)
-      worth_it = worth_it || at_first[r] - least_[r] > std::min(kWorthIt * at_first[r], kOfBody * tree_.radius());
+      worth_it = worth_it || at_first_[r] - least_[r] > std::min(kWorthIt * at_first_[r], kOfBody * tree_.radius());
     const bool in_vain = work() >= progress_at_ + patience;
     if (!worth_it && (in_vain || work() >= first_work_ + 2 * patience)) break;
-    if (in_vain && (++detours > most_detours || !detour())) break;
+    if (in_vain && (++detours_ > limits.most_detours || !detour())) break;
   }
   tree_.finish(solved, best_, result);
-  result.stats.extra["detours"] = detours;
+  result.stats.extra["detours"] = detours_;
   result.stats.extra["left"] = best_left_;
   return result;
 }

@@ -109,6 +109,16 @@ PathResult each_its_way(const PathQuery& query, const Tactics& tactics, unsigned
 
 Capabilities required() { return {.dynamics = true, .contacts = true, .distance = false, .max_moving = 1}; }
 
+bool supported(const PathQuery& query) {
+  const Capabilities has = query.simulator.capabilities();
+  return has.dynamics && has.contacts && has.max_moving >= query.cast.moving.size();
+}
+
+void ByTurns::go_on() {
+  for (PathResult* result : {&first_, &second_})
+    if (result->outcome() == Outcome::timeout) result->fail(Outcome::depth_limit);
+}
+
 ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& context)
     : query_(query),
       tactics_(tactics),
@@ -148,11 +158,9 @@ std::shared_ptr<const Reached> ByTurns::reached() const {
 
 PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
                 const std::function<void()>& between) {
-  const Capabilities has = query.simulator.capabilities();
-  if (!has.dynamics || !has.contacts || has.max_moving < query.cast.moving.size()) {
+  if (!supported(query))
     return PathResult::failure(Outcome::unsupported,
                                "pushing needs a simulator with dynamics and contacts for all moving parts");
-  }
   std::uint64_t steps_left = query.budget.max_steps;
   Search::Limits limits;
   limits.deadline = query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline();

@@ -118,8 +118,9 @@ bool Walk::judged(std::uint32_t node, PathResult& result) {
   return false;
 }
 
-PathResult Walk::run(std::uint64_t most_looks) {
+PathResult Walk::run(std::uint64_t most_looks, std::uint64_t pause_after, const Deadline& pause_at) {
   PathResult result;
+  paused_ = false;
   if (tree_.separated(Pose{})) {
     result.start_is_goal();
     return result;
@@ -130,7 +131,11 @@ PathResult Walk::run(std::uint64_t most_looks) {
   if (std::exchange(resumed_, false))  // what was in the way there may have left
     for (const std::uint32_t n : std::array(furthest_))
       if (!solved && !tree_.halted() && !tree_[n].cut && tree_.separated(tree_[n].pose)) solved = judged(n, result);
-  while (!solved && looks() < most_looks && !tree_.halted() && !tree_.given_up()) solved = fly(result);
+  const std::uint64_t until = pause_after > 0 ? looks() + pause_after : ~std::uint64_t{0};
+  while (!solved && looks() < most_looks && !tree_.halted() && !tree_.given_up()) {
+    if ((paused_ = looks() >= until || pause_at.passed())) break;
+    solved = fly(result);
+  }
   std::uint32_t best = 0;
   for (const std::uint32_t n : furthest_)
     if ((tree_[n].center - tree_.center()).norm() > (tree_[best].center - tree_.center()).norm()) best = n;

@@ -13,6 +13,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The needs of what a parameter holds; presets among it have those of what they hold.
+void add_needs(const ParamSpec& spec, const TypeSource& types, Capabilities& needs) {
+  std::vector<PluginChoice> held;
+  if (const auto* one = std::get_if<PluginChoice>(&spec.fallback)) held = {*one};
+  if (const auto* many = std::get_if<std::vector<PluginChoice>>(&spec.fallback)) held = *many;
+  for (const PluginChoice& choice : held) {
+    const RegisteredType& type = *types.lookup(spec.plugin_kind, choice.type);
+    const Capabilities& more = type.type.traits.needs;
+    needs.dynamics = needs.dynamics || more.dynamics;
+    needs.contacts = needs.contacts || more.contacts;
+    needs.distance = needs.distance || more.distance;
+    needs.max_moving = std::max(needs.max_moving, more.max_moving);
+    for (ParamSpec inner : type.type.params) {
+      if (const auto own = choice.parameters.find(inner.name); own != choice.parameters.end()) inner.fallback = own->second;
+      add_needs(inner, types, needs);
+    }
+  }
+}
+
 }  // namespace
 
 fs::path preset_folder(const fs::path& built_in_folder) {
@@ -81,6 +100,7 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
   for (ParamSpec& spec : made->type.params) {
     spec.fallback = choice->parameters.at(spec.name);
     spec.required = false;
+    add_needs(spec, types, made->type.traits.needs);
   }
   const RegisteredType* result = made.get();
   presets_[id] = std::move(made);

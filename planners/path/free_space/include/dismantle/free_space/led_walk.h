@@ -32,11 +32,21 @@ class LedWalk {
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
   bool leads_out() const { return leads_out_; }
-  /// Until so many poses were looked at, or 12 times the `patience` is used up. After so much work without coming
-  /// further the narrowest place ahead is taken for closed, and after so many detours it gives up; at once where the
-  /// body has only some play. Unit of work: a look that takes 1000 distances; no look counts less than a quarter.
+  /// Of all calls of run() together, except for the last two. Unit of work: a state check of 1000 distance queries; none
+  /// counts less than a quarter.
+  struct Limits {
+    std::uint64_t most_looks = ~std::uint64_t{0};  ///< state checks
+    double patience = 0;                           ///< work without progress until a detour; 12 times that in all
+    unsigned most_detours = 0;                     ///< places that are taken for closed
+    std::uint64_t pause_after = 0;                 ///< state checks of this call, after which it pauses; 0: none
+    Deadline pause_at{};                           ///< of this call
+  };
+  /// Goes on where the last call paused. After work without progress the narrowest place ahead is taken for closed;
+  /// after the last detour it gives up, and soon where the body has only some play.
   /// Outcomes as of tolerant_walk::Walk. Goes on from PathQuery::resume_from where that is of such a walk.
-  PathResult run(std::uint64_t most_looks, double patience, unsigned most_detours);
+  PathResult run(const Limits& limits);
+  /// The last call ended because of `pause_after` or `pause_at`.
+  bool paused() const { return paused_; }
   std::uint64_t looks() const { return tree_.looks(); }
   /// It has only some play where it starts, by what was found until now.
   bool held() const { return held_; }
@@ -91,6 +101,9 @@ class LedWalk {
   std::uint64_t first_look_ = 0;         // when the walk began, or the judge has last refused a way
   double first_work_ = 0;
   bool resumed_ = false;
+  bool begun_ = false, paused_ = false;
+  unsigned detours_ = 0;
+  Left at_first_{};  // of the way, when the walk began
 };
 
 }  // namespace dismantle::free_space

@@ -13,6 +13,8 @@ namespace dismantle::push {
 
 /// What the simulator has to be capable of.
 Capabilities required();
+/// Has the simulator all of that, for all moving parts?
+bool supported(const PathQuery& query);
 
 /// Search by translation and by rotation in turns of growing rank, until both are exhausted: what is new to each kind
 /// of motion comes before the rest of the other.
@@ -24,6 +26,8 @@ class ByTurns {
   /// Goes on where the last call stopped; Limits::rank is its own affair. `depth_limit`: it was paused.
   PathResult run(const Search::Limits& limits);
   bool paused() const { return paused_; }
+  /// After the deadline of a call, where the search has more time: another call goes on.
+  void go_on();
   /// What both have reached.
   std::shared_ptr<const Reached> reached() const;
 

@@ -21,7 +21,10 @@ class Walk {
   /// Goes on until so many poses were looked at in all, those included, up to a half, that an earlier walk has looked
   /// at from which it goes on (PathQuery::resume_from). `depth_limit`: that is the case; `exhausted`: the judge has
   /// refused too much.
-  PathResult run(std::uint64_t most_looks);
+  /// `pause_after`: state checks of this call, after which it pauses; 0: none. Another call goes on.
+  PathResult run(std::uint64_t most_looks, std::uint64_t pause_after = 0, const Deadline& pause_at = {});
+  /// The last call ended because of `pause_after` or `pause_at`.
+  bool paused() const { return paused_; }
   std::uint64_t looks() const { return tree_.looks(); }
 
  private:
@@ -37,7 +40,7 @@ class Walk {
   Rng rng_;
   PoseTree tree_;
   std::array<std::uint32_t, 26> furthest_{};  ///< nodes, by direction
-  bool resumed_ = false;
+  bool resumed_ = false, paused_ = false;
   double looked_at_ = 0;  ///< distance from the start at which it was last asked whether it is out
 };
 
