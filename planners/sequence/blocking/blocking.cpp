@@ -33,7 +33,7 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
   schema.add(
       "at_once", &BlockingParams::at_once,
       {.doc = "Then move two or three parts at once, each in its own way, where nobody else is in the way of one of "
-              "them (interlocks). Needs a path planner that does so (bfs, guided)."});
+              "them (interlocks). Needs a path planner that does so (bfs, contact_search, guided)."});
   schema.add("max_depth", &BlockingParams::max_depth,
              {.unit = "1",
               .min = 1,
