@@ -33,10 +33,10 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
   const Assembly assembly =
       prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
   Ingredients ingredients;
-  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
-  ingredients.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.params); };
+  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
+  ingredients.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.parameters); };
   ingredients.sequence_planner =
-      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
+      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   ingredients.path_planner_id = planner;
   RunOptions options;
   options.path_timeout = 0;

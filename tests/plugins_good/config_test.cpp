@@ -23,7 +23,7 @@ TEST_F(Config, DefaultsWithoutAnyFile) {
   EXPECT_EQ(config.run.timeout, 7200);
   EXPECT_EQ(config.verify.max_penetration, 0.01);
   EXPECT_EQ(config.assembly.subdivide, PrepareOptions{}.subdivide);
-  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("motion")), "auto");
+  EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("motion")), "auto");
   EXPECT_EQ(config.origins.at("run.seed"), "default");
 }
 
@@ -38,11 +38,11 @@ verify: {max_penetration: 0.001}
 )");
   EXPECT_EQ(config.assembly.subdivide, 0.25);
   EXPECT_FALSE(config.assembly.drop_duplicates);
-  EXPECT_EQ(std::get<double>(config.simulator.params.at("contact_stiffness")), 2e6);
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("goal_bias")), 0.2);
-  EXPECT_EQ(std::get<std::int64_t>(config.path_planner.params.at("max_nodes")), 77);
-  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("note")), "a: b # c");
-  EXPECT_EQ(std::get<std::int64_t>(config.sequence_planner.params.at("attempts")), 9);
+  EXPECT_EQ(std::get<double>(config.simulator.parameters.at("contact_stiffness")), 2e6);
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("goal_bias")), 0.2);
+  EXPECT_EQ(std::get<std::int64_t>(config.path_planner.parameters.at("max_nodes")), 77);
+  EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("note")), "a: b # c");
+  EXPECT_EQ(std::get<std::int64_t>(config.sequence_planner.parameters.at("attempts")), 9);
   EXPECT_EQ(config.run.seed, 5);
   EXPECT_EQ(config.run.threads, 2u);
   EXPECT_EQ(config.run.path_steps, 1000);
@@ -134,16 +134,17 @@ TEST_F(Config, Capabilities) {
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
 }
 
-TEST_F(Config, WhoNamesAPathPlannerHasItAskedForEveryWay) {
-  const auto sequence = [&](const std::string& text) {
-    write("run.yaml", "schema: 1\n" + text);
-    return load_config({"run.yaml", {}, {}}, registry_).sequence_planner.type;
-  };
-  EXPECT_EQ(sequence(""), "blocking");
-  EXPECT_EQ(sequence("path_planner: {type: guided}\n"), "blocking");
-  EXPECT_EQ(sequence("path_planner: {type: bfs}\n"), "progressive");
-  EXPECT_EQ(sequence("path_planner: {type: bfs}\nsequence_planner: {type: blocking}\n"), "blocking");
-  EXPECT_EQ(sequence("sequence_planner: {type: random}\n"), "random");
+// Law: naming one plugin never changes another.
+TEST_F(Config, SectionsDoNotDependOnEachOther) {
+  registry_.scan();
+  const RunConfig plain = load_config({}, registry_);
+  for (const RegisteredType* type : registry_.types(PluginKind::path_planner)) {
+    if (type->type.id == "team") continue;  // it has no default
+    const RunConfig config = load_text("schema: 1\npath_planner: {type: " + type->type.id + "}\n");
+    EXPECT_EQ(config.path_planner.type, type->type.id);
+    EXPECT_EQ(config.sequence_planner, plain.sequence_planner) << type->type.id;
+    EXPECT_EQ(config.transfer_planner, plain.transfer_planner) << type->type.id;
+  }
 }
 
 TEST_F(Config, Choices) {

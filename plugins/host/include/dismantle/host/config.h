@@ -29,12 +29,6 @@ struct RunSettings {
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
-/// One of the chosen plugins. `params` is complete.
-struct PluginChoice {
-  std::string type;
-  ParamSet params;
-};
-
 /// What the user asks of the order, by names of parts. See Constraints.
 struct NamedConstraints {
   std::vector<std::string> base;
@@ -49,6 +43,7 @@ DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const As
 
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
+  /// With complete parameters, those of the plugins that they hold included.
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
   PrepareOptions assembly;
   RunSettings run;
@@ -96,10 +91,6 @@ struct PluginSection {
   const char* default_id;
 };
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
-/// The type that is taken where the section names none. Whoever names a path planner other than the default wants that
-/// one asked for every way: then the sequence planner is `progressive`, which finds no ways by itself.
-DISMANTLE_API std::string default_type(const PluginSection& section, const std::string& path_planner);
-
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 
 }  // namespace dismantle

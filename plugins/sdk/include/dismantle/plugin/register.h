@@ -15,8 +15,8 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
                 PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Deadline, CancelToken,
-                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType,
-                Registrar>();
+                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+                PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,

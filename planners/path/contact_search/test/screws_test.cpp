@@ -7,7 +7,7 @@
 #include "dismantle/samples.h"
 #include "table.h"
 
-namespace dismantle::guided {
+namespace dismantle::contact_search {
 namespace {
 
 /// As `dismantle plan` prepares it; seed 0: as built, otherwise turned at random.
@@ -24,7 +24,7 @@ void expect_solved(const Assembly& assembly, const std::string& name, std::uint6
   const auto part =
       std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const Part& p) { return p.name == name; });
   ASSERT_NE(part, assembly.parts.end());
-  const PathResult result = table.plan("guided", {}, 0, {.max_steps = most_steps}, {part->id});
+  const PathResult result = table.plan("contact_search", {}, 0, {.max_steps = most_steps}, {part->id});
   ASSERT_EQ(result.outcome(), Outcome::solved) << result.message;
   std::vector<PlacedPart> still;
   for (const Part& p : assembly.parts)
@@ -46,13 +46,13 @@ void expect_solved_however_it_lies(const std::string& name, const std::string& p
   }
 }
 
-TEST(GuidedScrews, ANutIsUnscrewed) {
+TEST(ContactSearchScrews, ANutIsUnscrewed) {
   expect_solved_however_it_lies("bolt_and_nut", "nut",
                                 {{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}});
 }
-TEST(GuidedScrews, ARingLeavesACurvedTube) {
+TEST(ContactSearchScrews, ARingLeavesACurvedTube) {
   expect_solved_however_it_lies("ring_on_curved_tube", "ring", {{"segments", std::int64_t{24}}});
 }
 
 }  // namespace
-}  // namespace dismantle::guided
+}  // namespace dismantle::contact_search
