@@ -22,6 +22,9 @@ Simulator::~Simulator() = default;
 Reached::~Reached() = default;
 PathPlanner::~PathPlanner() = default;
 PathOracle::~PathOracle() = default;
+const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
+  return nullptr;
+}
 const Constraints& PathOracle::constraints() const {
   static const Constraints none;
   return none;

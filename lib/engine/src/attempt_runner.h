@@ -37,8 +37,6 @@ class AttemptRunner {
   struct Judgement;
   PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, const RunContext& run,
                   Judgement& last) const;
-  const Lock* locked(const Attempt& attempt) const;
-  std::optional<Cage> caged(const Attempt& attempt, const RunContext& context) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
+
+#include "stopwatch.h"
 
 namespace dismantle {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 || depth > than); }
 
@@ -35,6 +40,7 @@ Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredi
       constraints_(options.constraints),
       make_planner_(ingredients.path_planner),
       runner_(assembly, prepared, ingredients, options, verifier, context.rng),
+      proofs_(assembly, verifier, ingredients.provers, context),
       planners_(context.threads > 1 && context.crew ? context.crew->threads() : std::max(1u, context.threads)) {
   if (context.threads > 1)
     pool_ = std::make_unique<AttemptPool>(
@@ -45,8 +51,38 @@ Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredi
         context);
 }
 
+/// A search, unless it is proved before that it finds nothing; where it found nothing, perhaps a proof after it. Time
+/// limits of the attempt begin with the search.
 ComputedAttempt Oracle::compute(unsigned worker, const Attempt& attempt, const AttemptKey& key,
                                 const RunContext& context) {
+  Clock::time_point begin = Clock::now();
+  ComputedAttempt computed;
+  computed.answer.certificate = proofs_.before(attempt, context);
+  double proof_seconds = seconds_since(begin);
+  if (computed.answer.certificate != nullptr) {
+    computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
+  } else {
+    computed = search(worker, attempt, key, context);
+    begin = Clock::now();
+    if (!computed.interrupted) computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
+    proof_seconds += seconds_since(begin);
+    if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
+      PathResult& result = computed.answer.result;
+      result.outcome = Outcome::infeasible;
+      result.message = found->text;
+      result.blocked_by = infeasible_by(*found, attempt).blocked_by;
+      result.reached = nullptr;
+    }
+    // A proof that was cut short leaves open what a longer one says.
+    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome))
+      computed.interrupted = true;
+  }
+  computed.answer.proof_seconds = proof_seconds;
+  return computed;
+}
+
+ComputedAttempt Oracle::search(unsigned worker, const Attempt& attempt, const AttemptKey& key,
+                               const RunContext& context) {
   std::shared_ptr<PathPlanner>& planner = planners_[worker];
   std::string problem;
   if (!planner) {
@@ -181,7 +217,13 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
 const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
   const CastDigest cast = digest_of(canonical(attempt, part_count_));
   const std::lock_guard lock(ask_mutex_);
-  ComputedAttempt computed = runner_.judge_way(attempt, way, context);
+  ComputedAttempt computed;
+  if (const Certificate* lock = attempt.part_way ? nullptr : proofs_.locked(attempt)) {
+    computed.answer.certificate = lock;
+    computed.answer.result = infeasible_by(*lock, attempt);
+  } else {
+    computed = runner_.judge_way(attempt, way, context);
+  }
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;

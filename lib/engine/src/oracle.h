@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "attempt_pool.h"
+#include "proof_schedule.h"
 
 namespace dismantle {
 
@@ -30,11 +31,16 @@ class Oracle final : public PathOracle {
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
   const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) override;
   OracleCounts counts() const override;
+  const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override {
+    return proofs_.prove(question, context);
+  }
   const Verifier* judge() const override { return &verifier_; }
   const Constraints& constraints() const override { return constraints_; }
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
+  /// As ProofSchedule::seconds.
+  double proof_seconds() const { return proofs_.seconds(); }
   /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
   const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
 
@@ -47,6 +53,7 @@ class Oracle final : public PathOracle {
   const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
   const AttemptResult* remembered(const AttemptKey& key);
   ComputedAttempt compute(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
+  ComputedAttempt search(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
   const AttemptResult& keep(AttemptResult result);
   const AttemptResult& reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
                                  const std::vector<PartId>& order);
@@ -56,6 +63,7 @@ class Oracle final : public PathOracle {
   Constraints constraints_;
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;
   AttemptRunner runner_;
+  ProofSchedule proofs_;
   std::mutex ask_mutex_;  ///< one question at a time; threads work behind it
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;

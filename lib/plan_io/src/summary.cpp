@@ -134,6 +134,14 @@ std::string explain_text(const Plan& plan) {
         out +=
             fmt::format("  overlaps {} by {:.2g} assembly units when assembled\n", o.a == u.part ? o.b : o.a, o.depth);
     if (!u.message.empty()) out += fmt::format("  said: {}\n", u.message);
+    if (u.certificate && *u.certificate < plan.certificates.size()) {
+      const PlanCertificate& c = plan.certificates[*u.certificate];
+      out += fmt::format("  certificate {} ({}), {}; `dismantle verify` checks it again\n", *u.certificate, c.kind,
+                         c.full_tolerance
+                             ? std::string("for all motions within the tolerance")
+                             : fmt::format("for motions that cut in by no more than {:.4g} assembly units", c.margin));
+      if (c.text != u.message) out += fmt::format("    {}\n", c.text);
+    }
   }
   return out;
 }
@@ -156,6 +164,8 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
+  if (check.certificates > 0)
+    out += fmt::format("{} that parts cannot be separated: proved again\n", counted(check.certificates, "certificate"));
   out += fmt::format("The plan is valid, penetration <= {:.2g} assembly units, and {}.\n", check.max_penetration,
                      check.complete ? "complete" : "partial: some parts are still together");
   return out;

@@ -62,9 +62,7 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, unsigned threads)
     : assembly_overlaps(a.overlaps),
       options(o),
       rungs(rungs_up_to(o.max_penetration)),
-      bodies(a.parts.size()),
-      middles(a.parts.size()),
-      balls(a.parts.size()) {
+      bodies(a.parts.size()) {
   const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
   on_threads(
@@ -76,11 +74,6 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, unsigned threads)
         bodies[i] = std::move(body);
       },
       never);
-  std::vector<std::optional<Lock>> found(assembly_overlaps.size());
-  on_threads(
-      found.size(), threads, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
-  for (const auto& lock : found)
-    if (lock) locks.push_back(*lock);
 }
 
 double Verifier::Impl::overlap(PartId a, PartId b) const {
@@ -234,7 +227,7 @@ std::size_t Verifier::parts() const { return impl_->bodies.size(); }
 
 const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodies.at(part).corners; }
 
-const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
+const std::vector<geometry::Solid>& Verifier::solids(PartId part) const { return impl_->bodies.at(part).solids; }
 
 MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                                    const Path& path) const {
@@ -278,8 +271,6 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
   Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
   Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
   if (!a.swept.overlaps(b.swept)) return true;
-  for (const Lock& lock : impl_->locks)
-    if (std::minmax(lock.inside, lock.other) == std::minmax(moving, still)) return false;
   const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
   for (const auto& x : impl_->bodies[moving].solids)
     for (const auto& y : impl_->bodies[still].solids) {

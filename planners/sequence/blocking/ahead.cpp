@@ -113,9 +113,9 @@ void TakingApart::add_searches(const Group& group, unsigned depth, const std::ve
   }
 }
 
-/// What the judge says of a pair; meanwhile idle threads seek what may be asked next.
-std::optional<std::string> TakingApart::proved(const Group& group, const HoldQuestion& question,
-                                               std::span<const HoldQuestion> next) {
+/// What is proved of a pair; meanwhile idle threads seek what may be asked next.
+const Certificate* TakingApart::proved(const Group& group, const HoldQuestion& question,
+                                       std::span<const HoldQuestion> next) {
   std::vector<HoldQuestion> ahead(next.begin(), next.end());
   if (context_.threads > 1) {
     const std::vector<HoldQuestion> likely = likely_proofs(group);

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "blocking/taking_apart.h"
-#include "dismantle/verification/explanations.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -23,6 +22,7 @@ std::size_t most_proofs(HoldQuestion::Kind kind) {
 }
 
 constexpr unsigned kDepthForSure = 4;    // of a search that was in vain
+constexpr double kShareInterlocked = 0.5;  // of what paths may cut in
 constexpr std::size_t kInterlocked = 8;  // parts: the effort grows with the cube of their number
 
 }  // namespace
@@ -53,9 +53,9 @@ bool TakingApart::join_first(Group& group, const std::vector<HoldQuestion>& ques
     ++proofs_[q.kind];
     asked_.insert(q);
     context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[q.a].name);
-    const auto why = proved(group, q, std::span(open).subspan(k + 1));
-    if (!why) continue;
-    join_parts(group, {q.a, q.b}, *why);
+    const Certificate* proof = proved(group, q, std::span(open).subspan(k + 1));
+    if (proof == nullptr) continue;
+    join_parts(group, {q.a, q.b}, *proof);
     return true;
   }
   return false;
@@ -129,9 +129,9 @@ bool TakingApart::join_interlocked(Group& group) {
   std::sort(parts.begin(), parts.end());
   if (!interlocked_.insert(parts).second) return false;
   context_.progress("sequence", out_, units_.size() - 1, assembly_.parts[parts.front()].name);
-  const auto interlock = oracle_.judge()->interlocked(parts, context_);
-  if (!interlock) return false;
-  join_parts(group, parts, describe(*interlock, assembly_));
+  const Certificate* interlock = oracle_.prove({parts, ProofEffort::high, kShareInterlocked}, context_);
+  if (interlock == nullptr) return false;
+  join_parts(group, parts, *interlock);
   return true;
 }
 
@@ -168,13 +168,14 @@ auto TakingApart::alone_in_the_way(const Group& group, UnitId unit) const -> std
   return found;
 }
 
-void TakingApart::join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why) {
-  context_.log(LogLevel::info, why);
+void TakingApart::join_parts(Group& group, const std::vector<PartId>& parts, const Certificate& proof) {
+  context_.log(LogLevel::info, proof.text);
   for (const PartId part : parts) {
     std::vector<PartId> others = parts;
     std::erase(others, part);
     locked_[part] = true;
-    held_.try_emplace(part, Unsolved{part, Outcome::exhausted, others, {}, why});
+    const Outcome outcome = proof.full_tolerance ? Outcome::infeasible : Outcome::exhausted;
+    held_.try_emplace(part, Unsolved{part, outcome, others, {}, proof.text, &proof});
   }
   for (std::size_t i = 1; i < parts.size(); ++i)
     if (unit_of_[parts[i]] != unit_of_[parts[0]]) join(group, unit_of_[parts[0]], unit_of_[parts[i]]);

@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verification/explanations.h"
-
 namespace dismantle::blocking {
 namespace {
 
@@ -19,22 +17,18 @@ constexpr std::size_t kOffered = 4;  // at a time
 
 ProofsAhead::~ProofsAhead() { drop_all_but({}); }  // the offers wait for their ends
 
-std::optional<std::string> ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
-  const auto why = [&](const auto& found) -> std::optional<std::string> {
-    if (!found) return std::nullopt;
-    return describe(*found, assembly_);
-  };
+const Certificate* ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
   switch (q.kind) {
     case Kind::cage:
-      return why(judge_.caged(q.a, q.b, context));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::low, 1}, context);
     case Kind::flat:
-      return why(judge_.caged_flat(q.a, q.b, context));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::medium, 1}, context);
     case Kind::confined_for_sure:
-      return why(judge_.confined(q.a, q.b, context, kShareForSure));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::high, kShareForSure}, context);
     case Kind::confined_at_last:
       break;
   }
-  return why(judge_.confined(q.a, q.b, context, kShareAtLast));
+  return oracle_.prove({{q.a, q.b}, ProofEffort::high, kShareAtLast}, context);
 }
 
 std::size_t ProofsAhead::open() const {
@@ -66,15 +60,15 @@ void ProofsAhead::begin(std::span<const HoldQuestion> wanted, const RunContext& 
     RunContext own;
     own.deadline = context.deadline;
     own.crew = context.crew;
-    auto why = std::make_shared<std::optional<std::string>>();
+    auto proof = std::make_shared<const Certificate*>(nullptr);
     Crew::Offer offer =
-        context.crew->offer([this, question, own, why] { *why = ask(question, own); }, Crew::Rank::ahead);
-    jobs_.emplace(question, Job{own.cancel, std::move(why), std::move(offer)});
+        context.crew->offer([this, question, own, proof] { *proof = ask(question, own); }, Crew::Rank::ahead);
+    jobs_.emplace(question, Job{own.cancel, std::move(proof), std::move(offer)});
   }
 }
 
-std::optional<std::string> ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
-                                               const RunContext& context) {
+const Certificate* ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
+                                       const RunContext& context) {
   std::vector<HoldQuestion> wanted{question};
   wanted.insert(wanted.end(), next.begin(), next.end());
   drop_all_but(wanted);
@@ -88,7 +82,7 @@ std::optional<std::string> ProofsAhead::answer(const HoldQuestion& question, std
   jobs_.erase(known);
   begin(next, context);
   job.offer.wait(context, job.cancel);
-  return *job.why;
+  return *job.proof;
 }
 
 }  // namespace dismantle::blocking

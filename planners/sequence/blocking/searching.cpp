@@ -120,13 +120,17 @@ bool TakingApart::worth_trying(const Group& group, UnitId unit, unsigned depth) 
   const bool room = std::any_of(last.blocked_by.begin(), last.blocked_by.begin() + static_cast<std::ptrdiff_t>(asked),
                                 [&](PartId b) { return !in_group(group, unit_of_[b]); });
   if (room) return true;
-  return last.outcome == Outcome::depth_limit && last.depth < depth;
+  return wants_depth(unit) && last.depth < depth;
 }
 
-/// Did its last search end for want of depth?
+/// Did its last search end for want of depth? Or with a proof that it and another hold each other as assembled: that
+/// one takes it into account when its turn comes.
 bool TakingApart::wants_depth(UnitId unit) const {
   const auto known = tried_.find(units_[unit].front());
-  return known != tried_.end() && known->second.outcome == Outcome::depth_limit;
+  if (known == tried_.end()) return false;
+  const Certificate* proof = known->second.answer != nullptr ? known->second.answer->certificate : nullptr;
+  return known->second.outcome == Outcome::depth_limit ||
+         (known->second.outcome == Outcome::infeasible && proof != nullptr && proof->poses.empty());
 }
 
 void TakingApart::note_waiting(Group& group, const std::vector<UnitId>& units) const {
@@ -176,7 +180,8 @@ bool TakingApart::attempt(Group& group, UnitId unit, unsigned depth, const std::
     return true;
   }
   if (!stop() || !said_.contains(part))
-    said_[part] = Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message};
+    said_[part] =
+        Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message, answer.certificate};
   tried_[part] = {depth,   result.outcome, result.blocked_by, group.units.size(),
                   &answer, poses_[part],   question_now.after};
   cost_[part] = cost_of(part, result);

@@ -230,7 +230,8 @@ bool TakingApart::leave(Group& group, const std::vector<UnitId>& units, std::siz
   if (!is_success(answer.result.outcome)) {
     refused_.insert({parts_of(units), direction});
     for (const PartId id : parts_of(units))
-      said_[id] = Unsolved{id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message};
+      said_[id] = Unsolved{id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message,
+                           answer.certificate};
     return false;
   }
   book(group, units, attempt, answer);

@@ -28,10 +28,11 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
     for (const PartId id : list) root[find(id)] = find(list.front());
   // What nothing can part is moved as one, and others may leave it; that it is not parted is said at the end.
   locked_.resize(assembly.parts.size());
-  if (oracle.judge() != nullptr)
-    for (const Lock& lock : oracle.judge()->locks()) {
-      if (find(lock.inside) != find(lock.other)) locked_[lock.inside] = locked_[lock.other] = true;
-      root[find(lock.inside)] = find(lock.other);
+  for (const InitialOverlap& overlap : assembly.overlaps)
+    if (const Certificate* lock = oracle.prove({{overlap.a, overlap.b}, ProofEffort::trivial, 1}, context)) {
+      const PartId inside = lock->parts[0], other = lock->parts[1];
+      if (find(inside) != find(other)) locked_[inside] = locked_[other] = true;
+      root[find(inside)] = find(other);
     }
   Group all;
   // The last of its parts in the order says when a unit's turn is.
@@ -57,7 +58,7 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   all.first = true;
   watched_.resize(units_.size());
   groups_.push_back(std::move(all));
-  if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(*oracle.judge(), assembly);
+  if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(oracle);
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
     relations_ = std::make_unique<Relations>(*oracle.judge(), directions_, context.crew);
@@ -237,7 +238,9 @@ void TakingApart::tell_locked(UnitId unit) {
     if (const auto held = held_.find(id); held != held_.end()) {
       u = held->second;
     } else if (locked_[id]) {
-      const PathResult& result = oracle_.attempt(attempt, context_).result;
+      const AttemptResult& answer = oracle_.attempt(attempt, context_);
+      const PathResult& result = answer.result;
+      u.certificate = answer.certificate;
       u.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
       u.blocked_by = result.blocked_by;
       u.message = result.message;
@@ -294,7 +297,7 @@ SequenceResult TakingApart::finish() const {
   };
   if (any(Outcome::depth_limit)) result.outcome = Outcome::depth_limit;
   if (any(Outcome::timeout)) result.outcome = Outcome::timeout;
-  for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported})
+  for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported, Outcome::infeasible})
     if (all(o)) result.outcome = o;
   if (interrupted_) result.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
   if (any(Outcome::crashed)) result.outcome = Outcome::crashed;

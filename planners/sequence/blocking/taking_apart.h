@@ -106,7 +106,7 @@ class TakingApart {
   bool join_confined_for_sure(Group& group);
   void add_questions(HoldQuestion::Kind kind, UnitId u, UnitId v, std::vector<HoldQuestion>& questions) const;
   std::optional<UnitId> alone_in_the_way(const Group& group, UnitId unit) const;
-  void join_parts(Group& group, const std::vector<PartId>& parts, const std::string& why);
+  void join_parts(Group& group, const std::vector<PartId>& parts, const Certificate& proof);
   void join(Group& group, UnitId u, UnitId v);
   bool passes_straight(PartId a, PartId b);
 
@@ -159,8 +159,7 @@ class TakingApart {
   bool other_pairs_wait() const;
   void add_searches(const Group& group, unsigned depth, const std::vector<UnitId>& units,
                     std::vector<Attempt>& ahead) const;
-  std::optional<std::string> proved(const Group& group, const HoldQuestion& question,
-                                    std::span<const HoldQuestion> next);
+  const Certificate* proved(const Group& group, const HoldQuestion& question, std::span<const HoldQuestion> next);
   bool known_to_block(PartId a, PartId b) const;
   void seek_cages(const Group& group) const;
   std::vector<HoldQuestion> likely_proofs(const Group& now) const;

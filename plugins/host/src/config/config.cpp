@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config/constraints.h"
+#include "config/immobility.h"
 #include "config/layers.h"
 #include "dismantle/host/config_bind.h"
 
@@ -36,6 +37,7 @@ class Loader {
       }
       config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
     }
+    config_.provers = read_immobility(node("immobility"), registry_, homes_, config_.origins, problems_);
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, problems_);
     check_capabilities();
@@ -55,7 +57,7 @@ class Loader {
   }
 
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)

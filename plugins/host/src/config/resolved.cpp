@@ -109,6 +109,25 @@ class Writer {
     values(section.name, type.type.params, choice.params);
   }
 
+  void provers(const std::vector<PluginChoice>& choices, const Registry& registry) {
+    line("immobility:");
+    if (choices.empty()) return value("immobility", "provers", "[]");
+    value("immobility", "provers", "");
+    for (const PluginChoice& choice : choices) {
+      const RegisteredType& type = registry.find(PluginKind::immobility_prover, choice.type);
+      const PluginFile& file = *type.file;
+      line(one_line(fmt::format("    # plugin {} {}, {}, sha256 {}", file.id, file.version,
+                                file.path.filename().string(), sha256_of_file(file.path))));
+      std::string row = fmt::format("    - {{type: {}", plain_or_quoted(choice.type));
+      for (const auto& spec : type.type.params)
+        if (const auto it = choice.params.find(spec.name); it != choice.params.end()) {
+          const auto* text = std::get_if<std::string>(&it->second);
+          row += fmt::format(", {}: {}", spec.name, text != nullptr ? quoted(*text) : to_text(it->second));
+        }
+      line(row + "}");
+    }
+  }
+
   std::string take() { return std::move(out_); }
 
  private:
@@ -148,6 +167,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i], registry);
+  writer.provers(config.provers, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
     writer.line("  poses:");

@@ -59,6 +59,25 @@ Json plugin_section(const PluginSection& section, const Registry& registry) {
   return {{"oneOf", std::move(alternatives)}};
 }
 
+/// Ids, or maps with parameters.
+Json provers_section(const Registry& registry) {
+  Json ids = Json::array(), alternatives = Json::array();
+  for (const auto* registered : registry.types(PluginKind::immobility_prover)) {
+    const PluginType& type = registered->type;
+    ids.push_back(type.id);
+    Json properties = {{"type", {{"const", type.id}, {"description", type.summary}}}};
+    properties.update(properties_of(type.params));
+    Json alternative = object(std::move(properties));
+    alternative["required"] = {"type"};
+    alternatives.push_back(std::move(alternative));
+  }
+  alternatives.push_back({{"enum", std::move(ids)}});
+  return object({{"provers",
+                  {{"type", "array"},
+                   {"items", {{"oneOf", std::move(alternatives)}}},
+                   {"description", "Proofs that parts cannot be separated, in the order of asking; [] = none."}}}});
+}
+
 }  // namespace
 
 std::string json_schema(const Registry& registry) {
@@ -70,6 +89,7 @@ std::string json_schema(const Registry& registry) {
                                     {"items", {{"type", "string"}}},
                                     {"description", "Folders of plugins, relative to this file."}}}});
   for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry);
+  properties["immobility"] = provers_section(registry);
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs));
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};

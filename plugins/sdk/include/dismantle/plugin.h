@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/immobility_prover.h"
 #include "dismantle/importer.h"
 #include "dismantle/parameters.h"
 #include "dismantle/path_planner.h"
@@ -24,12 +25,19 @@
 
 namespace dismantle {
 
-enum class PluginKind { simulator, path_planner, sequence_planner, transfer_planner, importer };
+enum class PluginKind {
+  simulator,
+  path_planner,
+  sequence_planner,
+  transfer_planner,
+  immobility_prover,
+  importer
+};
 
 /// All kinds, in the order in which they are shown.
 inline constexpr PluginKind kPluginKinds[] = {PluginKind::simulator, PluginKind::path_planner,
                                               PluginKind::sequence_planner, PluginKind::transfer_planner,
-                                              PluginKind::importer};
+                                              PluginKind::immobility_prover, PluginKind::importer};
 
 template <class Interface>
 struct PluginKindOf;
@@ -48,6 +56,10 @@ struct PluginKindOf<SequencePlanner> {
 template <>
 struct PluginKindOf<TransferPlanner> {
   static constexpr PluginKind value = PluginKind::transfer_planner;
+};
+template <>
+struct PluginKindOf<ImmobilityProver> {
+  static constexpr PluginKind value = PluginKind::immobility_prover;
 };
 template <>
 struct PluginKindOf<Importer> {

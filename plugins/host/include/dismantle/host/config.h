@@ -50,6 +50,7 @@ DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const As
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
+  std::vector<PluginChoice> provers;  ///< of immobility, in the order of asking; empty: nothing is proved
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
@@ -95,6 +96,8 @@ struct PluginSection {
   const char* default_id;
 };
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
+/// The provers that run where `immobility.provers` names none, as far as they are there.
+DISMANTLE_API const std::vector<const char*>& default_provers();
 /// The type that is taken where the section names none. Whoever names a path planner other than the default wants that
 /// one asked for every way: then the sequence planner is `progressive`, which finds no ways by itself.
 DISMANTLE_API std::string default_type(const PluginSection& section, const std::string& path_planner);

@@ -13,7 +13,8 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
                 Prepared, Simulator, Effort, Verdict, Reached, PathQuery, PathResult, PathPlanner, TransferQuery,
                 TransferPlanner, Attempt, AttemptResult, OracleCounts, PathOracle, Removal, Unsolved, SequenceResult,
-                SequenceObserver, SequencePlanner, Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue,
+                SequenceObserver, SequencePlanner, Certificate, ProverTraits, SeparationQuery, SeparationQuestion,
+                PartMemo, ImmobilityProver, Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue,
                 ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
