@@ -1,5 +1,6 @@
 # Install rules and the exported package. In a project of your own:
-#   find_package(dismantle REQUIRED)   # dismantle::core, dismantle::plugin_api, dismantle::plugins, dismantle::samples
+#   find_package(dismantle REQUIRED)   # dismantle::plugin_api, dismantle::plugins, dismantle::testing; dismantle::core and each
+#                                      # library of lib/ but bench: dismantle::geometry, ::verification, ::preparation, ...
 #   dismantle_add_plugin(my_planner SOURCES my_planner.cpp)
 include(CMakePackageConfigHelpers)
 

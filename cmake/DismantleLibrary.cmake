@@ -13,6 +13,6 @@ function(dismantle_add_library name)
   target_compile_definitions(${target} PRIVATE DISMANTLE_VERSION="${PROJECT_VERSION}")
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 0 EXPORT_NAME ${name}
     CXX_VISIBILITY_PRESET default)
-  dismantle_precompile(${target})
+  dismantle_reuse_pch(${target} dismantle_library_pch)
   set_property(GLOBAL APPEND PROPERTY DISMANTLE_LIBRARIES ${target})
 endfunction()

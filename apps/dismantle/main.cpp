@@ -135,6 +135,7 @@ int main(int argc, char** argv) {
       "4 a plugin failed, 130 interrupted.");
   Action action;
   add_plan(app, action);
+  add_check(app, action);
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);

@@ -13,7 +13,7 @@
 namespace dismantle {
 namespace {
 
-TEST(ComputedOnce, ForAllWhoAsk) {
+TEST(ComputedOnce, IsTheSameForAllThreads) {
   for (int trial = 0; trial < 50; ++trial) {
     ComputedOnce<int> value;
     std::atomic<int> computed{0};
@@ -36,7 +36,7 @@ TEST(ComputedOnce, ForAllWhoAsk) {
 }
 
 /// The first few get nothing, or fail: each for itself.
-TEST(ComputedOnce, WhoGetsNothingLeavesItToTheNext) {
+TEST(ComputedOnce, WhereNothingIsComputedTheNextTriesAgain) {
   for (int trial = 0; trial < 50; ++trial) {
     ComputedOnce<int> value;
     std::atomic<int> asked{0}, nothing{0}, failed{0}, found{0};
@@ -68,23 +68,23 @@ TEST(ComputedOnce, WhoGetsNothingLeavesItToTheNext) {
   }
 }
 
-TEST(ComputedOnce, WhoWaitsLeavesHisPlaceToWhoHelps) {
+TEST(ComputedOnce, AThreadThatWaitsReleasesItsSlot) {
   RunContext context;
-  context.crew = std::make_shared<Crew>(2);
+  context.executor = std::make_shared<Executor>(2);
   for (int trial = 0; trial < 20; ++trial) {
     ComputedOnce<int> value;
     std::atomic<bool> asks{false};
-    Crew::Offer other;
+    Executor::TaskHandle other;
     const int* mine = value.get(context, [&] {
-      other = context.crew->offer(
+      other = context.executor->submit(
           [&] {
             asks = true;
             const int* known = value.get(context, [] { return std::optional(2); });
             EXPECT_EQ(*known, 1);
           },
-          Crew::Rank::part);
-      while (!asks) std::this_thread::yield();  // now it has the place beside this one's, and soon waits
-      Crew::Offer helper = context.crew->offer([] {}, Crew::Rank::part);
+          Executor::Priority::fork_join);
+      while (!asks) std::this_thread::yield();  // now it has the slot beside this one's, and soon waits
+      Executor::TaskHandle helper = context.executor->submit([] {}, Executor::Priority::fork_join);
       while (!helper.done()) std::this_thread::yield();
       return std::optional(1);
     });

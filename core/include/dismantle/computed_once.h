@@ -1,4 +1,4 @@
-/// What the first who asks computes, and the others share.
+/// A value that the first thread that asks for it computes, and all share.
 #pragma once
 
 #include <condition_variable>
@@ -6,21 +6,22 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
 
-/// A value for several threads. Those who come while it is computed wait, and leave their places to who helps with it.
+/// A value for several threads. Threads that ask while it is computed wait, with their slots free for those that help
+/// to compute it.
 template <class Value>
 class ComputedOnce {
  public:
-  /// compute() -> std::optional<Value>, with no lock held; nothing, or an exception: not this time, and the next who
-  /// asks, or waits, tries again. The value stays where it is. Null: this caller's compute() gave nothing.
+  /// compute() -> std::optional<Value>, called with no lock held. When it returns nothing or throws, the next thread
+  /// that asks or waits tries again. The value stays where it is. Null: the compute() of this call returned nothing.
   template <class Compute>
   const Value* get(const RunContext& context, Compute&& compute) {
     std::unique_lock lock(mutex_);
-    while (!value_ && computing_) wait(lock, context);  // who waited, too, may be quicker to try again
+    while (!value_ && computing_) wait(lock, context);
     if (value_) return &*value_;
     computing_ = true;
     lock.unlock();
@@ -40,13 +41,8 @@ class ComputedOnce {
 
  private:
   void wait(std::unique_lock<std::mutex>& lock, const RunContext& context) {
-    lock.unlock();
-    if (context.crew) context.crew->leave();
-    lock.lock();
+    const Executor::BlockingScope blocking(context.executor.get());
     ended_.wait(lock, [this] { return !computing_; });
-    lock.unlock();
-    if (context.crew) context.crew->enter();
-    lock.lock();
   }
 
   void end() {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "dismantle/errors.h"
-#include "dismantle/parallel.h"
+#include "dismantle/executor.h"
 
 namespace dismantle {
 
@@ -298,7 +298,7 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
     if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
   }
   std::atomic<std::size_t> next{0};
-  on_threads(
+  parallel_for(
       threads, context,
       [&](std::size_t thread) {
         for (std::size_t k = next++; k < ways.size(); k = next++) one(k, *planners_[thread]);

@@ -41,20 +41,31 @@ Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredi
       make_planner_(ingredients.path_planner),
       runner_(assembly, prepared, ingredients, options, verifier, context.rng),
       proofs_(assembly, verifier, ingredients.provers, context),
-      planners_(context.threads > 1 && context.crew ? context.crew->threads() : std::max(1u, context.threads)) {
-  if (context.threads > 1)
-    pool_ = std::make_unique<AttemptPool>(
-        context.crew ? context.crew : std::make_shared<Crew>(context.threads),
-        [this](unsigned worker, const Attempt& a, const AttemptKey& key, const RunContext& c) {
-          return compute(worker, a, key, c);
-        },
-        context);
+      computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
+
+std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
+  const std::lock_guard lock(planner_mutex_);
+  if (concurrent_planner_) return concurrent_planner_;
+  if (!unused_planners_.empty()) {
+    std::shared_ptr<PathPlanner> planner = std::move(unused_planners_.back());
+    unused_planners_.pop_back();
+    return planner;
+  }
+  std::shared_ptr<PathPlanner> planner = make_planner_();
+  if (!planner) throw std::runtime_error("nothing was made");
+  if (planner->is_concurrent()) concurrent_planner_ = planner;
+  return planner;
+}
+
+void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
+  const std::lock_guard lock(planner_mutex_);
+  if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));
 }
 
 /// A search, unless it is proved before that it finds nothing; where it found nothing, perhaps a proof after it. Time
 /// limits of the attempt begin with the search.
-ComputedAttempt Oracle::compute(unsigned worker, const Attempt& attempt, const AttemptKey& key,
-                                const RunContext& context) {
+ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+                            const RunContext& context) {
   Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   computed.answer.certificate = proofs_.before(attempt, context);
@@ -62,7 +73,7 @@ ComputedAttempt Oracle::compute(unsigned worker, const Attempt& attempt, const A
   if (computed.answer.certificate != nullptr) {
     computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
   } else {
-    computed = search(worker, attempt, key, context);
+    computed = runner_.run(planner, attempt, key, context);
     begin = Clock::now();
     if (!computed.interrupted) computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
     proof_seconds += seconds_since(begin);
@@ -81,28 +92,33 @@ ComputedAttempt Oracle::compute(unsigned worker, const Attempt& attempt, const A
   return computed;
 }
 
-ComputedAttempt Oracle::search(unsigned worker, const Attempt& attempt, const AttemptKey& key,
-                               const RunContext& context) {
-  std::shared_ptr<PathPlanner>& planner = planners_[worker];
+/// On any thread. What is computed ahead has no log, and brings its lines along.
+LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, RunContext context) {
+  LoggedAttempt result;
+  context.threads = 1;
+  if (!context.on_log)
+    context.on_log = [&result](LogLevel level, std::string_view text) {
+      result.log.push_back({level, std::string(text)});
+    };
+  std::shared_ptr<PathPlanner> planner;
   std::string problem;
-  if (!planner) {
-    try {
-      const std::lock_guard lock(planner_mutex_);
-      planner = for_all_ ? for_all_ : make_planner_();
-      if (!planner) problem = "nothing was made";
-      if (planner && planner->is_concurrent()) for_all_ = planner;
-    } catch (const std::exception& e) {
-      problem = e.what();
-    } catch (...) {
-      problem = "it threw something that is not a std::exception";
-    }
+  try {
+    planner = borrow_planner();
+  } catch (const std::exception& e) {
+    problem = e.what();
+  } catch (...) {
+    problem = "it threw something that is not a std::exception";
   }
-  if (planner) return runner_.run(*planner, attempt, key, context);
-  ComputedAttempt crashed;
-  crashed.answer.result.outcome = Outcome::crashed;
-  crashed.answer.result.message = fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem);
-  context.log(LogLevel::error, crashed.answer.result.message);
-  return crashed;
+  if (planner) {
+    result.computed = run(*planner, attempt, key, context);
+    give_back(std::move(planner));
+    return result;
+  }
+  PathResult& crashed = result.computed.answer.result;
+  crashed.outcome = Outcome::crashed;
+  crashed.message = fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem);
+  context.log(LogLevel::error, crashed.message);
+  return result;
 }
 
 const AttemptResult& Oracle::keep(AttemptResult result) { return results_.emplace_back(std::move(result)); }
@@ -144,16 +160,10 @@ const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& ke
     stopped.result.message = "not begun: the run was told to stop";
     return keep(std::move(stopped));
   }
-  ComputedAttempt computed;
-  if (pool_) {
-    PooledAttempt pooled = pool_->take(key, attempt, context);
-    computed = std::move(pooled.computed);
-    for (const auto& line : pooled.log) context.log(line.level, line.text);
-  } else {
-    RunContext own = context;
-    own.threads = 1;
-    computed = compute(0, attempt, key, own);
-  }
+  const auto compute_it = [&](const RunContext& c) { return compute(attempt, key, c); };
+  LoggedAttempt logged = computed_ahead_.get(key, compute_it, context);
+  for (const auto& line : logged.log) context.log(line.level, line.text);
+  ComputedAttempt& computed = logged.computed;
   if (!attempt.keep_reached) computed.answer.result.reached = nullptr;
   const AttemptResult& result = keep(std::move(computed.answer));
   for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
@@ -203,15 +213,19 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
 }
 
 void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
-  if (!pool_ || context.should_stop()) return;
-  std::vector<std::pair<AttemptKey, Attempt>> hints;
+  if (!computed_ahead_.computes_ahead() || context.should_stop()) return;
+  std::deque<SpeculativeCache<AttemptKey, LoggedAttempt>::Sequence> wanted;
   const std::lock_guard lock(ask_mutex_);
   for (const Attempt& attempt : attempts) {
     Attempt question = canonical(attempt, part_count_);
     const AttemptKey key = key_of(question);
-    if (!remembered(key)) hints.emplace_back(key, std::move(question));
+    if (remembered(key)) continue;
+    const auto compute_it = [this, question = std::move(question), key](const RunContext& c) {
+      return compute(question, key, c);
+    };
+    wanted.push_back({{key, compute_it}});
   }
-  pool_->hint(std::move(hints));
+  computed_ahead_.prefetch(std::move(wanted), context);
 }
 
 const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
@@ -240,7 +254,7 @@ OracleCounts Oracle::counts() const {
   counts.memoised = memoised_;
   counts.proposed = proposed_;
   counts.refused = refused_;
-  counts.discarded = pool_ ? pool_->untaken() : 0;
+  counts.discarded = computed_ahead_.unused();
   return counts;
 }
 

@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "attempt_pool.h"
+#include "attempt_runner.h"
+#include "dismantle/speculative_cache.h"
 #include "proof_schedule.h"
 
 namespace dismantle {
@@ -20,6 +21,17 @@ struct AskedAbout {
   std::vector<PartId> moving;  ///< columns of the path
   std::vector<PartId> leaving{};
   std::shared_ptr<const Attempt> resumable{};  ///< canonical; null where no search can go on from there
+};
+
+struct LogLine {
+  LogLevel level = LogLevel::info;
+  std::string text;
+};
+
+/// An attempt that was computed, perhaps before it was asked for.
+struct LoggedAttempt {
+  ComputedAttempt computed;
+  std::vector<LogLine> log;  ///< for the thread that asks to pass on; empty where the attempt had a log to write to
 };
 
 class Oracle final : public PathOracle {
@@ -52,8 +64,10 @@ class Oracle final : public PathOracle {
   AttemptKey key_of(Attempt& canonical_attempt) const;
   const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
   const AttemptResult* remembered(const AttemptKey& key);
-  ComputedAttempt compute(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
-  ComputedAttempt search(unsigned worker, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
+  LoggedAttempt compute(const Attempt& attempt, const AttemptKey& key, RunContext context);
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
+  std::shared_ptr<PathPlanner> borrow_planner();
+  void give_back(std::shared_ptr<PathPlanner> planner);
   const AttemptResult& keep(AttemptResult result);
   const AttemptResult& reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
                                  const std::vector<PartId>& order);
@@ -64,7 +78,7 @@ class Oracle final : public PathOracle {
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;
   AttemptRunner runner_;
   ProofSchedule proofs_;
-  std::mutex ask_mutex_;  ///< one question at a time; threads work behind it
+  std::mutex ask_mutex_;  ///< one question at a time
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;
   std::map<CastDigest, Final> finals_;
@@ -72,10 +86,10 @@ class Oracle final : public PathOracle {
   std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
-  std::mutex planner_mutex_;                            ///< the factory need not be safe to call from several threads
-  std::shared_ptr<PathPlanner> for_all_;                ///< one that is concurrent
-  std::vector<std::shared_ptr<PathPlanner>> planners_;  ///< by worker; each touched by its worker alone, or for_all_
-  std::unique_ptr<AttemptPool> pool_;                   ///< last: its threads use all of the above
+  std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads
+  std::shared_ptr<PathPlanner> concurrent_planner_;  ///< serves all attempts; null where planners do not
+  std::vector<std::shared_ptr<PathPlanner>> unused_planners_;   ///< each serves one attempt at a time
+  SpeculativeCache<AttemptKey, LoggedAttempt> computed_ahead_;  ///< last: its tasks use all of the above
 };
 
 }  // namespace dismantle

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "dismantle/geometry/solid.h"
-#include "dismantle/parallel.h"
+#include "dismantle/executor.h"
 
 namespace dismantle {
 namespace {
@@ -53,8 +53,8 @@ ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier,
     memo_.put("solids", part.id,
               std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
   std::vector<const Certificate*> found(assembly.overlaps.size());
-  on_threads(
-      found.size(), context.threads,
+  parallel_for(
+      found.size(), context,
       [&](std::size_t i) {
         found[i] = prove({{assembly.overlaps[i].a, assembly.overlaps[i].b}, ProofEffort::trivial, 1}, context);
       },

@@ -1,17 +1,17 @@
 // The main job: prepares, asks the sequence planner, books what it removes.
+#include "dismantle/engine/run.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <future>
 #include <stdexcept>
 #include <utility>
 
-#include "dismantle/crew.h"
-#include "dismantle/errors.h"
-#include "dismantle/engine/run.h"
 #include "assembler.h"
+#include "dismantle/errors.h"
+#include "dismantle/executor.h"
 #include "oracle.h"
 #include "precedence.h"
 #include "step_ledger.h"
@@ -185,7 +185,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
-  if (own.threads > 1 && !own.crew) own.crew = std::make_shared<Crew>(own.threads);
+  if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
 
   RunResult result;
   Clock::time_point begin = Clock::now();
@@ -193,7 +193,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   result.prepare_seconds = seconds_since(begin);
 
   begin = Clock::now();
-  const Verifier verifier(assembly, options.verify, own.threads);
+  const Verifier verifier(assembly, options.verify, own.executor.get());
   struct Nothing final : Prepared {};
   const Nothing nothing;
   if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
@@ -222,21 +222,21 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     }
     ledger.set_unsolved(reasons(sequence, ledger.left()));
   }
-  // Neither of the two looks at what the other finds.
-  const auto launch = own.threads > 1 ? std::launch::async : std::launch::deferred;
-  auto ordering = std::async(launch, [&ledger, &verifier, &assembly, &own] {
-    return needed_steps(ledger.booked(), assembly.parts.size(), verifier, own);
-  });
   AssemblyPlan back;
   const bool puts_together =
       prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty();
-  if (puts_together) {
+  const auto put_together = [&] {
+    if (!puts_together) return;
     RunContext putting = own;
     putting.rng = Rng(options.seed).fork(kTransferStream);
     back = Assembler(assembly, *prepared, ingredients, options, verifier)
                .put_together(ledger.booked(), ledger.plan().disassembly, putting);
-  }
-  const auto needed = ordering.get();
+  };
+  std::vector<std::vector<std::size_t>> needed;
+  const auto find_needed = [&] { needed = needed_steps(ledger.booked(), assembly.parts.size(), verifier, own); };
+  // Neither uses a result of the other.
+  parallel_for(
+      2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
   ledger.set_needed(needed);
   for (const auto& [a, b] : part_precedence(ledger.booked(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);

@@ -8,7 +8,7 @@
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/mesh_measure.h"
-#include "dismantle/parallel.h"
+#include "parallel_phase.h"
 
 namespace dismantle {
 namespace {
@@ -73,11 +73,11 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
   constexpr std::size_t kPoints = 2000, kTries = 400 * kPoints;
   std::vector<std::unique_ptr<TriangleBvh>> bvhs(candidates.size());
   const auto name = [&](std::size_t i) { return candidates[i].name; };
-  parallel_for(
+  parallel_phase(
       candidates.size(), context, "overlap shares",
       [&](std::size_t i) { bvhs[i] = std::make_unique<TriangleBvh>(candidates[i].mesh); }, name);
   std::vector<Coverage> coverage(candidates.size());
-  parallel_for(
+  parallel_phase(
       candidates.size(), context, "overlap shares",
       [&](std::size_t i) {
         const Aabb& box = candidates[i].box;
@@ -130,7 +130,7 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
 Dropped find_thin(const std::vector<Candidate>& candidates, double min_thickness, const RunContext& context) {
   const double limit = min_thickness * box_of(candidates).size().maxCoeff();
   std::vector<double> thickness(candidates.size());
-  parallel_for(
+  parallel_phase(
       candidates.size(), context, "oriented boxes",
       [&](std::size_t i) { thickness[i] = oriented_box(candidates[i].mesh)[0]; },
       [&](std::size_t i) { return candidates[i].name; });
@@ -147,7 +147,7 @@ Dropped find_thin(const std::vector<Candidate>& candidates, double min_thickness
 std::vector<std::vector<std::size_t>> connected_groups(const std::vector<Candidate>& candidates, double gap,
                                                        const RunContext& context) {
   std::vector<std::vector<Eigen::Vector3d>> hulls(candidates.size());
-  parallel_for(
+  parallel_phase(
       candidates.size(), context, "hulls", [&](std::size_t i) { hulls[i] = hull_corners(candidates[i].mesh.vertices); },
       [&](std::size_t i) { return candidates[i].name; });
   DisjointSets sets(candidates.size());

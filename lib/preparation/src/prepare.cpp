@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly_steps.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/verification/verifier.h"
-#include "dismantle/parallel.h"
-#include "assembly_steps.h"
+#include "parallel_phase.h"
 #include "repair_part.h"
 
 namespace dismantle {
@@ -62,7 +62,7 @@ class Preparation {
 
   void clean(std::vector<RawPart>& raw) {
     report_.parts.assign(raw.size(), {});
-    parallel_for(
+    parallel_phase(
         raw.size(), context_, "prepare",
         [&](std::size_t i) {
           report_.parts[i].name = raw[i].name;
@@ -190,7 +190,7 @@ class Preparation {
   }
 
   void subdivide_parts() {
-    parallel_for(
+    parallel_phase(
         assembly_.parts.size(), context_, "subdivide",
         [&](std::size_t i) {
           Part& part = assembly_.parts[i];
@@ -217,7 +217,7 @@ class Preparation {
       for (PartId b = a + 1; b < boxes.size(); ++b)
         if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
     const auto& parts = assembly_.parts;
-    parallel_for(
+    parallel_phase(
         pairs.size(), context_, "overlaps",
         [&](std::size_t i) {
           pairs[i].depth =

@@ -30,11 +30,12 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 constexpr std::uint64_t kMostPatches = 100'000;  // per pair of solids and direction
 
-/// Surface of A in B; `place` takes A to the frame of B.
+/// Surface of A in B; `place` takes A to the frame of B, `frame` takes that frame to the world.
 class Descent {
  public:
-  Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, double& deepest)
-      : a_(a), b_(b), place_(place), tolerance_(tolerance), deepest_(deepest) {}
+  Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
+          Penetration& deepest)
+      : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest) {}
 
   /// True when one shrunken copy of all of A keeps off the surface of B.
   bool run() {
@@ -59,12 +60,17 @@ class Descent {
   }
 
  private:
-  double level() const { return deepest_ + tolerance_ * (1 - 1e-9); }
+  double level() const { return deepest_.depth + tolerance_ * (1 - 1e-9); }
+
+  /// `x` in the frame of B.
+  void found(double depth, const Vec3& x) {
+    if (depth > deepest_.depth) deepest_ = {depth, frame_ * x};
+  }
 
   double sample(const Vec3& x) {
     if (b_.box.squared_distance(x) > 0) return 0;
     const double d = escape_at(x, b_).depth;
-    deepest_ = std::max(deepest_, d);
+    found(d, x);
     return d;
   }
 
@@ -127,10 +133,11 @@ class Descent {
     if (clear_outside(moved_by_vertices(patch, level()))) return true;
     if (clear_outside(moved_along(patch, -a_.normals[patch.triangle], level()))) return true;
     const Probe seen = probe(patch, place_, b_);
-    deepest_ = std::max(deepest_, seen.depth[static_cast<std::size_t>(seen.deepest)]);
+    const auto deepest = static_cast<std::size_t>(seen.deepest);
+    found(seen.depth[deepest], place_ * patch.p[deepest]);
     if (clear_outside(moved_by_probe(patch, seen, level()))) return true;
     const Escape center = escape_at(place_ * patch.center(), b_);
-    deepest_ = std::max(deepest_, center.depth);
+    found(center.depth, place_ * patch.center());
     if (center.depth + patch.radius() <= level()) return true;
     if (clear_outside(moved_along(patch, place_.r.transpose() * center.out, level()))) return true;
     ridge = ridge_on(patch, seen);
@@ -141,18 +148,19 @@ class Descent {
   const Solid& b_;
   const Placement& place_;
   double tolerance_;
-  double& deepest_;
+  const Pose& frame_;
+  Penetration& deepest_;
   std::deque<Patch> open_;
 };
 
 }  // namespace
 }  // namespace verify
 
-double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
-                         double tolerance) {
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                double tolerance) {
   if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
   using verify::Placement;
-  double deepest = 0;
+  Penetration deepest;
   for (const auto& x : a.impl().solids)
     for (const auto& y : b.impl().solids) {
       const Pose place_x = pose_a * x.frame, place_y = pose_b * y.frame;
@@ -162,13 +170,19 @@ double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody
       const bool swap = y.mesh.triangles.size() < x.mesh.triangles.size();
       const verify::Solid &first = swap ? y : x, &second = swap ? x : y;
       const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;
-      const double before = deepest;
-      const bool shrunken = verify::Descent(first, second, there, tolerance, deepest).run();
+      const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
+      const double before = deepest.depth;
+      const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest).run();
       // As in pair_check.cpp: then nothing of the second is deeper in the first either.
       if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
-      verify::Descent(second, first, back, tolerance, deepest).run();
+      verify::Descent(second, first, back, tolerance, first_frame, deepest).run();
     }
   return deepest;
+}
+
+double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                         double tolerance) {
+  return deepest_penetration(a, pose_a, b, pose_b, tolerance).depth;
 }
 
 double penetration_depth(const Mesh& a, const Pose& pose_a, const Mesh& b, const Pose& pose_b, double tolerance) {

@@ -64,8 +64,8 @@ struct Budget {
   }
 };
 
-/// The surface of `a` against `b`. One object per question. Idle threads of the crew in the budget's context help; what
-/// is found, and what that takes, does not depend on them.
+/// The surface of `a` against `b`. One object per question. Idle threads of the executor in the budget's context help;
+/// what is found, and what that takes, does not depend on them.
 class DirectedCheck {
  public:
   DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);

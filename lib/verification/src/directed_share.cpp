@@ -5,9 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/crew.h"
-#include "dismantle/parallel.h"
 #include "directed_check.h"
+#include "dismantle/executor.h"
 
 namespace dismantle::verify {
 namespace {
@@ -41,7 +40,7 @@ DirectedCheck::DirectedCheck(const DirectedCheck& whole, const List& list, Budge
 }
 
 bool DirectedCheck::has_help() const {
-  return budget_.context != nullptr && budget_.context->crew && budget_.context->crew->threads() > 1;
+  return budget_.context != nullptr && budget_.context->executor && budget_.context->executor->threads() > 1;
 }
 
 /// From the end, where turns begin. Patches of one triangle are next to each other, and stay together.
@@ -68,7 +67,7 @@ bool DirectedCheck::settle_shared(const Interval& i, const List& list, bool vert
     shares.push_back(std::move(share));
   }
   std::atomic<bool> failed{false};
-  on_threads(
+  parallel_for(
       shares.size(), *budget_.context,
       [&](std::size_t k) {
         Share& s = shares[k];
@@ -118,12 +117,12 @@ std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& ot
   if (!has_help() || list.size() < kWorthHelp) return {};
   std::vector<Glance> seen(list.size());
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
-  on_threads((list.size() + kGlances - 1) / kGlances, *budget_.context,
-             [&](std::size_t part) {
-               for (std::size_t k = part * kGlances; k < std::min(list.size(), (part + 1) * kGlances); ++k)
-                 seen[k] = glance(other, start, from, to, list[k]);
-             },
-             [&] { return budget_.context->should_stop(); });
+  parallel_for((list.size() + kGlances - 1) / kGlances, *budget_.context,
+               [&](std::size_t part) {
+                 for (std::size_t k = part * kGlances; k < std::min(list.size(), (part + 1) * kGlances); ++k)
+                   seen[k] = glance(other, start, from, to, list[k]);
+               },
+               [&] { return budget_.context->should_stop(); });
   return seen;
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
 #include "starts_off.h"
 
 namespace dismantle::verify {
@@ -20,13 +20,13 @@ class Ahead {
  public:
   Ahead(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, const Budget& budget)
       : budget_(budget) {
-    if (budget.context == nullptr || !budget.context->crew) return;
+    if (budget.context == nullptr || !budget.context->executor) return;
     if (a.mesh.triangles.size() + b.mesh.triangles.size() < kMany) return;
     own_.deadline = budget.context->deadline;
-    own_.crew = budget.context->crew;
+    own_.executor = budget.context->executor;
     budget_.context = &own_;
-    offer_ = budget.context->crew->offer([&, limits] { found_ = DirectedCheck(a, b, motion, limits, budget_).run(); },
-                                         Crew::Rank::part);
+    task_ = own_.executor->submit([&, limits] { found_ = DirectedCheck(a, b, motion, limits, budget_).run(); },
+                                  Executor::Priority::fork_join);
   }
   ~Ahead() { own_.cancel.cancel(); }
   Ahead(const Ahead&) = delete;
@@ -34,8 +34,8 @@ class Ahead {
 
   /// What is found with the budget that the first direction has left, if it was begun and took no more than that.
   std::optional<Finding> found(Budget& left) {
-    if (!offer_ || offer_->withdraw()) return std::nullopt;
-    offer_->wait(*left.context, own_.cancel);
+    if (!task_ || task_.withdraw()) return std::nullopt;
+    task_.wait(*left.context, own_.cancel);
     const std::uint64_t patches = before_.patches_left - budget_.patches_left,
                         tests = budget_.tests_done - before_.tests_done;
     if (found_.answer == Answer::exhausted || tests > left.tests_left || patches > left.patches_left)
@@ -51,7 +51,7 @@ class Ahead {
   Budget budget_;
   const Budget before_ = budget_;
   Finding found_;
-  std::optional<Crew::Offer> offer_;  // last: it waits for the thread, which uses the above
+  Executor::TaskHandle task_;  // last: its destructor waits for the thread, which uses the above
 };
 
 }  // namespace

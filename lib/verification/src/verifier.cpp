@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/executor.h"
 #include "dismantle/geometry/hull.h"
-#include "dismantle/parallel.h"
 #include "pair_check.h"
 #include "sampling.h"
 #include "verifier_impl.h"
@@ -58,15 +58,15 @@ Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
 
 }  // namespace
 
-Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, unsigned threads)
+Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
     : assembly_overlaps(a.overlaps),
       options(o),
       rungs(rungs_up_to(o.max_penetration)),
       bodies(a.parts.size()) {
   const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
-  on_threads(
-      bodies.size(), threads,
+  parallel_for(
+      bodies.size(), executor,
       [&](std::size_t i) {
         const Mesh& mesh = *meshes[i];
         Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
@@ -123,7 +123,7 @@ auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) 
   std::vector<Look> looks(pairs.size());
   std::atomic<std::size_t> known{0};
   std::atomic<bool> failed{false};
-  on_threads(
+  parallel_for(
       pairs.size(), context,
       [&](std::size_t k) {
         looks[k] = look_at(pairs[k], known, context);
@@ -213,10 +213,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   }
 }
 
-Verifier::Verifier(const Assembly& assembly, VerifyOptions options, unsigned threads) {
+Verifier::Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor) {
   if (!(options.max_penetration > 0) || !std::isfinite(options.max_penetration))
     throw std::invalid_argument("Verifier: max_penetration must be finite and > 0");
-  impl_ = std::make_unique<Impl>(assembly, options, threads);
+  impl_ = std::make_unique<Impl>(assembly, options, executor);
 }
 
 Verifier::~Verifier() = default;

@@ -26,7 +26,7 @@ struct Verifier::Impl {
     Aabb swept;  // world
   };
 
-  Impl(const Assembly& assembly, VerifyOptions options, unsigned threads);
+  Impl(const Assembly& assembly, VerifyOptions options, Executor* executor);
 
   /// The pair's when assembled.
   double overlap(PartId a, PartId b) const;

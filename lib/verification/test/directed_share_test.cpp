@@ -5,9 +5,9 @@
 #include <map>
 #include <numbers>
 
-#include "dismantle/crew.h"
-#include "dismantle/testing/shapes.h"
 #include "directed_check.h"
+#include "dismantle/executor.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::verify {
 namespace {
@@ -28,7 +28,7 @@ struct Outcome {
 Outcome check(const Solid& a, const Solid& b, const std::vector<Pose>& way, const Limits& limits, Budget budget,
               unsigned threads) {
   RunContext context;
-  if (threads > 1) context.crew = std::make_shared<Crew>(threads);
+  if (threads > 1) context.executor = std::make_shared<Executor>(threads);
   budget.context = &context;
   std::vector<Pose> poses;
   for (const Pose& p : way) poses.push_back(p * a.frame);

@@ -1,9 +1,9 @@
 // The judge on several threads, and told to stop.
 #include <gtest/gtest.h>
 
-#include "dismantle/crew.h"
-#include "dismantle/verification/verifier.h"
+#include "dismantle/executor.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle {
 namespace {
@@ -38,8 +38,8 @@ TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
       RunContext context;
       context.threads = threads;
-      if (threads > 2) context.crew = std::make_shared<Crew>(threads);  // else threads of its own
-      const Verifier verifier(row.assembly, {0.01}, threads);
+      if (threads > 2) context.executor = std::make_shared<Executor>(threads);  // else threads of its own
+      const Verifier verifier(row.assembly, {0.01}, context.executor.get());
       const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
       if (threads == 1) {
         first = check;
@@ -67,7 +67,7 @@ TEST(Judging, ToldToStopItSaysSoAndNothingElse) {
     for (const unsigned threads : {1U, 2U}) {
       RunContext context;
       context.threads = threads;
-      if (threads > 1) context.crew = std::make_shared<Crew>(threads);
+      if (threads > 1) context.executor = std::make_shared<Executor>(threads);
       context.cancel.cancel();
       const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
       EXPECT_FALSE(check.valid);

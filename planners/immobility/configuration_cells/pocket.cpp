@@ -24,7 +24,7 @@ std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Soli
   PinWalk walk(pinned, far);
   walk.wander(effort.walk_looks, context);
   if (walk.away()) return std::nullopt;
-  SideBySide both(context);
+  ForkJoin both(context);
   PoseFlood flood(pinned, walk, {0.5 * std::numbers::pi, 2 * far}, both);
   if (flood.run(effort.divisions, context) != PoseFlood::End::closed) return std::nullopt;
   return Pocket{flood.bounds().lo, flood.bounds().hi, flood.cells()};

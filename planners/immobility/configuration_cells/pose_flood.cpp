@@ -22,7 +22,7 @@ bool holds_start(const PoseCell& c) { return !c.empty && (c.lo.array() <= 0).all
 
 }  // namespace
 
-PoseFlood::PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, SideBySide& both)
+PoseFlood::PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, ForkJoin& both)
     : pinned_(pinned),
       walk_(walk),
       limits_(limits),

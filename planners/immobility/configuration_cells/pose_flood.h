@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "dismantle/run_context.h"
-#include "dismantle/side_by_side.h"
+#include "dismantle/executor.h"
 #include "dismantle/immobility/cell_graph.h"
 #include "configuration_cells/pin_walk.h"
 #include "configuration_cells/pins_in_use.h"
@@ -28,7 +28,7 @@ class PoseFlood {
 
   /// Begins with a box that holds what the walk has reached, and with the pins that it met; more are taken as they are
   /// needed. The walk is sent further where ways lead to.
-  PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, SideBySide& both);
+  PoseFlood(const Pinned& pinned, PinWalk& walk, const Limits& limits, ForkJoin& both);
 
   /// Makes so many divisions at most.
   End run(std::size_t most, const RunContext& context);
@@ -59,7 +59,7 @@ class PoseFlood {
   const Pinned& pinned_;
   PinWalk& walk_;
   Limits limits_;
-  SideBySide& both_;
+  ForkJoin& both_;
   PinsInUse in_use_;
   Vector6 scale_;
   PoseBox box_;

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "dismantle/parallel.h"
+#include "dismantle/executor.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/section.h"
@@ -239,7 +239,7 @@ class Ways {
     std::vector<Places> begin;  // by level
     for (int level = 0; level <= kFinest; ++level) begin.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
     std::array<Face, 6> faces;
-    on_threads(
+    parallel_for(
         faces.size(), context,
         [&](std::size_t k) {
           faces[k].places = begin;
@@ -399,7 +399,7 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>
   for (const auto& [loop, node] : holes(surface, around, nodes, effort.holes)) {
     std::array<std::optional<Bend>, 2> bends;
     std::atomic<bool> passes{false};
-    on_threads(
+    parallel_for(
         bends.size(), context,
         [&, &hole = loop, at = node](std::size_t side) {
           bends[side] = bend_on_side(bar, around, depth, nodes, joined, hole, at, side == 1, effort.bends, context);

@@ -30,8 +30,8 @@ TEST(Relations, AreTheSameWhoeverHelps) {
     Rng rng(6);
     for (const unsigned threads : {1U, 2U, 4U})
       for (int trial = 0; trial < 5; ++trial) {
-        const auto crew = std::make_shared<Crew>(threads);
-        Relations helped(judge, directions, crew);
+        const auto executor = std::make_shared<Executor>(threads);
+        Relations helped(judge, directions, executor);
         EXPECT_EQ(helped.works_ahead(), threads > 1);
         for (int round = 0; round < 10; ++round) {
           std::vector<std::vector<Pair>> lines(rng.below(6));

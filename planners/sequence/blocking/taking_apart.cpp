@@ -58,10 +58,10 @@ TakingApart::TakingApart(const BlockingParams& params, const Assembly& assembly,
   all.first = true;
   watched_.resize(units_.size());
   groups_.push_back(std::move(all));
-  if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(oracle);
+  if (oracle.judge() != nullptr) proofs_ahead_ = std::make_unique<ProofsAhead>(oracle, context.executor);
   if (oracle.judge() != nullptr && params.straight) {
     directions_ = blocking::directions_of(assembly);
-    relations_ = std::make_unique<Relations>(*oracle.judge(), directions_, context.crew);
+    relations_ = std::make_unique<Relations>(*oracle.judge(), directions_, context.executor);
   }
 }
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
+#include "dismantle/executor.h"
 #include "dismantle/geometry/inner_ball.h"
 #include "dismantle/immobility/query.h"
-#include "dismantle/parallel.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
 
@@ -57,7 +57,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
   const double spacing = std::max(least, std::sqrt(area / kSamples));
   const auto stop = [&] { return context.should_stop(); };
   std::vector<std::vector<Vec3>> below(bar.mesh.triangles.size());  // by triangle: centres of balls that touch it
-  on_threads(
+  parallel_for(
       chunks(below.size()), context,
       [&](std::size_t chunk) {
         for (std::size_t t = chunk * kChunk; t < std::min((chunk + 1) * kChunk, below.size()); ++t) {
@@ -82,7 +82,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
       first.try_emplace({std::lround(c.x() / least), std::lround(c.y() / least), std::lround(c.z() / least)}, c);
   std::vector<InnerBall> all;
   for (const auto& [cell, center] : first) all.push_back({center, 0});
-  on_threads(
+  parallel_for(
       chunks(all.size()), context,
       [&](std::size_t chunk) {
         for (std::size_t k = chunk * kChunk; k < std::min((chunk + 1) * kChunk, all.size()); ++k) {

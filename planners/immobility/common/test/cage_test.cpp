@@ -3,10 +3,10 @@
 
 #include <numbers>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
+#include "dismantle/testing/held_shapes.h"
 #include "dismantle/verification/explanations.h"
 #include "dismantle/verification/verifier.h"
-#include "dismantle/testing/held_shapes.h"
 
 namespace dismantle {
 namespace {
@@ -28,7 +28,7 @@ std::optional<Cage> look(const Mesh& a, const Mesh& b, Rng& rng) {
   const auto cage = verifier.caged(0, 1);
   EXPECT_EQ(cage.has_value(), verifier.caged(1, 0).has_value());
   RunContext helped;
-  helped.crew = std::make_shared<Crew>(3);
+  helped.executor = std::make_shared<Executor>(3);
   const auto same = Verifier(assembly, {kAllowed}).caged(0, 1, helped);
   EXPECT_EQ(cage.has_value(), same.has_value());
   if (cage && same) {

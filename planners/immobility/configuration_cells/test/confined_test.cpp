@@ -2,10 +2,10 @@
 // they have and wherever the assembly stands.
 #include <gtest/gtest.h>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
+#include "dismantle/testing/held_shapes.h"
 #include "dismantle/verification/explanations.h"
 #include "dismantle/verification/verifier.h"
-#include "dismantle/testing/held_shapes.h"
 
 namespace dismantle {
 namespace {
@@ -155,7 +155,7 @@ TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
   const Verifier verifier = judge_of(any_case(rng, 0.1), Pose{});
   const auto one = verifier.confined(0, 1, {});
   RunContext context;
-  context.crew = std::make_shared<Crew>(2);
+  context.executor = std::make_shared<Executor>(2);
   const auto two = verifier.confined(1, 0, context);
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->inside, two->inside);

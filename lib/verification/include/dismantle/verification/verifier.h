@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/assembly.h"
+#include "dismantle/executor.h"
+#include "dismantle/export.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/run_context.h"
 
@@ -64,8 +65,8 @@ struct MotionCheck {
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
  public:
-  /// `threads` (>= 1): how many may build it; it does not depend on that.
-  Verifier(const Assembly& assembly, VerifyOptions options, unsigned threads = 1);
+  /// Idle threads of `executor`, which may be null, help to build it; it does not depend on that.
+  Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
   ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
@@ -110,6 +111,12 @@ class DISMANTLE_API DepthBody {
   std::unique_ptr<const Impl> impl_;
 };
 
+/// How deep two parts penetrate each other, and where. Depth 0: they do not, and `point` means nothing.
+struct Penetration {
+  double depth = 0;                                 ///< >= 0, in the unit of the meshes
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< deepest surface point that was found, world
+};
+
 /// Depth in assembly units to which the surfaces of the two meshes penetrate each other: the largest
 /// distance from a surface point of one, inside the other, to the other's surface, both ways.
 /// Shell by shell as in the verifier's law. Exact to `tolerance` (> 0) from below; 0 when they only touch. Should the
@@ -117,6 +124,9 @@ class DISMANTLE_API DepthBody {
 /// made of it is never too large. Poses place the meshes. @throws std::invalid_argument unless tolerance > 0.
 DISMANTLE_API double penetration_depth(const Mesh& a, const Pose& pose_a, const Mesh& b, const Pose& pose_b,
                                        double tolerance);
+/// The same with the place of the deepest point.
+DISMANTLE_API Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b,
+                                              const Pose& pose_b, double tolerance);
 DISMANTLE_API double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                        double tolerance);
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/executor.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::fake {
@@ -14,6 +15,7 @@ struct Rig {
   Rig(Assembly a, Ingredients i, unsigned threads = 1, RunOptions o = {})
       : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {
     context.threads = threads;
+    if (threads > 1) context.executor = std::make_shared<Executor>(threads);
     context.rng = Rng(17);
     context.on_log = [this](LogLevel level, std::string_view text) {
       if (level == LogLevel::error) errors.emplace_back(text);
