@@ -10,7 +10,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 /// Far above the rounding of coordinates up to thousands of units, far below any tolerance.
 constexpr double kRounding = 1e-11;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -39,7 +39,7 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
 void Sweep::add_axis(const Vec3& n) {
   const double length = n.norm();
   if (!(length > 1e-14)) return;
-  Axis a{n / length, (n / length).cwiseAbs(), kInfinity, -kInfinity};
+  Axis a{n / length, (n / length).cwiseAbs(), kUnbounded, -kUnbounded};
   for (const auto& p : hull_) {
     const double d = a.n.dot(p);
     a.lo = std::min(a.lo, d);
@@ -64,7 +64,7 @@ bool Sweep::misses(const Aabb& box) const {
 bool Sweep::apart_along(const Vec3& n, const Corners& t) const {
   const double length = n.norm();
   if (!(length > 1e-14)) return false;
-  double lo = kInfinity, hi = -kInfinity;
+  double lo = kUnbounded, hi = -kUnbounded;
   for (const auto& p : hull_) {
     const double d = n.dot(p);
     lo = std::min(lo, d);
