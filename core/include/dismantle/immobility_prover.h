@@ -44,9 +44,10 @@ struct SeparationQuery {
   double margin() const { return share * tolerance; }
 };
 
-/// Proves that parts cannot be separated. Sound: a certificate is never given for parts that a motion can separate which
-/// cuts in by no more than the initial overlap and margin(). Not complete: nothing means "not proved". Deterministic, on
-/// any number of threads; with work limited by counts, not seconds. const functions may be called from several threads.
+/// Proves that parts cannot be separated. Sound: a certificate is never given for parts that a motion can separate
+/// which cuts in by no more than the initial overlap and margin(). Not complete: nothing means "not proved".
+/// Deterministic, on any number of threads; with work limited by counts, not seconds. const functions may be called
+/// from several threads.
 class DISMANTLE_API ImmobilityProver {
  public:
   virtual ~ImmobilityProver();

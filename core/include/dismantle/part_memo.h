@@ -37,8 +37,9 @@ class PartMemo {
   /// Puts a value there that is known already. It has to come before anybody asks for it.
   template <class T>
   void put(const std::string& name, PartId part, std::shared_ptr<const T> value) {
-    entry(name, part).get(RunContext{},
-                          [&] { return std::optional<Value>(Value{std::move(value), typeid(T).name()}); });
+    entry(name, part).get(RunContext{}, [&] {
+      return std::optional<Value>(Value{std::move(value), typeid(T).name()});
+    });
   }
 
  private:

@@ -7,8 +7,8 @@
 #include <exception>
 #include <utility>
 
-#include "dismantle/geometry/solid.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/solid.h"
 
 namespace dismantle {
 namespace {
@@ -26,9 +26,7 @@ bool holds(const std::vector<PlacedPart>& group, PartId part) {
 
 bool as_deep(const Attempt& attempt, unsigned depth) { return attempt.max_depth == 0 || attempt.max_depth >= depth; }
 
-bool found_nothing(Outcome o) {
-  return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout;
-}
+bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
 }  // namespace
 
@@ -59,7 +57,8 @@ ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier,
         found[i] = prove({{assembly.overlaps[i].a, assembly.overlaps[i].b}, ProofEffort::trivial, 1}, context);
       },
       [] { return false; });
-  std::copy_if(found.begin(), found.end(), std::back_inserter(locks_), [](const Certificate* c) { return c != nullptr; });
+  std::copy_if(found.begin(), found.end(), std::back_inserter(locks_),
+               [](const Certificate* c) { return c != nullptr; });
 }
 
 bool ProofSchedule::asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const {

@@ -23,17 +23,17 @@ namespace dismantle {
 ///   effort   when                                                    about
 ///   trivial  when the schedule is made                               all pairs that overlap when assembled
 ///   low      before attempts of depth >= kDepthForLow or unlimited   moving against fixed parts; of pairs, the pair
-///   medium   after such attempts, of depth >= kDepthForHigh,         the pair, or the moving part and the only part that
-///   high     that found nothing                                      it touched; for all of the tolerance
-///   high     after attempts that more depth would not help           the same for half of the tolerance; several parts
+///   medium   after such attempts, of depth >= kDepthForHigh,         the pair, or the moving part and the only part
+///   that high     that found nothing                                      it touched; for all of the tolerance high
+///   after attempts that more depth would not help           the same for half of the tolerance; several parts
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
   ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
                 const RunContext& context);
 
-  /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of them
-  /// is in such a pair.
+  /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of
+  /// them is in such a pair.
   const Certificate* locked(const Attempt& attempt) const;
   /// What is known before a search, or proved because it is cheaper than the search. `attempt` is canonical.
   const Certificate* before(const Attempt& attempt, const RunContext& context);

@@ -138,9 +138,8 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
     booking.removed(result.removals.back(), assembly.parts.size() - 1);
     context.progress("sequence", 1, 1, assembly.parts[part].name);
   } else {
-    result.unsolved.push_back(
-        {part, result.outcome, answer.result.blocked_by, answer.result.best_pose, answer.result.message,
-         answer.certificate});
+    result.unsolved.push_back({part, result.outcome, answer.result.blocked_by, answer.result.best_pose,
+                               answer.result.message, answer.certificate});
   }
   return result;
 }

@@ -205,8 +205,8 @@ PlanCertificate StepLedger::to_plan(const Certificate& certificate) const {
   PlanCertificate written;
   written.kind = certificate.kind;
   for (const PartId id : certificate.parts) written.parts.push_back(assembly_.parts.at(id).name);
-  const bool assembled = std::all_of(certificate.poses.begin(), certificate.poses.end(),
-                                     [](const Pose& p) { return p.is_identity(); });
+  const bool assembled =
+      std::all_of(certificate.poses.begin(), certificate.poses.end(), [](const Pose& p) { return p.is_identity(); });
   if (!assembled)
     for (const Pose& p : certificate.poses) written.poses.push_back(assembly_.normalization.pose_to_input(p));
   written.full_tolerance = certificate.full_tolerance;

@@ -1,10 +1,11 @@
 #include "dismantle/plan_io/summary.h"
-#include "dismantle/plan_io/plan_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
+
+#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle {
 namespace {

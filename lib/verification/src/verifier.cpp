@@ -59,10 +59,7 @@ Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
 }  // namespace
 
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
-    : assembly_overlaps(a.overlaps),
-      options(o),
-      rungs(rungs_up_to(o.max_penetration)),
-      bodies(a.parts.size()) {
+    : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)), bodies(a.parts.size()) {
   const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
   parallel_for(

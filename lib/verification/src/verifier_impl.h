@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verification/verifier.h"
-#include "hulls_apart.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
+#include "hulls_apart.h"
 
 namespace dismantle {
 

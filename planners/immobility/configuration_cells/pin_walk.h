@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
-#include "dismantle/run_context.h"
-#include "dismantle/immobility/pins.h"
 #include "configuration_cells/pose_cell.h"
+#include "dismantle/immobility/pins.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 

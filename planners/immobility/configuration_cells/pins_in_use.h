@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/immobility/pins.h"
 #include "configuration_cells/pose_cell.h"
+#include "dismantle/immobility/pins.h"
 
 namespace dismantle::immobility {
 

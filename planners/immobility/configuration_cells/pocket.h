@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/run_context.h"
-#include "dismantle/immobility/linear_bound.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/linear_bound.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 

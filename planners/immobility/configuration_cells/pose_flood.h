@@ -3,13 +3,13 @@
 
 #include <cstdint>
 
-#include "dismantle/run_context.h"
-#include "dismantle/executor.h"
-#include "dismantle/immobility/cell_graph.h"
 #include "configuration_cells/pin_walk.h"
 #include "configuration_cells/pins_in_use.h"
 #include "configuration_cells/pose_box.h"
 #include "configuration_cells/pose_cell.h"
+#include "dismantle/executor.h"
+#include "dismantle/immobility/cell_graph.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 

@@ -27,10 +27,12 @@ std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunCo
   const double depth = depth_allowed(query, inside, other);
   const auto* middles = middles_of(query, inside, context);
   if (middles == nullptr) return std::nullopt;
-  const DiscEffort effort{static_cast<std::size_t>(params_.max_divisions), static_cast<std::size_t>(params_.max_facets)};
+  const DiscEffort effort{static_cast<std::size_t>(params_.max_divisions),
+                          static_cast<std::size_t>(params_.max_facets)};
   const auto& solids = solids_of(query, inside);
   for (std::size_t i = 0; i < middles->size(); ++i)
-    for (const InnerDisc& disc : discs_in(solids[i], (*middles)[i], depth, static_cast<std::size_t>(params_.max_discs))) {
+    for (const InnerDisc& disc :
+         discs_in(solids[i], (*middles)[i], depth, static_cast<std::size_t>(params_.max_discs))) {
       const auto cage = disc_cage(disc, solids_of(query, other), effort, context);
       if (!cage) continue;
       Certificate found;

@@ -7,20 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/immobility/cell_graph.h"
 #include "disc/disc_room.h"
 #include "disc/facets.h"
 #include "disc/solid_union.h"
+#include "dismantle/immobility/cell_graph.h"
 
 namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kRounding = 1e-9;          // assembly units, for rounding
-constexpr double kParallel = 0.99999;       // cosine of the angle between directions that are the same
-constexpr std::size_t kDirections = 8;      // of planes
-constexpr double kFace = 0.01;              // of the surface: faces in a direction, for it to count
+constexpr double kRounding = 1e-9;      // assembly units, for rounding
+constexpr double kParallel = 0.99999;   // cosine of the angle between directions that are the same
+constexpr std::size_t kDirections = 8;  // of planes
+constexpr double kFace = 0.01;          // of the surface: faces in a direction, for it to count
 // Of the half thickness:
 constexpr double kOpen = 2;          // a way through cells no larger is open
 constexpr double kLeastEdge = 0.25;  // cells that are smaller are not divided

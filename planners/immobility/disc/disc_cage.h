@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/run_context.h"
-#include "dismantle/immobility/bar_middle.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/bar_middle.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 
@@ -26,7 +26,7 @@ std::vector<InnerDisc> discs_in(const Solid& solid, const std::vector<InnerBall>
 
 /// How much is looked at before a proof is given up.
 struct DiscEffort {
-  std::size_t divisions = 60'000;     ///< of cells
+  std::size_t divisions = 60'000;    ///< of cells
   std::size_t facets = 200'000'000;  ///< about ten seconds; most is told with a tenth
 };
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "dismantle/aabb.h"
 #include "disc/facets.h"
+#include "dismantle/aabb.h"
 
 namespace dismantle::immobility {
 

@@ -7,11 +7,11 @@
 #include <map>
 #include <vector>
 
-#include "dismantle/aabb.h"
-#include "dismantle/pose.h"
 #include "disc/outline.h"
+#include "dismantle/aabb.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/pose.h"
 
 namespace dismantle::immobility {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "dismantle/pose.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/pose.h"
 
 namespace dismantle::immobility {
 

@@ -14,8 +14,9 @@ struct EnclosedBallParams {
   static void describe(Schema<EnclosedBallParams>& s);
 };
 
-/// The largest ball within a moving part, less what may be penetrated, against the surfaces of the fixed parts where they
-/// are. A surface point that is inside the ball is as deep in the moving part as it is below the ball's surface, at least.
+/// The largest ball within a moving part, less what may be penetrated, against the surfaces of the fixed parts where
+/// they are. A surface point that is inside the ball is as deep in the moving part as it is below the ball's surface,
+/// at least.
 class EnclosedBall final : public ImmobilityProver {
  public:
   explicit EnclosedBall(const EnclosedBallParams& params = {}) : params_(params) {}

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/run_context.h"
-#include "dismantle/immobility/bar_middle.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/bar_middle.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 

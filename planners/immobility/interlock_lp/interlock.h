@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/run_context.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 

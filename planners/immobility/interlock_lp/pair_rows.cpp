@@ -1,7 +1,7 @@
 #include "interlock_lp/pair_rows.h"
 
-#include "interlock_lp/body_coordinates.h"
 #include "dismantle/immobility/free_part.h"
+#include "interlock_lp/body_coordinates.h"
 
 namespace dismantle::immobility {
 namespace {

@@ -59,7 +59,8 @@ std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, c
     const Cube cube = open.top();
     open.pop();
     for (int k = 0; k < 8 && !found; ++k)
-      look(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), 0.5 * cube.half);
+      look(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
+           0.5 * cube.half);
   }
   return found;
 }

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "dismantle/pose.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/pose.h"
 
 namespace dismantle::immobility {
 
@@ -17,7 +17,8 @@ struct DeepPoint {
 };
 
 /// A point that lies in both solids, and more than `limit` (> 0) below the surface of `a`; none when there is no such
-/// point, or none was found within the budget. Branch and bound over cubes: depths change no faster than the point moves.
+/// point, or none was found within the budget. Branch and bound over cubes: depths change no faster than the point
+/// moves.
 ///
 /// Such a point locks the two. Fix it to `a`: when they are apart it is outside `b`, so on the way it passed through
 /// the surface of `b`; there and then that surface was so deep in `a`.

@@ -42,8 +42,7 @@ std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, cons
     for (const Solid& x : solids_of(query, inside))
       for (const Solid& y : solids_of(query, other)) {
         if (context.should_stop()) return std::nullopt;
-        const auto p =
-            deep_common_point(x, x.frame, y, y.frame, limit, static_cast<std::uint64_t>(params_.max_cubes));
+        const auto p = deep_common_point(x, x.frame, y, y.frame, limit, static_cast<std::uint64_t>(params_.max_cubes));
         if (!p) continue;
         const double allowed = query.assembly.initial_overlap(inside, other) + query.margin();
         Certificate found;

@@ -13,9 +13,9 @@ struct OverlapLockParams {
   static void describe(Schema<OverlapLockParams>& s);
 };
 
-/// A point lies in both parts, deeper below the surface of the first than the pair may penetrate. When the two are apart
-/// it is outside the second, so on any path there it passes through the surface of the second, which then is as deep in
-/// the first.
+/// A point lies in both parts, deeper below the surface of the first than the pair may penetrate. When the two are
+/// apart it is outside the second, so on any path there it passes through the surface of the second, which then is as
+/// deep in the first.
 class OverlapLock final : public ImmobilityProver {
  public:
   explicit OverlapLock(const OverlapLockParams& params = {}) : params_(params) {}

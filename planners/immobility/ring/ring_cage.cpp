@@ -32,7 +32,8 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
       reach = std::max(reach, (v - center - h * axis).norm());
     }
     for (int z = 0; z < kRingHeights; ++z) {
-      InnerRing ring{solid.frame * (center + (lo + (hi - lo) * (z + 0.5) / kRingHeights) * axis), solid.frame.q * axis, 0};
+      InnerRing ring{solid.frame * (center + (lo + (hi - lo) * (z + 0.5) / kRingHeights) * axis), solid.frame.q * axis,
+                     0};
       for (int r = kRingRadii; r > 0; --r) {
         ring.radius = reach * r / kRingRadii;
         if (!looks_deep(solid, ring, depth)) continue;

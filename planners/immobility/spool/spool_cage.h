@@ -15,8 +15,8 @@ struct SpoolCage {
 };
 
 /// Is the spool in a hole of the solid `around`, with a rim on either side that is too wide for a ring about the hole,
-/// which lies `depth` (> 0) below the surface and more? So many rings about an axis are tried. Nothing: not found, or told
-/// to stop.
+/// which lies `depth` (> 0) below the surface and more? So many rings about an axis are tried. Nothing: not found, or
+/// told to stop.
 ///
 /// Why it stays. The surface of the spool keeps out of the ring, so its rims and a line on it from rim to rim do. As
 /// with ring_cage(), a rim, which is convex (or so near to a convex curve that the ring keeps out of that), is crossed

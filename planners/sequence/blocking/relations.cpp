@@ -15,10 +15,12 @@ constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
 
 }  // namespace
 
-Relations::Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Executor> executor)
+Relations::Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+                     std::shared_ptr<Executor> executor)
     : directions_(directions),
       judge_(judge),
       shadows_(directions.all.size()),
+      turns_(orientations),
       executor_(std::move(executor)),
       blocks_ahead_(executor_, Executor::Priority::speculative, [](bool blocked) { return blocked; }) {
   for (const auto& d : directions.all) {
@@ -59,16 +61,6 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
   return {s.lo[0], s.hi[0]};
 }
 
-std::size_t Relations::turn(const Eigen::Quaterniond& q) {
-  const auto known =
-      std::find_if(turns_.begin(), turns_.end(), [&](const auto& t) { return std::abs(t.dot(q)) > 1 - 1e-14; });
-  if (known == turns_.end()) {
-    turns_.push_back(q);
-    return turns_.size() - 1;
-  }
-  return static_cast<std::size_t>(known - turns_.begin());
-}
-
 /// One of both ways of looking at a pair: i along d past j is j along -d past i. A proof that has a budget may tell
 /// them apart, and rounding offsets; asked like this, it does not matter who asks.
 Pair Relations::canonical(Pair p) {
@@ -90,6 +82,12 @@ Relations::Key Relations::key_of(const Pair& pair) {
 }
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
+
+bool Relations::known_to_block(const Pair& pair) const {
+  if (far(pair)) return false;
+  const auto found = blocks_.find(key_of(pair));
+  return found != blocks_.end() && found->second;
+}
 
 double Relations::way_past(const Pair& p) const {
   return shadow(p.still, p.direction, p.turn_still).hi[0] - shadow(p.moving, p.direction, p.turn_moving).lo[0] -

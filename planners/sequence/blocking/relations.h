@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocking/directions.h"
+#include "blocking/orientations.h"
 #include "dismantle/speculative_cache.h"
 #include "dismantle/verification/verifier.h"
 
@@ -22,7 +23,7 @@ struct Pair {
   PartId moving = 0, still = 0;
   std::size_t direction = 0;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
-  std::size_t turn_moving = 0, turn_still = 0;       ///< as Relations::turn names them
+  std::size_t turn_moving = 0, turn_still = 0;       ///< numbers of Orientations
 };
 
 /// A pair, how the two stand to each other, and a direction; see Relations.
@@ -33,13 +34,16 @@ using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, st
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
-  Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Executor> executor);
+  Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+            std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
   /// The same for many.
   void compute(std::span<const Pair> pairs);
   /// Asked for before, or far. What was found ahead does not count, so that threads do not show.
   bool known(const Pair& pair) const;
+  /// Is it known, and does it block?
+  bool known_to_block(const Pair& pair) const;
   /// Are there threads for what will probably be asked?
   bool works_ahead() const { return blocks_ahead_.computes_ahead(); }
   /// Is it worth telling them? They have little left.
@@ -52,8 +56,6 @@ class Relations {
   double way_past(const Pair& pair) const;
   /// Extent of a part along a direction, turned but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
-  /// A number for a rotation from the assembled orientation; 0 is none. Equal rotations have equal numbers.
-  std::size_t turn(const Eigen::Quaterniond& q);
   /// How many were asked for.
   std::uint64_t computed() const { return blocks_.size(); }
 
@@ -74,7 +76,7 @@ class Relations {
   const Verifier& judge_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
-  std::vector<Eigen::Quaterniond> turns_{Eigen::Quaterniond::Identity()};
+  const Orientations& turns_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
   std::shared_ptr<Executor> executor_;

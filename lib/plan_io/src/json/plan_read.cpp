@@ -357,7 +357,8 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   plan.remaining = read_group(root.at("remaining"), parts);
   for (const Place& item : root.at("unsolved").items()) plan.unsolved.push_back(read_unsolved(item, parts));
   if (root.has("certificates"))
-    for (const Place& item : root.at("certificates").items()) plan.certificates.push_back(read_certificate(item, parts));
+    for (const Place& item : root.at("certificates").items())
+      plan.certificates.push_back(read_certificate(item, parts));
   for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
     if (plan.unsolved[i].certificate && *plan.unsolved[i].certificate >= plan.certificates.size())
       root.at("unsolved").items()[i].at("certificate").fail("there is no such certificate");

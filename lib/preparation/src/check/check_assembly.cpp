@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "dismantle/geometry/triangle_bvh.h"
-#include "dismantle/parallel.h"
 #include "dismantle/verification/verifier.h"
+#include "parallel_phase.h"
 
 namespace dismantle {
 namespace {
@@ -54,7 +54,7 @@ class Geometry {
     Aabb box;
     for (const Part& part : assembly.parts) box.extend(part.mesh->box());
     size_ = box.size().maxCoeff();
-    parallel_for(
+    parallel_phase(
         bvhs_.size(), context, "check",
         [&](std::size_t i) { bvhs_[i] = std::make_unique<TriangleBvh>(*assembly_.parts[i].mesh); },
         [&](std::size_t i) { return assembly_.parts[i].name; });
@@ -62,12 +62,12 @@ class Geometry {
 
   void add_findings(AssemblyCheck& check) const {
     std::vector<Finding> overlaps(assembly_.overlaps.size());
-    parallel_for(
+    parallel_phase(
         overlaps.size(), context_, "overlaps", [&](std::size_t i) { overlaps[i] = overlap(assembly_.overlaps[i]); },
         [&](std::size_t i) { return name(assembly_.overlaps[i].a); });
     check.findings.insert(check.findings.end(), overlaps.begin(), overlaps.end());
     std::vector<char> alone(bvhs_.size(), 0);
-    parallel_for(
+    parallel_phase(
         bvhs_.size(), context_, "contacts", [&](std::size_t i) { alone[i] = isolated(static_cast<PartId>(i)); },
         [&](std::size_t i) { return assembly_.parts[i].name; });
     for (PartId id = 0; id < alone.size(); ++id)

@@ -25,8 +25,9 @@ class CertificateCheck {
         prover_of_(prover_of),
         context_(context) {
     for (const Part& part : assembly.parts)
-      memo_.put("solids", part.id, std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(),
-                                                                                        &verifier.solids(part.id)));
+      memo_.put(
+          "solids", part.id,
+          std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
   }
 
   /// Empty when the certificate holds.
@@ -42,10 +43,12 @@ class CertificateCheck {
     if (certificate.parts.size() < 2) return "it needs two parts at least";
     const bool full = written.margin >= tolerance_ * (1 - kRounding);
     if (!(written.margin > 0) || written.margin > tolerance_ * (1 + kRounding))
-      return fmt::format("its margin {:.4g} is not between 0 and the plan's tolerance {:.4g}", written.margin, tolerance_);
+      return fmt::format("its margin {:.4g} is not between 0 and the plan's tolerance {:.4g}", written.margin,
+                         tolerance_);
     if (full != written.full_tolerance)
       return fmt::format("its margin is {:.4g} of a tolerance of {:.4g}, and it says {} full tolerance", written.margin,
-                         tolerance_, written.full_tolerance ? "that it holds for the" : "that it does not hold for the");
+                         tolerance_,
+                         written.full_tolerance ? "that it holds for the" : "that it does not hold for the");
     const auto prover = prover_of_ ? prover_of_(written.kind) : nullptr;
     if (!prover) return fmt::format("there is no immobility prover '{}' to check it", written.kind);
     for (const Pose& pose : written.poses)
@@ -56,8 +59,7 @@ class CertificateCheck {
     if (!certificate.poses.empty()) {
       if (certificate.poses.size() != certificate.parts.size()) return "it does not have one pose for each part";
       if (!traits.depends_on_poses) return "it has poses, and proofs of its kind are about parts as assembled";
-      if (!ever_there(certificate))
-        return "its parts are at no time of the plan where it has them";
+      if (!ever_there(certificate)) return "its parts are at no time of the plan where it has them";
     }
     SeparationQuery query{assembly_, {}, {}, tolerance_, full ? 1 : written.margin / tolerance_, memo_};
     for (std::size_t i = 0; i < certificate.parts.size(); ++i)

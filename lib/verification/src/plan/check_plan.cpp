@@ -193,8 +193,7 @@ class Checker {
 
   void check_certificates() {
     if (stopped()) return;
-    const auto wrong =
-        problems_of_certificates(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
+    const auto wrong = problems_of_certificates(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
     if (wrong.empty()) result_.certificates = plan_.certificates.size();
     for (const auto& text : wrong) problem(text);
   }
@@ -333,7 +332,7 @@ class Checker {
   PlanState state_;
   PlanCheck result_;
   std::vector<StepMotion> motions_;  // of the disassembly steps that could be read
-  std::vector<Group> passed_;  // by disassembly step: what its parts were checked against
+  std::vector<Group> passed_;        // by disassembly step: what its parts were checked against
   unsigned step_ = 0;
 };
 

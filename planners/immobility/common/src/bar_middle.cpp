@@ -10,9 +10,9 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/inner_ball.h"
-#include "dismantle/immobility/query.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/query.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kSamples = 2'000;  // of the bar's surface
-constexpr double kDeeper = 1.1;      // of the tolerance: balls that are no larger say nothing
+constexpr double kDeeper = 1.1;     // of the tolerance: balls that are no larger say nothing
 constexpr std::size_t kChunk = 64;  // triangles, or balls, that a thread takes at a time
 
 std::size_t chunks(std::size_t count) { return (count + kChunk - 1) / kChunk; }
@@ -102,12 +102,14 @@ const std::vector<std::vector<InnerBall>>* middles_of(const SeparationQuery& que
                                                       const RunContext& context) {
   using Middles = std::vector<std::vector<InnerBall>>;
   const double least = kDeeper * query.tolerance;
-  return query.memo.get<Middles>("middles above " + std::to_string(least), part, context, [&]() -> std::optional<Middles> {
-    Middles all;
-    for (const Solid& solid : solids_of(query, part)) all.push_back(middle_of(solid, least, context));
-    if (context.should_stop()) return std::nullopt;
-    return all;
-  });
+  return query.memo.get<Middles>("middles above " + std::to_string(least), part, context,
+                                 [&]() -> std::optional<Middles> {
+                                   Middles all;
+                                   for (const Solid& solid : solids_of(query, part))
+                                     all.push_back(middle_of(solid, least, context));
+                                   if (context.should_stop()) return std::nullopt;
+                                   return all;
+                                 });
 }
 
 }  // namespace dismantle::immobility

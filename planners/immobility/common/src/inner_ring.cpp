@@ -36,7 +36,8 @@ bool is_deep(const Solid& solid, const InnerRing& ring, double depth, double fro
 
 bool looks_deep(const Solid& solid, const InnerRing& ring, double depth) {
   for (int k = 0; k < kGlance; ++k)
-    if (!(escape_at(solid.frame.inverse() * point_on(ring, 2 * pi * ((5 * k) % kGlance) / kGlance), solid).depth > depth))
+    if (!(escape_at(solid.frame.inverse() * point_on(ring, 2 * pi * ((5 * k) % kGlance) / kGlance), solid).depth >
+          depth))
       return false;
   return true;
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "dismantle/testing/held_shapes.h"
 #include "disc/facets.h"
+#include "dismantle/testing/held_shapes.h"
 
 namespace dismantle {
 namespace {

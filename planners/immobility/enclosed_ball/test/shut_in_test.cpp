@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "dismantle/verification/verifier.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle {
 namespace {

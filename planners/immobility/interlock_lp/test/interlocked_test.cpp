@@ -2,9 +2,9 @@
 // may, gets out of bounds, however the assembly stands.
 #include <gtest/gtest.h>
 
+#include "dismantle/testing/held_shapes.h"
 #include "dismantle/verification/explanations.h"
 #include "dismantle/verification/verifier.h"
-#include "dismantle/testing/held_shapes.h"
 
 namespace dismantle {
 namespace {

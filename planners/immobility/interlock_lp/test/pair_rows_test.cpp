@@ -8,8 +8,8 @@
 namespace dismantle {
 namespace {
 
-using shapes::Vec3;
 using immobility::Vector6;
+using shapes::Vec3;
 
 Vector6 random_pose_within(Rng& rng, const Vector6& lo, const Vector6& hi) {
   Vector6 x;

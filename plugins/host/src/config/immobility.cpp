@@ -19,15 +19,16 @@ class Reader {
     for (const char* id : default_provers())
       if (const auto* type = registry_.lookup(PluginKind::immobility_prover, id); type != nullptr) {
         std::map<std::string, std::string> unnamed;
-        choices_.push_back({id, bind_section(type->type.params, nullptr, {"immobility", id, ""}, homes_, unnamed,
-                                             problems_)});
+        choices_.push_back(
+            {id, bind_section(type->type.params, nullptr, {"immobility", id, ""}, homes_, unnamed, problems_)});
       }
     return std::move(choices_);
   }
 
   std::vector<PluginChoice> read(const ConfigNode& section) {
     if (!section.is_map()) {
-      problems_.push_back(section.mark.error(fmt::format("immobility must be a map of keys, not {}", section.kind_name())));
+      problems_.push_back(
+          section.mark.error(fmt::format("immobility must be a map of keys, not {}", section.kind_name())));
       return {};
     }
     const ConfigMember* list = nullptr;
@@ -55,8 +56,9 @@ class Reader {
     const ConfigMember* type = item.is_map() ? item.find("type") : nullptr;
     const ConfigNode& id = type != nullptr ? type->value : item;
     if (!id.is_scalar() || id.scalar.empty()) {
-      problems_.push_back(item.mark.error("an entry of immobility.provers must be the id of an immobility prover, or a "
-                                          "map with its type and parameters"));
+      problems_.push_back(
+          item.mark.error("an entry of immobility.provers must be the id of an immobility prover, or a "
+                          "map with its type and parameters"));
       return;
     }
     const auto* found = registry_.lookup(PluginKind::immobility_prover, id.scalar);
@@ -70,9 +72,9 @@ class Reader {
     }
     const std::string source =
         fmt::format("{} {}, {}", found->type.id, found->file->version, found->file->path.filename().string());
-    choices_.push_back({id.scalar, bind_section(found->type.params, item.is_map() ? &item : nullptr,
-                                                {"immobility.provers." + id.scalar, id.scalar, source}, homes_, origins_,
-                                                problems_)});
+    choices_.push_back(
+        {id.scalar, bind_section(found->type.params, item.is_map() ? &item : nullptr,
+                                 {"immobility.provers." + id.scalar, id.scalar, source}, homes_, origins_, problems_)});
   }
 
   const Registry& registry_;

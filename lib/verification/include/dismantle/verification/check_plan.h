@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/assembly.h"
+#include "dismantle/export.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/plan.h"
 #include "dismantle/run_context.h"
@@ -24,7 +24,7 @@ struct PlanCheck {
   bool valid = false;     ///< every step is a valid motion that separates what it says, and every certificate holds
   bool complete = false;  ///< valid, and every group is down to one part
   std::size_t certificates = 0;  ///< that hold
-  double max_penetration = 0;  ///< worst certified bound over all steps
+  double max_penetration = 0;    ///< worst certified bound over all steps
   std::vector<double> step_penetration;
   std::vector<PlanProblem> problems;
 };

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dismantle/immobility_prover.h"
-#include "dismantle/run_context.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility_prover.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 
@@ -20,8 +20,8 @@ struct InnerBall {
 /// Balls with radii above `least` (> 0) along the middle of the solid, the largest first. Some when told to stop.
 std::vector<InnerBall> middle_of(const Solid& solid, double least, const RunContext& context);
 
-/// Those of all solids of a part, as solids_of(), deeper than the query's whole tolerance: computed once in an assembly.
-/// nullptr when told to stop.
+/// Those of all solids of a part, as solids_of(), deeper than the query's whole tolerance: computed once in an
+/// assembly. nullptr when told to stop.
 const std::vector<std::vector<InnerBall>>* middles_of(const SeparationQuery& query, PartId part,
                                                       const RunContext& context);
 

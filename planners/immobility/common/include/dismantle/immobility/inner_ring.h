@@ -17,13 +17,13 @@ struct InnerRing {
 };
 
 inline constexpr int kRingHeights = 24, kRingRadii = 32;  ///< where rings are looked for
-inline constexpr int kArcHalvings = 12;                  ///< of arcs, to prove that all of a ring is deep enough
+inline constexpr int kArcHalvings = 12;                   ///< of arcs, to prove that all of a ring is deep enough
 
 /// The point of the ring at an angle from a fixed direction; rad.
 Eigen::Vector3d point_on(const InnerRing& ring, double angle);
 
-/// Is all of the arc between two angles deeper in the solid than `depth`? Shown by at most so many halvings of it: depths
-/// change no faster than the point moves.
+/// Is all of the arc between two angles deeper in the solid than `depth`? Shown by at most so many halvings of it:
+/// depths change no faster than the point moves.
 bool is_deep(const Solid& solid, const InnerRing& ring, double depth, double from, double to, int halvings);
 /// Are some points of the ring?
 bool looks_deep(const Solid& solid, const InnerRing& ring, double depth);

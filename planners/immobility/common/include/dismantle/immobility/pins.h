@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "dismantle/immobility/linear_bound.h"
-#include "dismantle/immobility/occupancy.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/linear_bound.h"
+#include "dismantle/immobility/occupancy.h"
 
 namespace dismantle::immobility {
 
