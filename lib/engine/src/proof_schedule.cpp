@@ -20,7 +20,7 @@ constexpr unsigned kDepthForHigh = 4;  // likewise of high effort
 constexpr double kLastShare = 0.5;     // of the tolerance: with half of it more is proved than with all of it
 constexpr double kWhole = 1 - 1e-9;
 
-bool holds(const std::vector<PlacedPart>& group, PartId part) {
+bool has_part(const std::vector<PlacedPart>& group, PartId part) {
   return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
 }
 
@@ -35,7 +35,7 @@ PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt)
   result.outcome = Outcome::infeasible;
   result.message = certificate.text;
   for (const PartId id : certificate.parts)
-    if (holds(attempt.still, id)) result.blocked_by.push_back(id);
+    if (has_part(attempt.still, id)) result.blocked_by.push_back(id);
   return result;
 }
 
@@ -133,7 +133,7 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
   if (!attempt.leaving.empty()) {
     const Certificate* found = nullptr;
     for (const PartId id : attempt.leaving) {
-      const auto here = [&](PartId other) { return holds(attempt.moving, other) || holds(attempt.still, other); };
+      const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.still, other); };
       const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
         return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
       });
@@ -143,8 +143,8 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
     return found;
   }
   const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
-    return (holds(attempt.moving, c->parts[0]) && holds(attempt.still, c->parts[1])) ||
-           (holds(attempt.moving, c->parts[1]) && holds(attempt.still, c->parts[0]));
+    return (has_part(attempt.moving, c->parts[0]) && has_part(attempt.still, c->parts[1])) ||
+           (has_part(attempt.moving, c->parts[1]) && has_part(attempt.still, c->parts[0]));
   });
   return lock == locks_.end() ? nullptr : *lock;
 }
