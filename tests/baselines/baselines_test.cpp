@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "dismantle/host/config.h"
-#include "dismantle/errors.h"
 #include "dismantle/engine/run.h"
-#include "dismantle/samples.h"
+#include "dismantle/errors.h"
+#include "dismantle/host/config.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/samples.h"
 
 namespace dismantle {
 namespace {

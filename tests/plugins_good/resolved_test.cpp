@@ -26,6 +26,11 @@ class Resolved : public testing_support::Scratch {
     EXPECT_EQ(a.sequence_planner.params, b.sequence_planner.params);
     EXPECT_EQ(a.transfer_planner.type, b.transfer_planner.type);
     EXPECT_EQ(a.transfer_planner.params, b.transfer_planner.params);
+    ASSERT_EQ(a.provers.size(), b.provers.size());
+    for (std::size_t i = 0; i < a.provers.size(); ++i) {
+      EXPECT_EQ(a.provers[i].type, b.provers[i].type);
+      EXPECT_EQ(a.provers[i].params, b.provers[i].params);
+    }
     ASSERT_EQ(a.layout.poses.size(), b.layout.poses.size());
     for (const auto& [part, pose] : a.layout.poses) {
       EXPECT_EQ(pose.t, b.layout.poses.at(part).t);

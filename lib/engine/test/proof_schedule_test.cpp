@@ -71,7 +71,8 @@ TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
     EXPECT_EQ(r.certificate->margin, s.options.verify.max_penetration);
   }
   const Attempt way = leave(s.assembly, 0);
-  const AttemptResult& proposed = s.oracle->propose(way, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
+  const AttemptResult& proposed =
+      s.oracle->propose(way, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
   EXPECT_EQ(proposed.result.outcome, Outcome::infeasible);
   EXPECT_EQ(searches, 0);
   s.ask(leave(s.assembly, 2));
@@ -144,17 +145,21 @@ TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
 
 TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {
   constexpr double kLimit = 0.05;
-  const NamedProver slow = fake::prover("slow", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
-    std::this_thread::sleep_for(std::chrono::duration<double>(2 * kLimit));
-    return std::nullopt;
-  });
+  const NamedProver slow =
+      fake::prover("slow", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
+        std::this_thread::sleep_for(std::chrono::duration<double>(2 * kLimit));
+        return std::nullopt;
+      });
   bool in_time = false;
   RunOptions options;
   options.path_timeout = kLimit;
-  Rig s(row(2), with(fake::ingredients([&](const PathQuery&, RunContext& c) {
-          in_time = c.deadline.seconds_left() > 0;
-          return outcome(Outcome::exhausted);
-        }), {slow}), 1, options);
+  Rig s(row(2),
+        with(fake::ingredients([&](const PathQuery&, RunContext& c) {
+               in_time = c.deadline.seconds_left() > 0;
+               return outcome(Outcome::exhausted);
+             }),
+             {slow}),
+        1, options);
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 3));
   EXPECT_TRUE(in_time) << "the limit begins with the search";
   EXPECT_GE(r.proof_seconds, 2 * kLimit);
@@ -188,7 +193,8 @@ TEST(ProofSchedule, OneProofForAllThreadsThatAsk) {
       std::vector<std::jthread> threads;
       for (std::size_t k = 0; k < seen.size(); ++k)
         threads.emplace_back([&s, &seen, k] {
-          seen[k] = s.oracle->prove({k % 2 == 0 ? std::vector<PartId>{0, 1} : std::vector<PartId>{1, 0}, ProofEffort::low, 1}, {});
+          seen[k] = s.oracle->prove(
+              {k % 2 == 0 ? std::vector<PartId>{0, 1} : std::vector<PartId>{1, 0}, ProofEffort::low, 1}, {});
         });
     }
     EXPECT_EQ(asked, 1);
@@ -211,9 +217,10 @@ TEST(ProofSchedule, AStoppedProofSaysNothing) {
 
 TEST(ProofSchedule, AProverThatThrowsProvesNothingAndIsReported) {
   int searches = 0;
-  const NamedProver broken = fake::prover("broken", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
-    throw std::runtime_error("no idea");
-  });
+  const NamedProver broken =
+      fake::prover("broken", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
+        throw std::runtime_error("no idea");
+      });
   Asked next;
   next.proves = false;
   Rig s(row(2), with(fake::ingredients(touching({}, searches)), {broken, next.prover("next", kLow)}));
