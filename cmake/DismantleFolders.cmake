@@ -8,7 +8,9 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/path/navigation_tree planners/path/portfolio planners/path/rrt
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/sequence/progressive planners/sequence/queue planners/sequence/random
-  planners/transfer/rrt_connect)
+  planners/transfer/rrt_connect
+  planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
+  planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool)
 set(DISMANTLE_WITHOUT "" CACHE STRING "Plugin folders to leave out as if they were deleted, separated by semicolons")
 
 set(DISMANTLE_MISSING_PLUGINS "")

@@ -147,6 +147,7 @@ int plan(const PlanOptions& options) {
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
   if (result.counts.proposed > 0)
     text += fmt::format(", {} ways proposed ({} refused)", result.counts.proposed, result.counts.refused);
+  if (result.proof_seconds >= 0.05) text += fmt::format(", {:.1f} s of proofs", result.proof_seconds);
   for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
   text += "\n";
   if (const auto names = unusable_parts(assembly); !names.empty())

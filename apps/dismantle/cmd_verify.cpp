@@ -75,7 +75,11 @@ int verify(const Verify& options) {
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are judged as repaired with these",
         r.weld, r.repair, r.max_hole));
-  const PlanCheck check = check_plan(plan, assembly, tolerance, context);
+  const ProverOfKind prover_of = [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
+    return registry.create<ImmobilityProver>(kind);
+  };
+  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of);
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 
@@ -88,6 +92,7 @@ int verify(const Verify& options) {
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
+                  {"certificates", check.certificates},
                   {"problems", problems},
                   {"plan", options.plan}});
   return check.valid && check.complete ? kComplete : kPartial;

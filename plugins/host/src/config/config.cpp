@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "config/binder.h"
 #include "config/constraints.h"
@@ -38,6 +39,11 @@ class Loader {
       }
       config_.sections[name] = binder().section(specs, section, {name, "", ""});
     }
+    ParamSet immobility = binder().section({provers_parameter(registry_)}, node("immobility"), {"immobility", "", ""});
+    if (const auto found = immobility.find("provers"); found != immobility.end()) {
+      config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
+      check_provers();
+    }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, problems_);
     check_capabilities();
@@ -56,8 +62,17 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
+  /// Each is asked once.
+  void check_provers() {
+    std::set<std::string> seen;
+    for (const PluginChoice& choice : config_.provers)
+      if (!seen.insert(choice.type).second)
+        problems_.push_back({config_.origins["immobility.provers"], 0, 0,
+                             fmt::format("immobility.provers lists '{}' twice", choice.type)});
+  }
+
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "importers", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)

@@ -16,6 +16,8 @@ Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
     };
     out.transfer_planner_id = config.transfer_planner.type;
   }
+  for (const PluginChoice& choice : config.provers)
+    out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   return out;
 }
 

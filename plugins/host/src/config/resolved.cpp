@@ -64,6 +64,11 @@ class Writer {
     }
   }
 
+  void provers(const std::vector<PluginChoice>& choices, const Registry& registry) {
+    line("immobility:");
+    yaml_.values("immobility", 2, {provers_parameter(registry)}, {{"provers", choices}});
+  }
+
   const std::string& text() const { return yaml_.text(); }
 
  private:
@@ -115,6 +120,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i]);
+  writer.provers(config.provers, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
     writer.line("  poses:");
