@@ -1,0 +1,76 @@
+// Parts that did not come out: how the attempt ended, what was in the way, how far it got.
+import {number, outcomeMeaning, outcomeTitle, share} from '../plan/words.js';
+import {element, icon} from './dom.js';
+
+/** How far a pose is from the assembled one, in words. */
+function distance(model, part, pose) {
+  const [x, y, z, qw, qx, qy, qz] = pose, s = Math.hypot(qx, qy, qz);
+  const {center} = part, rotated = center.map(() => 0);
+  const tx = 2 * (qy * center[2] - qz * center[1]), ty = 2 * (qz * center[0] - qx * center[2]), tz = 2 * (qx * center[1] - qy * center[0]);
+  rotated[0] = qw * tx + qy * tz - qz * ty + x;
+  rotated[1] = qw * ty + qz * tx - qx * tz + y;
+  rotated[2] = qw * tz + qx * ty - qy * tx + z;
+  const length = Math.hypot(...rotated), angle = 2 * Math.atan2(s, Math.abs(qw)) * 180 / Math.PI;
+  if (!(length > 0) && !(s > 0)) return 'it did not move';
+  const words = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
+  return angle > 0.05 ? `${words}, turned by ${number(Number(angle.toPrecision(2)))}°` : words;
+}
+
+function link(app, name, kind = 'button.chip') {
+  const index = app.model.index.get(name);
+  return element(kind, {type: 'button', title: `Select ${name}`, onclick: () => app.select(index),
+    onmouseenter: () => app.hover(index), onmouseleave: () => app.hover(-1)}, name);
+}
+
+function card(app, unsolved) {
+  const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
+  const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
+  const row = (name, ...value) => [element('dt', {}, name), element('dd', {}, ...value)];
+  const show = element('button.primary', {type: 'button', 'aria-pressed': 'false',
+    onclick: () => app.best?.index === index ? app.leaveBest() : app.showBest(index)}, 'Show how far it got');
+  app.on(what => {
+    if (what !== 'best') return;
+    const on = app.best?.index === index;
+    show.setAttribute('aria-pressed', String(on));
+    show.textContent = on ? 'Back to the assembly' : 'Show how far it got';
+  });
+  return element('article.card', {'data-part': unsolved.part},
+    element('header', {}, icon('warning'), link(app, unsolved.part, 'button.title'), element('span.pill.bad', {}, outcomeTitle(unsolved.outcome))),
+    element('p', {}, outcomeMeaning(unsolved.outcome)),
+    unsolved.message ? element('p.message', {}, unsolved.message) : null,
+    element('dl.facts', {},
+      row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
+      row('furthest', distance(model, model.parts[index], unsolved.best_pose)),
+      overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
+    show);
+}
+
+function certificate(c) {
+  const parts = Array.isArray(c.parts) ? c.parts.join(', ') : '';
+  const rest = Object.entries(c).filter(([key]) => key !== 'kind' && key !== 'parts').map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n');
+  return element('article.card', {}, element('header', {}, icon('check'), element('strong', {}, `Proof: ${c.kind ?? 'certificate'}`)),
+    parts ? element('p', {}, `These parts cannot be separated: ${parts}`) : null,
+    rest ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, rest)) : null);
+}
+
+/** Null when there is nothing to tell. */
+export function makeProblems(app) {
+  const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
+  const silent = plan.status === 'partial' ? plan.remaining.filter(n => !app.model.unsolved.has(app.model.index.get(n))) : [];
+  const forced = plan.disassembly.filter(s => s.forced);
+  const {excluded} = plan.assembly;
+  const count = plan.unsolved.length + certificates.length + excluded.length + forced.length;
+  if (count === 0 && plan.status === 'complete') return null;
+  const pane = element('div.pane.problems', {},
+    plan.unsolved.length > 0 ? element('p.note', {}, 'These parts should have come out and did not. The plan holds for all that did.') : null,
+    plan.unsolved.map(u => card(app, u)),
+    forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
+      element('p', {}, `${s.moves.map(m => m.part).join(', ')} cannot come out as a rigid body: it is taken out where it cuts in least. This step is not verified.`))),
+    certificates.map(certificate),
+    silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
+      element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),
+      element('div.chips', {}, silent.map(n => link(app, n)))) : null,
+    excluded.length > 0 ? element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, 'Left out of the plan')),
+      element('dl.facts', {}, excluded.map(e => [element('dt', {}, e.name), element('dd', {}, e.reason)]))) : null);
+  return {pane, count: count || silent.length};
+}
