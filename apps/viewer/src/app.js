@@ -3,6 +3,7 @@ import {screwInterpolate} from './plan/screw.js';
 import {Parts} from './scene/parts.js';
 
 const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, to the pose that came furthest
+const SEEN_THROUGH = 0.5;
 const IDENTITY = [0, 0, 0, 1, 0, 0, 0];
 
 export class App {
@@ -124,6 +125,7 @@ export class App {
     this.tell('explode');
     if (this.stage) {
       this.place();
+      this.stage.ground.material.opacity = this.stage.shade * (1 - 0.6 * this.explode);
       this.fit(false, 1.12);
     }
   }
@@ -204,7 +206,7 @@ export class App {
     this.tell('best');
     this.tell('selection');
     this.place();
-    this.stage?.fit(this.parts.box(i => i === index || blockers.has(i)), {margin: 1.3, minimum: 0.1 * this.model.size});
+    this.stage?.fit(this.parts.boxes(i => i === index || blockers.has(i)), {margin: 1.3, minimum: 0.1 * this.model.size});
   }
 
   leaveBest() {
@@ -221,6 +223,7 @@ export class App {
   opacity(i) {
     if (this.hidden.has(i) || (this.isolated && !this.isolated.has(i))) return 0;
     const presence = this.model.presence(i, this.mode, this.time, this.fading);
+    if (this.best?.index === i) return SEEN_THROUGH;  // what blocked it may be inside
     const through = this.clear.has(i) || (this.best && i !== this.best.index && !this.best.blockers.has(i));
     return through ? Parts.ghostly(presence) : presence;
   }
@@ -249,8 +252,8 @@ export class App {
       const body = this.parts.bodies[index];
       body.setColour(this.model.colour(index, this.colours));
       if (this.best?.blockers.has(index)) body.setGlow(AMBER, 0.45);
-      else if (index === this.selected) body.setGlow('#3b62ff', 0.28);
-      else if (index === this.hovered) body.setGlow('#ffffff', 0.12);
+      else if (index === this.selected) body.setGlow('#ffffff', 0.1);
+      else if (index === this.hovered) body.setGlow('#ffffff', 0.16);
       else body.setGlow('#000000', 0);
     }
     this.stage.invalidate();
@@ -286,16 +289,28 @@ export class App {
   /** Ground and light for the assembly and, when it is put together, for what lies around it. */
   settle() {
     if (!this.stage) return;
-    this.stage.settle(this.parts.box(() => true));
+    this.stage.settle(this.parts.boxes(() => true));
   }
 
   fit(fly = true, margin = 1.12, from = null) {
-    this.stage?.fit(this.parts.box(i => this.opacity(i) > 0), {fly, margin, from});
+    this.stage?.fit(this.parts.boxes(i => this.opacity(i) > 0), {fly, margin, from});
   }
 
   /** The first view: room for what comes out, or all that lies around. */
   home(fly) {
+    if (!this.stage) return;
     this.place();
-    this.fit(fly, this.mode === 'disassembly' ? 1.55 : 1.1, fly ? null : 'corner');
+    const boxes = this.parts.boxes(() => true), from = fly ? null : 'corner';
+    if (this.mode === 'assembly' || this.fading) {
+      this.stage.fit(boxes, {fly, from, margin: this.mode === 'assembly' ? 1.08 : 1.3});
+      return;
+    }
+    const {time} = this;
+    this.time = this.line.duration;
+    this.place();
+    const after = this.parts.boxes(() => true);
+    this.time = time;
+    this.place();
+    this.stage.fit([...boxes, ...after], {fly, from, margin: 1.12});
   }
 }

@@ -34,7 +34,7 @@ export function expose(app, look) {
     box: name => { const {lo, hi} = model.parts[index(name)]; return [lo.slice(), hi.slice()]; },
     offset: name => model.offsets[index(name)].slice(),
     fit: () => app.fit(false),
-    view: from => app.stage.fit(app.parts.box(i => app.opacity(i) > 0), {from, fly: false}),
+    view: from => app.stage.fit(app.parts.boxes(i => app.opacity(i) > 0), {from, fly: false}),
     info: () => app.stage.renderer.info,
   };
   const stepsOf = mode => mode === 'disassembly' ? model.plan.disassembly : model.plan.assembly_steps;

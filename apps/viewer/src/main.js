@@ -69,7 +69,7 @@ function start() {
     });
     stage.renderer.domElement.addEventListener('dblclick', event => {
       const index = picker.partAt(event);
-      if (index >= 0) stage.fit(parts.box(i => i === index), {margin: 2});
+      if (index >= 0) stage.fit(parts.boxes(i => i === index), {margin: 2});
       else app.fit();
     });
     scene.append(makeTools(app, look, () => help.showModal()), makeGizmo(app), ...overlay.nodes);

@@ -30,11 +30,14 @@ class Body {
     });
     this.lines = lines;
     this.mesh = new THREE.Mesh(geometries.surface, this.solid);
-    this.mesh.matrixAutoUpdate = false;
+    // One matrix, written by move(): for the mesh, in the scene, and for its edges.
+    this.mesh.matrixAutoUpdate = this.mesh.matrixWorldAutoUpdate = false;
+    this.mesh.matrix = this.mesh.matrixWorld;
     this.mesh.castShadow = this.mesh.receiveShadow = true;
     this.mesh.userData.index = part.index;
     this.edges = new THREE.LineSegments(geometries.edges, lines.solid);
-    this.edges.matrixAutoUpdate = false;
+    this.edges.matrixAutoUpdate = this.edges.matrixWorldAutoUpdate = false;
+    this.edges.matrix = this.edges.matrixWorld = this.mesh.matrixWorld;
     this.edges.raycast = () => {};
     this.edges.visible = geometries.edges.index.count > 0;
     this.mesh.add(this.edges);
@@ -102,12 +105,11 @@ export class Parts {
     transform(out, pose, 0, place);
     const {origin, offsets} = this.model, offset = offsets[i];
     for (let k = 0; k < 3; ++k) out[k] += share * offset[k] - origin[k];
-    const w = out[3], x = out[4], y = out[5], z = out[6], m = mesh.matrix.elements;
+    const w = out[3], x = out[4], y = out[5], z = out[6], m = mesh.matrixWorld.elements;
     m[0] = 1 - 2 * (y * y + z * z), m[1] = 2 * (x * y + w * z), m[2] = 2 * (x * z - w * y);
     m[4] = 2 * (x * y - w * z), m[5] = 1 - 2 * (x * x + z * z), m[6] = 2 * (y * z + w * x);
     m[8] = 2 * (x * z + w * y), m[9] = 2 * (y * z - w * x), m[10] = 1 - 2 * (x * x + y * y);
     m[12] = out[0], m[13] = out[1], m[14] = out[2];
-    mesh.matrixWorldNeedsUpdate = true;
   }
 
   /** Where the point `p` of part `i` (assembled, input coordinates) is drawn: by the mesh's own matrix. Input coordinates. */
@@ -116,19 +118,14 @@ export class Parts {
     const assembled = new THREE.Matrix4().compose(new THREE.Vector3(...part.place.slice(0, 3)),
       new THREE.Quaternion(part.place[4], part.place[5], part.place[6], part.place[3]), new THREE.Vector3(1, 1, 1));
     const local = new THREE.Vector3(...p).applyMatrix4(assembled.invert());
-    mesh.updateWorldMatrix(true, false);
     return local.applyMatrix4(mesh.matrixWorld).toArray().map((x, k) => x + this.model.origin[k]);
   }
 
-  /** Box around the parts that `wanted` accepts, in scene coordinates. */
-  box(wanted) {
-    const box = new THREE.Box3(), one = new THREE.Box3();
-    for (const {mesh, part} of this.bodies) {
-      if (!wanted(part.index)) continue;
-      mesh.updateWorldMatrix(false, false);
-      box.union(one.copy(mesh.geometry.boundingBox).applyMatrix4(mesh.matrixWorld));
-    }
-    return box.isEmpty() ? new THREE.Box3(new THREE.Vector3().setScalar(-this.model.size / 2), new THREE.Vector3().setScalar(this.model.size / 2)) : box;
+  /** Boxes around the parts that `wanted` accepts, in scene coordinates; of the whole assembly when there are none. */
+  boxes(wanted) {
+    const out = this.bodies.filter(b => wanted(b.part.index)).map(({mesh}) => mesh.geometry.boundingBox.clone().applyMatrix4(mesh.matrixWorld));
+    const half = new THREE.Vector3().setScalar(this.model.size / 2);
+    return out.length > 0 ? out : [new THREE.Box3(half.clone().negate(), half)];
   }
 
   static ghostly(presence) {

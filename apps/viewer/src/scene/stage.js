@@ -3,6 +3,27 @@ import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 const FLIGHT = 0.45;  // s, from one view to another
+const SLOW = 0.075;   // s, a frame that takes longer is no motion any more
+
+/** The corners of boxes, one after the other, in one vector. */
+function* corners(boxes) {
+  const corner = new THREE.Vector3();
+  for (const {min, max} of boxes)
+    for (let c = 0; c < 8; ++c) yield corner.set(c & 1 ? max.x : min.x, c & 2 ? max.y : min.y, c & 4 ? max.z : min.z);
+}
+
+/** Where boxes are on the screen, as seen from `distance`; lengths as at `center`. */
+function extent(boxes, center, right, top, back, distance) {
+  const out = {left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity};
+  for (const corner of corners(boxes)) {
+    corner.sub(center);
+    const scale = distance / Math.max(distance - corner.dot(back), 0.05 * distance);
+    const x = corner.dot(right) * scale, y = corner.dot(top) * scale;
+    out.left = Math.min(out.left, x), out.right = Math.max(out.right, x);
+    out.bottom = Math.min(out.bottom, y), out.top = Math.max(out.top, y);
+  }
+  return out;
+}
 
 export class Stage {
   constructor(container, size) {
@@ -19,7 +40,10 @@ export class Stage {
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01 * size, 100 * size);
     this.scene.add(this.camera);
     this.flight = null;
+    this.most = 2;     // pixels of ours per pixel of the page
+    this.slow = 0;     // frames in a row that took long
     this.groundOn = true;
+    this.shade = 0.2;  // of the shadow on the ground
     this.dirty = true;
     this.onFrame = null;  // (seconds since the last frame) => whether to go on
     this.onView = null;   // after the camera has moved
@@ -77,8 +101,9 @@ export class Stage {
     this.invalidate(true);
   }
 
-  /** Ground and light for what lies within `box` (scene coordinates). */
-  settle(box) {
+  /** Ground and light for what lies within `boxes` (scene coordinates). */
+  settle(boxes) {
+    const box = boxes.reduce((sum, one) => sum.union(one), new THREE.Box3());
     const sphere = box.getBoundingSphere(new THREE.Sphere());
     const low = box.min.dot(this.up), r = 1.6 * sphere.radius;
     this.ground.position.copy(sphere.center).addScaledVector(this.up, low - sphere.center.dot(this.up) - 0.004 * this.size);
@@ -99,8 +124,10 @@ export class Stage {
 
   resize() {
     const {clientWidth: width, clientHeight: height} = this.container;
-    if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    const ratio = Math.min(window.devicePixelRatio, this.most);
+    if (width === 0 || height === 0 || this.drawnSize === `${width} ${height} ${ratio}`) return;
+    this.drawnSize = `${width} ${height} ${ratio}`;
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -118,34 +145,30 @@ export class Stage {
     top: [0, -1e-3, 1], bottom: [0, -1e-3, -1],
   };
 
-  /** Moves the camera so that `box` fills the view, from the present direction or a named one. */
-  fit(box, {from = null, fly = true, margin = 1.12, minimum = 0} = {}) {
-    const sphere = box.getBoundingSphere(new THREE.Sphere());
-    sphere.radius = Math.max(sphere.radius, minimum, 1e-6 * this.size);
-    const direction = new THREE.Vector3();
-    if (from === null) {
-      direction.subVectors(this.camera.position, this.controls.target).normalize();
-    } else {
-      const [x, y, z] = typeof from === 'string' ? Stage.DIRECTIONS[from] : from;
-      if (this.axis === 'z' || typeof from !== 'string') direction.set(x, y, z); else direction.set(x, z, -y);
-      direction.normalize();
-    }
-    // Eight corners tell more than a sphere, for assemblies that are long or flat.
-    const half = Math.tan(this.camera.fov * Math.PI / 360), aspect = this.camera.aspect;
-    const back = direction, right = new THREE.Vector3().crossVectors(this.up, back);
+  /** Moves the camera so that `boxes` fill the view, from the present direction or a named one. */
+  fit(boxes, {from = null, fly = true, margin = 1.12, minimum = 0} = {}) {
+    const back = this.#direction(from), right = new THREE.Vector3().crossVectors(this.up, back);
     if (right.lengthSq() < 1e-8) right.set(1, 0, 0);
     right.normalize();
-    const top = new THREE.Vector3().crossVectors(back, right), center = box.getCenter(new THREE.Vector3());
-    let distance = minimum / half, corner = new THREE.Vector3();
-    for (let c = 0; c < 8; ++c) {
-      corner.set(c & 1 ? box.max.x : box.min.x, c & 2 ? box.max.y : box.min.y, c & 4 ? box.max.z : box.min.z).sub(center);
-      const depth = corner.dot(back);
-      distance = Math.max(distance, depth + Math.abs(corner.dot(top)) * margin / half,
-        depth + Math.abs(corner.dot(right)) * margin / (half * aspect));
+    const top = new THREE.Vector3().crossVectors(back, right);
+    const all = boxes.reduce((sum, box) => sum.union(box), new THREE.Box3());
+    const center = all.getCenter(new THREE.Vector3()), radius = Math.max(all.getSize(new THREE.Vector3()).length() / 2, minimum);
+    const half = Math.tan(this.camera.fov * Math.PI / 360), wide = half * this.camera.aspect;
+    let distance = 0;
+    // Twice: the middle of the picture is known only when the distance is.
+    for (let pass = 0; pass < 2; ++pass) {
+      const seen = extent(boxes, center, right, top, back, Math.max(distance, 2 * radius / Math.min(half, wide)));
+      center.addScaledVector(right, (seen.right + seen.left) / 2).addScaledVector(top, (seen.top + seen.bottom) / 2);
+      distance = minimum / half;
+      for (const corner of corners(boxes)) {
+        corner.sub(center);
+        const depth = corner.dot(back);
+        distance = Math.max(distance, depth + margin * Math.abs(corner.dot(top)) / half, depth + margin * Math.abs(corner.dot(right)) / wide);
+      }
     }
-    this.controls.minDistance = 0.02 * sphere.radius;
-    this.controls.maxDistance = Math.max(40 * sphere.radius, 20 * this.size);
-    const goal = {target: center, position: center.clone().addScaledVector(direction, distance)};
+    this.controls.minDistance = 0.02 * radius;
+    this.controls.maxDistance = Math.max(40 * radius, 20 * this.size);
+    const goal = {target: center, position: center.clone().addScaledVector(back, distance)};
     if (fly) {
       this.flight = {time: 0, from: {target: this.controls.target.clone(), position: this.camera.position.clone()}, to: goal};
     } else {
@@ -153,6 +176,15 @@ export class Stage {
       this.#place(goal.target, goal.position);
     }
     this.invalidate();
+  }
+
+  /** From the target to the camera. */
+  #direction(from) {
+    const out = new THREE.Vector3();
+    if (from === null) return out.subVectors(this.camera.position, this.controls.target).normalize();
+    const [x, y, z] = typeof from === 'string' ? Stage.DIRECTIONS[from] : from;
+    if (this.axis === 'y' && typeof from === 'string') out.set(x, z, -y); else out.set(x, y, z);
+    return out.normalize();
   }
 
   #place(target, position) {
@@ -185,9 +217,22 @@ export class Stage {
       this.camera.far = far;
       this.camera.updateProjectionMatrix();
     }
-    this.ground.visible = this.groundOn && this.camera.position.dot(this.up) > this.ground.position.dot(this.up);
+    this.ground.visible = this.groundOn && this.sun.castShadow && this.camera.position.dot(this.up) > this.ground.position.dot(this.up);
     this.renderer.render(this.scene, this.camera);
     this.onView?.(this.camera);
+  }
+
+  /** What this machine is too slow for: first the shadows, then the finest pixels. */
+  #keepUp(seconds) {
+    this.slow = seconds > SLOW ? this.slow + 1 : 0;
+    if (this.slow < 6) return;
+    this.slow = 0;
+    if (this.sun.castShadow) {
+      this.sun.castShadow = false;
+    } else if (this.most > 1) {
+      this.most = 1;
+      this.resize();
+    }
   }
 
   tick(now) {
@@ -199,6 +244,9 @@ export class Stage {
     if (this.dirty) {
       this.dirty = false;
       this.#draw();
+      this.#keepUp(seconds);
+    } else {
+      this.slow = 0;
     }
     requestAnimationFrame(this.tick);
   }

@@ -9,11 +9,11 @@ export function makeAbout(app) {
   const total = plan.disassembly.reduce((sum, s) => sum + s.seconds, 0);
   const apart = assembly.parts.length - plan.remaining.length;
   row('assembly', assembly.source);
-  row('parts', `${counted(assembly.parts.length, 'part')}, ${apart} came out, ${plan.remaining.length} still together`);
+  row('parts', plan.status === 'complete' ? `${assembly.parts.length}, all apart` : `${assembly.parts.length}, ${apart} came out, ${plan.remaining.length} still together`);
   if (assembly.excluded.length > 0) row('left out', assembly.excluded.map(e => `${e.name}: ${e.reason}`).join('; '));
   row('steps', `${plan.disassembly.length}, found in ${seconds(total)}`);
   const layers = Math.max(0, ...plan.disassembly.map(s => s.layer ?? 0));
-  if (layers > 0) row('layers', `${layers}: steps of one layer do not wait for each other`);
+  if (layers > 0) row('layers', `${layers} (steps of one layer do not wait for each other)`);
   row('putting together', {complete: 'each part is brought from the layout', partial: 'some parts are not brought from the layout',
     reversed: 'the disassembly backwards'}[plan.assembly_status] ?? 'not planned');
   row('checked', `on the original triangles, between poses too: no step cuts in deeper than ${share(worst, plan)} of the size (${number(worst)} of ${number(plan.verified_max_penetration)} units allowed)`);

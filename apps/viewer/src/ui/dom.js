@@ -11,7 +11,7 @@ export function element(kind, properties = {}, ...children) {
     else if (key === 'style') for (const [name, text] of Object.entries(value)) node.style.setProperty(name, text);
     else node[key] = value;
   }
-  node.append(...children.flat().filter(c => c !== null && c !== undefined && c !== false));
+  node.append(...children.flat(Infinity).filter(c => c !== null && c !== undefined && c !== false));
   return node;
 }
 

@@ -5,7 +5,7 @@ export function listen(app, look, help) {
   const nudge = seconds => { app.play(false); app.seek(app.time + seconds); };
   const faster = by => app.setSpeed(SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, SPEEDS.indexOf(app.speed) + by))]);
   const selected = f => { if (app.selected >= 0) f(app.selected); };
-  const from = view => app.stage?.fit(app.parts.box(i => app.opacity(i) > 0), {from: view, margin: 1.2});
+  const from = view => app.stage?.fit(app.parts.boxes(i => app.opacity(i) > 0), {from: view, margin: 1.2});
   const actions = {
     ' ': () => app.play(), 'ArrowRight': () => app.stepBy(1), 'ArrowLeft': () => app.stepBy(-1),
     'shift ArrowRight': () => nudge(0.1), 'shift ArrowLeft': () => nudge(-0.1),

@@ -23,7 +23,8 @@ export class Look {
     const {stage, parts} = this.app;
     if (!stage) return;
     parts.setTheme(this.dark);
-    stage.ground.material.opacity = this.dark ? 0.45 : 0.2;
+    stage.shade = this.dark ? 0.45 : 0.2;
+    stage.ground.material.opacity = stage.shade * (1 - 0.6 * this.app.explode);
     stage.sky.intensity = this.dark ? 1.25 : 1.6;
     stage.invalidate(true);
   }
@@ -38,7 +39,7 @@ export class Look {
     this.axis = this.axis === 'z' ? 'y' : 'z';
     this.app.stage?.setUp(this.axis);
     this.app.settle();
-    this.app.stage?.fit(this.app.parts.box(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
+    this.app.stage?.fit(this.app.parts.boxes(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
     this.app.tell('look');
   }
 

@@ -19,6 +19,13 @@ export function captionOf(app, index) {
   return `${listed(names)} ${leaves ? (several ? 'come out' : 'comes out') : several ? 'are moved aside' : 'is moved aside'}`;
 }
 
+/** How things stand when the last step is done. */
+function endOf(app) {
+  const {plan} = app.model;
+  if (app.mode === 'assembly') return plan.assembly_status === 'partial' ? 'Put together, as far as there are paths' : 'Put together';
+  return plan.status === 'complete' ? 'All parts are apart' : `${counted(plan.remaining.length, 'part')} still together`;
+}
+
 export function makeTransport(app) {
   const play = iconButton('play', 'Play or pause (space)', () => app.play(), 'button.play');
   const range = element('input.scrub', {type: 'range', min: 0, max: 1, step: 'any', 'aria-label': 'Time',
@@ -59,7 +66,13 @@ export function makeTransport(app) {
     }
   }
 
+  let over = false;
   function showTime() {
+    const now = app.line.steps.length > 0 && app.time >= app.line.duration - 1e-6;
+    if (now !== over) {
+      over = now;
+      showStep();
+    }
     const share_ = app.line.duration > 0 ? app.time / app.line.duration : 0;
     range.value = app.time;
     head.style.setProperty('--at', share_);
@@ -69,7 +82,7 @@ export function makeTransport(app) {
   function showStep() {
     const {steps} = app.line, at = app.step, {plan} = app.model;
     number.textContent = at < 0 ? `${counted(steps.length, 'step')}` : `Step ${at + 1} of ${steps.length}`;
-    caption.textContent = captionOf(app, at);
+    caption.textContent = over ? endOf(app) : captionOf(app, at);
     caption.title = at < 0 ? '' : steps[at].step.moves.map(m => m.part).join(', ');
     const depth = at < 0 ? undefined : steps[at].step.max_penetration;
     detail.textContent = depth === undefined ? '' : steps[at].step.forced ? `forced: cuts in by ${share(steps[at].step.forced.depth ?? depth, plan)} of the size`
@@ -78,6 +91,7 @@ export function makeTransport(app) {
   }
 
   function showPlay() {
+    for (const button of bar.querySelectorAll('.bar button')) button.disabled = app.line.duration === 0;
     play.replaceChildren(icon(app.playing ? 'pause' : 'play'));
     play.classList.toggle('on', app.playing);
     speed.textContent = `${app.speed}×`;
@@ -96,7 +110,7 @@ export function makeTransport(app) {
     if (what === 'time' || what === 'mode') showTime();
     if (what === 'step' || what === 'mode') showStep();
     if (what === 'play') showPlay();
-    if (what === 'mode') showMode();
+    if (what === 'mode') { showMode(); showPlay(); }
     if (what === 'colours') paintStrip();
     if (what === 'explode') explode.value = app.explode;
   });
