@@ -29,6 +29,6 @@ export async function open(browser, file, options = {}) {
   page.on('request', request => page.requests.push(request.url()));
   page.on('dialog', dialog => { page.complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
   await page.goto(`file://${file}`);
-  await page.waitForFunction('window.dismantle === undefined ? document.querySelector(".failure") : window.dismantle.drawn');
+  await page.waitForFunction(() => window.dismantle === undefined ? document.querySelector('.failure') : window.dismantle.drawn);
   return page;
 }

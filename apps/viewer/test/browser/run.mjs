@@ -84,7 +84,7 @@ onPage('the scrubber and the keys set the time that the scene shows', () => bolt
   assert.ok(Math.abs((await state()).time - await page.evaluate('window.dismantle.duration()') / 2) < 1e-6);
   await page.keyboard.press('Space');
   assert.equal((await state()).playing, true);
-  await page.waitForFunction('!window.dismantle.state().playing');
+  await page.waitForFunction(() => !window.dismantle.state().playing);
   assert.equal((await state()).time, await page.evaluate('window.dismantle.duration()'));
   assert.ok(distance(await shown(), placed(poses[poses.length - 1], point)) < 1e-6, 'played to the end, it is where the plan ends');
 });
