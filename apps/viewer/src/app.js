@@ -140,13 +140,13 @@ export class App {
   setTrails(which) {
     this.trailing = which;
     this.#showTrails();
-    this.tell('look');
+    this.tell('display');
   }
 
   setFading(on) {
     this.fading = on;
     this.stale = true;
-    this.tell('look');
+    this.tell('display');
   }
 
   /** A set of part indices turned on or off: 'hidden' or 'clear'. */
@@ -198,7 +198,10 @@ export class App {
     this.#timeChanged();
     const unsolved = this.model.unsolved.get(index);
     const blockers = new Set(unsolved.blocked_by.map(name => this.model.index.get(name)));
-    this.best = {index, unsolved, blockers, u: 0};
+    // Of the part and what blocked it, one may be inside the other: the larger is seen through.
+    const size = i => this.model.parts[i].radius, through = new Set([...blockers].filter(i => size(i) > size(index)));
+    if (through.size < blockers.size) through.add(index);
+    this.best = {index, unsolved, blockers, through, u: 0};
     this.stale = true;
     this.selected = index;
     this.#showTrails();
@@ -223,7 +226,7 @@ export class App {
   opacity(i) {
     if (this.hidden.has(i) || (this.isolated && !this.isolated.has(i))) return 0;
     const presence = this.model.presence(i, this.mode, this.time, this.fading);
-    if (this.best?.index === i) return SEEN_THROUGH;  // what blocked it may be inside
+    if (this.best?.through.has(i)) return SEEN_THROUGH;
     const through = this.clear.has(i) || (this.best && i !== this.best.index && !this.best.blockers.has(i));
     return through ? Parts.ghostly(presence) : presence;
   }

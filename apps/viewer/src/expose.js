@@ -1,5 +1,5 @@
 // window.dismantle: what tests and scripts may use. Names are part names, times are seconds, points are input coordinates.
-export function expose(app, look) {
+export function expose(app, display) {
   const {model} = app;
   const index = name => {
     if (!model.index.has(name)) throw new Error(`there is no part ${name}`);
@@ -22,7 +22,7 @@ export function expose(app, look) {
     shownPoint: (name, point) => { now(); return app.parts.shownPoint(index(name), point); },
     opacity: name => app.opacity(index(name)),
     colour: name => model.colour(index(name), app.colours),
-    state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: look.dark ? 'dark' : 'light',
+    state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: display.dark ? 'dark' : 'light',
       up: app.stage?.axis, selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
       trails: app.trailing, fading: app.fading}),
     seek: time => app.seek(time),

@@ -14,7 +14,7 @@ import {makeHelp} from './ui/help.js';
 import {listen} from './ui/keyboard.js';
 import {makeOverlay} from './ui/overlay.js';
 import {makePanel} from './ui/panel.js';
-import {Look, makeTools} from './ui/tools.js';
+import {Display, makeTools} from './ui/display.js';
 import {makeTransport} from './ui/transport.js';
 
 const MANY = 40, VERY_MANY = 90;  // steps from which playback begins faster
@@ -48,21 +48,21 @@ function start() {
     fail('There is no plan in this page', 'This is the template that `dismantle plan` and `dismantle view` fill.');
     return;
   }
-  const app = new App(new Model(page)), look = new Look(app);
+  const app = new App(new Model(page)), display = new Display(app);
   document.title = `${titleOf(page.plan)} · Dismantle`;
   const steps = page.plan.disassembly.length;
   app.speed = steps >= VERY_MANY ? 4 : steps >= MANY ? 2 : 1;
-  look.apply();
+  display.apply();
 
   const help = makeHelp(), overlay = makeOverlay(app), view = element('div.view');
   const scene = element('main.scene', {}, view);
   document.body.replaceChildren(element('div.page', {}, scene, makeTransport(app), makePanel(app)), help);
   const stage = makeScene(app, view);
   if (stage) {
-    if (look.axis !== 'z') stage.setUp(look.axis);
+    if (display.axis !== 'z') stage.setUp(display.axis);
     const parts = new Parts(app.model, stage.scene);
     app.show(stage, parts, new Trails(app.model, stage.scene));
-    look.apply();
+    display.apply();
     const picker = new Picker(stage, parts, {
       hover: (index, x, y) => { app.hover(index); overlay.hover(index, x, y); },
       choose: index => app.select(index),
@@ -72,10 +72,10 @@ function start() {
       if (index >= 0) stage.fit(parts.boxes(i => i === index), {margin: 2});
       else app.fit();
     });
-    scene.append(makeTools(app, look, () => help.showModal()), makeGizmo(app), ...overlay.nodes);
+    scene.append(makeTools(app, display, () => help.showModal()), makeGizmo(app), ...overlay.nodes);
   }
-  listen(app, look, help);
-  expose(app, look);
+  listen(app, display, help);
+  expose(app, display);
 }
 
 try {

@@ -1,7 +1,7 @@
 // Keyboard shortcuts; ui/help.js lists them.
 const SPEEDS = [0.5, 1, 2, 4, 8];
 
-export function listen(app, look, help) {
+export function listen(app, display, help) {
   const nudge = seconds => { app.play(false); app.seek(app.time + seconds); };
   const faster = by => app.setSpeed(SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, SPEEDS.indexOf(app.speed) + by))]);
   const selected = f => { if (app.selected >= 0) f(app.selected); };
@@ -13,8 +13,8 @@ export function listen(app, look, help) {
     '<': () => faster(-1), '>': () => faster(1), ',': () => faster(-1), '.': () => faster(1),
     'a': () => app.setMode(app.mode === 'disassembly' ? 'assembly' : 'disassembly'),
     'e': () => app.setExplode(app.explode > 0 ? 0 : 1), 'f': () => app.fit(), '0': () => from('corner'), '1': () => from('front'),
-    '2': () => from('right'), '3': () => from('top'), 't': () => look.nextTrails(), 'c': () => look.nextColours(),
-    'r': () => app.setFading(!app.fading), 'g': () => look.ground(), 'u': () => look.turnUp(), 'l': () => look.nextTheme(),
+    '2': () => from('right'), '3': () => from('top'), 't': () => display.nextTrails(), 'c': () => display.nextColours(),
+    'r': () => app.setFading(!app.fading), 'g': () => display.ground(), 'u': () => display.turnUp(), 'l': () => display.nextTheme(),
     'h': () => selected(i => app.toggle('hidden', i)), 'x': () => selected(i => app.toggle('clear', i)),
     'i': () => app.isolated ? app.isolate(null) : selected(i => app.isolate(new Set([i]))),
     'H': () => app.showAll(), '?': () => help.open ? help.close() : help.showModal(),

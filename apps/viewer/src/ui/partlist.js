@@ -11,7 +11,7 @@ export function makePartList(app) {
     return key(a) - key(b) || a - b;
   });
 
-  const stateOf = i => model.unsolved.has(i) ? 'did not come out' : model.leftIn[i] >= 0 ? `step ${model.plan.disassembly[model.leftIn[i]].step}` : 'stays';
+  const stateOf = i => model.unsolved.has(i) ? 'stuck' : model.leftIn[i] >= 0 ? `step ${model.plan.disassembly[model.leftIn[i]].step}` : 'stays';
   const rows = new Map();
   for (const i of order) {
     const {name} = model.parts[i];

@@ -22,7 +22,8 @@ function link(app, name, kind = 'button.chip') {
     onmouseenter: () => app.hover(index), onmouseleave: () => app.hover(-1)}, name);
 }
 
-function card(app, unsolved) {
+/** What is particular to one part: what was in the way, and how far it got. */
+function attempt(app, unsolved, alone) {
   const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
   const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
   const row = (name, ...value) => [element('dt', {}, name), element('dd', {}, ...value)];
@@ -34,15 +35,32 @@ function card(app, unsolved) {
     show.setAttribute('aria-pressed', String(on));
     show.textContent = on ? 'Back to the assembly' : 'Show how far it got';
   });
-  return element('article.card', {'data-part': unsolved.part},
-    element('header', {}, icon('warning'), link(app, unsolved.part, 'button.title'), element('span.pill.bad', {}, outcomeTitle(unsolved.outcome))),
-    element('p', {}, outcomeMeaning(unsolved.outcome)),
-    unsolved.message ? element('p.message', {}, unsolved.message) : null,
+  return element('section.attempt', {'data-part': unsolved.part},
+    alone ? null : link(app, unsolved.part, 'button.title'),
     element('dl.facts', {},
       row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
       row('furthest', distance(model, model.parts[index], unsolved.best_pose)),
       overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
     show);
+}
+
+/** Parts that share one reason. */
+function card(app, group) {
+  const [{part, outcome, message}] = group, alone = group.length === 1;
+  return element('article.card', {}, element('header', {}, icon('warning'),
+    alone ? link(app, part, 'button.title') : element('strong.title', {}, `${group.length} parts, one reason`), element('span.pill.bad', {}, outcomeTitle(outcome))),
+  element('p', {}, outcomeMeaning(outcome)), message ? element('p.message', {}, message) : null, group.map(u => attempt(app, u, alone)));
+}
+
+/** Attempts with the same outcome and message, in the order of the first of each. */
+function byReason(unsolved) {
+  const groups = new Map();
+  for (const u of unsolved) {
+    const key = u.message ? `${u.outcome} ${u.message}` : `${u.outcome} of ${u.part}`;
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(u);
+  }
+  return [...groups.values()];
 }
 
 function certificate(c) {
@@ -63,7 +81,7 @@ export function makeProblems(app) {
   if (count === 0 && plan.status === 'complete') return null;
   const pane = element('div.pane.problems', {},
     plan.unsolved.length > 0 ? element('p.note', {}, 'These parts should have come out and did not. The plan holds for all that did.') : null,
-    plan.unsolved.map(u => card(app, u)),
+    byReason(plan.unsolved).map(group => card(app, group)),
     forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
       element('p', {}, `${s.moves.map(m => m.part).join(', ')} cannot come out as a rigid body: it is taken out where it cuts in least. This step is not verified.`))),
     certificates.map(certificate),

@@ -5,7 +5,7 @@ const THEMES = ['auto', 'light', 'dark'];
 const TRAILS = ['step', 'all', 'none'];
 const TRAIL_WORDS = {step: 'Paths: of this step (T)', all: 'Paths: of all steps (T)', none: 'Paths: none (T)'};
 
-export class Look {
+export class Display {
   constructor(app) {
     this.app = app;
     this.theme = 'auto';
@@ -32,7 +32,7 @@ export class Look {
   nextTheme() {
     this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length];
     this.apply();
-    this.app.tell('look');
+    this.app.tell('display');
   }
 
   turnUp() {
@@ -40,7 +40,7 @@ export class Look {
     this.app.stage?.setUp(this.axis);
     this.app.settle();
     this.app.stage?.fit(this.app.parts.boxes(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
-    this.app.tell('look');
+    this.app.tell('display');
   }
 
   ground() {
@@ -48,7 +48,7 @@ export class Look {
     if (!stage) return;
     stage.groundOn = !stage.groundOn;
     stage.invalidate();
-    this.app.tell('look');
+    this.app.tell('display');
   }
 
   nextTrails() {
@@ -60,14 +60,14 @@ export class Look {
   }
 }
 
-export function makeTools(app, look, help) {
+export function makeTools(app, display, help) {
   const fit = iconButton('fit', 'Fit into view (F)', () => app.fit());
-  const trails = iconButton('trails', TRAIL_WORDS.step, () => look.nextTrails());
+  const trails = iconButton('trails', TRAIL_WORDS.step, () => display.nextTrails());
   const fade = iconButton('fade', '', () => app.setFading(!app.fading));
-  const colours = iconButton('colours', '', () => look.nextColours());
-  const up = iconButton('up', '', () => look.turnUp());
-  const ground = iconButton('ground', '', () => look.ground());
-  const theme = iconButton('theme', '', () => look.nextTheme());
+  const colours = iconButton('colours', '', () => display.nextColours());
+  const up = iconButton('up', '', () => display.turnUp());
+  const ground = iconButton('ground', '', () => display.ground());
+  const theme = iconButton('theme', '', () => display.nextTheme());
   const show = iconButton('help', 'Keyboard and mouse (?)', help);
   const name = (button, title) => { button.title = title; button.setAttribute('aria-label', title.replace(/ \(.*\)$/, '')); };
   colours.hidden = !app.model.hasColours;
@@ -77,11 +77,11 @@ export function makeTools(app, look, help) {
     name(fade, app.fading ? 'Parts that are out vanish (R)' : 'Parts that are out stay (R)');
     fade.classList.toggle('on', app.fading);
     name(colours, app.colours === 'given' ? 'Colours: of the parts (C)' : 'Colours: by order (C)');
-    name(up, `Up is ${look.axis.toUpperCase()} (U)`);
+    name(up, `Up is ${display.axis.toUpperCase()} (U)`);
     name(ground, app.stage?.groundOn === false ? 'Shadow on the ground: off (G)' : 'Shadow on the ground: on (G)');
-    name(theme, `Theme: ${look.theme} (L)`);
+    name(theme, `Theme: ${display.theme} (L)`);
   };
-  app.on(what => { if (what === 'look' || what === 'colours') refresh(); });
+  app.on(what => { if (what === 'display' || what === 'colours') refresh(); });
   refresh();
   return element('nav.tools', {'aria-label': 'View'}, fit, trails, fade, colours, ground, up, theme, show);
 }
