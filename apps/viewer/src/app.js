@@ -4,7 +4,6 @@ import {Parts} from './scene/parts.js';
 
 const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, to the pose that came furthest
 const SEEN_THROUGH = 0.5;
-const IDENTITY = [0, 0, 0, 1, 0, 0, 0];
 
 export class App {
   constructor(model) {
@@ -201,15 +200,23 @@ export class App {
     // Of the part and what blocked it, one may be inside the other: the larger is seen through.
     const size = i => this.model.parts[i].radius, through = new Set([...blockers].filter(i => size(i) > size(index)));
     if (through.size < blockers.size) through.add(index);
-    this.best = {index, unsolved, blockers, through, u: 0};
+    // From where the part is left by the plan: it may have come out with others that it then stayed with.
+    const from = this.model.poseOf(index, this.mode, this.time, new Float64Array(7));
+    this.best = {index, unsolved, blockers, through, from, u: 1};
     this.stale = true;
     this.selected = index;
     this.#showTrails();
     this.paint();
     this.tell('best');
     this.tell('selection');
-    this.place();
-    this.stage?.fit(this.parts.boxes(i => i === index || blockers.has(i)), {margin: 1.3, minimum: 0.1 * this.model.size});
+    if (this.stage) {
+      const concerned = i => i === index || blockers.has(i);
+      this.place();
+      const after = this.parts.boxes(concerned);
+      this.best.u = 0;
+      this.place();
+      this.stage.fit([...after, ...this.parts.boxes(concerned)], {margin: 1.3, minimum: 0.1 * this.model.size});
+    }
   }
 
   leaveBest() {
@@ -238,7 +245,7 @@ export class App {
     for (let i = 0; i < model.parts.length; ++i) {
       if (best && best.index === i) {
         const u = best.u;
-        screwInterpolate(this.pose, IDENTITY, 0, best.unsolved.best_pose, 0, u * u * (3 - 2 * u));
+        screwInterpolate(this.pose, best.from, 0, best.unsolved.best_pose, 0, u * u * (3 - 2 * u));
       } else {
         model.poseOf(i, this.mode, this.time, this.pose);
       }

@@ -1,19 +1,18 @@
 // Parts that did not come out: how the attempt ended, what was in the way, how far it got.
+import {transform} from '../plan/screw.js';
 import {number, outcomeMeaning, outcomeTitle, share} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
-/** How far a pose is from the assembled one, in words. */
-function distance(model, part, pose) {
-  const [x, y, z, qw, qx, qy, qz] = pose, s = Math.hypot(qx, qy, qz);
-  const {center} = part, rotated = center.map(() => 0);
-  const tx = 2 * (qy * center[2] - qz * center[1]), ty = 2 * (qz * center[0] - qx * center[2]), tz = 2 * (qx * center[1] - qy * center[0]);
-  rotated[0] = qw * tx + qy * tz - qz * ty + x;
-  rotated[1] = qw * ty + qz * tx - qx * tz + y;
-  rotated[2] = qw * tz + qx * ty - qy * tx + z;
-  const length = Math.hypot(...rotated), angle = 2 * Math.atan2(s, Math.abs(qw)) * 180 / Math.PI;
-  if (!(length > 0) && !(s > 0)) return 'it did not move';
+/** How far `best` is from where the plan leaves the part, in words. */
+function distance(model, index, best) {
+  const left = model.poseOf(index, 'disassembly', model.lines.disassembly.duration, new Float64Array(7)), {center} = model.parts[index];
+  const a = transform([0, 0, 0], left, 0, center), b = transform([0, 0, 0], best, 0, center);
+  const length = Math.hypot(...a.map((x, k) => b[k] - x));
+  const cosine = Math.min(1, Math.abs(left[3] * best[3] + left[4] * best[4] + left[5] * best[5] + left[6] * best[6]));
+  const angle = 2 * Math.acos(cosine) * 180 / Math.PI;
+  if (length < 1e-9 * model.size && angle < 0.05) return 'it did not move';
   const words = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
-  return angle > 0.05 ? `${words}, turned by ${number(Number(angle.toPrecision(2)))}°` : words;
+  return angle >= 0.05 ? `${words}, turned by ${number(Number(angle.toPrecision(2)))}°` : words;
 }
 
 function link(app, name, kind = 'button.chip') {
@@ -39,7 +38,7 @@ function attempt(app, unsolved, alone) {
     alone ? null : link(app, unsolved.part, 'button.title'),
     element('dl.facts', {},
       row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
-      row('furthest', distance(model, model.parts[index], unsolved.best_pose)),
+      row('furthest', distance(model, index, unsolved.best_pose)),
       overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
     show);
 }
