@@ -306,21 +306,17 @@ export class App {
     this.stage?.fit(this.parts.boxes(i => this.opacity(i) > 0), {fly, margin, from});
   }
 
-  /** The first view: room for what comes out, or all that lies around. */
+  /** The first view: the assembly, with room for what comes out, or for all that lies around and passes overhead. */
   home(fly) {
     if (!this.stage) return;
-    this.place();
-    const boxes = this.parts.boxes(() => true), from = fly ? null : 'corner';
-    if (this.mode === 'assembly' || this.fading) {
-      this.stage.fit(boxes, {fly, from, margin: this.mode === 'assembly' ? 1.08 : 1.3});
-      return;
-    }
-    const {time} = this;
-    this.time = this.line.duration;
-    this.place();
-    const after = this.parts.boxes(() => true);
+    const {time} = this, shares = this.mode === 'assembly' ? [0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 1] : this.fading ? [0] : [0, 1];
+    const boxes = shares.flatMap(share => {
+      this.time = share * this.line.duration;
+      this.place();
+      return this.parts.boxes(() => true);
+    });
     this.time = time;
     this.place();
-    this.stage.fit([...boxes, ...after], {fly, from, margin: 1.12});
+    this.stage.fit(boxes, {fly, from: fly ? null : 'corner', margin: this.mode === 'disassembly' && this.fading ? 1.3 : 1.08});
   }
 }

@@ -2,6 +2,7 @@
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
 import {explode} from './plan/explode.js';
 import {followGroups} from './plan/groups.js';
+import {transform} from './plan/screw.js';
 import {layOut, stepAt} from './plan/timeline.js';
 import {sizeOf} from './plan/words.js';
 
@@ -73,6 +74,20 @@ export class Model {
       if (own !== null) return own;
     }
     return this.rank[i] < 0 ? STAYS : byOrder(this.rank[i], this.leavers);
+  }
+
+  /**
+   * How far the best pose of an unsolved part is from where the plan leaves it: `length` by which its middle has moved (input
+   * units), `angle` (degrees), and whether it moved at all.
+   */
+  furthest(i) {
+    const {best_pose: best} = this.unsolved.get(i), {center} = this.parts[i];
+    const left = this.poseOf(i, 'disassembly', this.lines.disassembly.duration, new Float64Array(7));
+    const a = transform([0, 0, 0], left, 0, center), b = transform([0, 0, 0], best, 0, center);
+    const length = Math.hypot(...a.map((x, k) => b[k] - x));
+    const cosine = Math.abs(left[3] * best[3] + left[4] * best[4] + left[5] * best[5] + left[6] * best[6]);
+    const angle = 2 * Math.acos(Math.min(1, cosine)) * 180 / Math.PI;
+    return {length, angle, moved: length > 1e-9 * this.size || angle > 1e-3};
   }
 
   /** Index of the step that takes this part out for good, -1 if none does. */

@@ -14,7 +14,7 @@ export function makeOverlay(app) {
     const {name} = model.parts[i], step = model.stepOf(i), unsolved = model.unsolved.has(i);
     const on = (flag, button) => { button.setAttribute('aria-pressed', String(Boolean(flag))); return button; };
     card.replaceChildren(...[swatch(model.colour(i, app.colours)), element('strong.name', {title: name}, name),
-      unsolved ? element('button.chip.bad', {type: 'button', onclick: () => app.openTab('problems')}, 'did not come out: why?')
+      unsolved ? element('button.chip.bad', {type: 'button', onclick: () => app.openTab('problems')}, 'stuck: why?')
         : step >= 0 ? element('button.chip', {type: 'button', title: 'Go to the step that takes it out', onclick: () => { if (app.mode !== 'disassembly') app.setMode('disassembly'); app.goToStep(step, true); }}, `out in step ${model.lines.disassembly.steps[step].step.step}`)
         : element('span.state', {}, 'stays'),
       on(app.clear.has(i), iconButton('ghost', 'Transparent or solid (X)', () => app.toggle('clear', i))),
@@ -28,7 +28,8 @@ export function makeOverlay(app) {
     if (!app.best) return;
     const {unsolved} = app.best;
     const blocked = unsolved.blocked_by.length > 0 ? `, blocked by ${unsolved.blocked_by.slice(0, 3).join(', ')}${unsolved.blocked_by.length > 3 ? ' and others' : ''}` : '';
-    banner.replaceChildren(icon('warning'), element('span', {}, `${unsolved.part}: the pose that came furthest${blocked}. Drawn straight, not along a path that was checked.`),
+    banner.replaceChildren(icon('warning'), element('span', {}, model.furthest(app.best.index).moved
+      ? `${unsolved.part}: the pose that came furthest${blocked}. Drawn straight, not along a path that was checked.` : `${unsolved.part} did not move${blocked}.`),
       element('button.chip', {type: 'button', onclick: () => app.leaveBest()}, 'Back'));
   }
 

@@ -1,19 +1,8 @@
 // Parts that did not come out: how the attempt ended, what was in the way, how far it got.
-import {transform} from '../plan/screw.js';
 import {number, outcomeMeaning, outcomeTitle, share} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
-/** How far `best` is from where the plan leaves the part, in words. */
-function distance(model, index, best) {
-  const left = model.poseOf(index, 'disassembly', model.lines.disassembly.duration, new Float64Array(7)), {center} = model.parts[index];
-  const a = transform([0, 0, 0], left, 0, center), b = transform([0, 0, 0], best, 0, center);
-  const length = Math.hypot(...a.map((x, k) => b[k] - x));
-  const cosine = Math.min(1, Math.abs(left[3] * best[3] + left[4] * best[4] + left[5] * best[5] + left[6] * best[6]));
-  const angle = 2 * Math.acos(cosine) * 180 / Math.PI;
-  if (length < 1e-9 * model.size && angle < 0.05) return 'it did not move';
-  const words = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
-  return angle >= 0.05 ? `${words}, turned by ${number(Number(angle.toPrecision(2)))}°` : words;
-}
+const TURNED = 0.05;  // degrees, from which a turn is worth saying
 
 function link(app, name, kind = 'button.chip') {
   const index = app.model.index.get(name);
@@ -26,19 +15,22 @@ function attempt(app, unsolved, alone) {
   const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
   const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
   const row = (name, ...value) => [element('dt', {}, name), element('dd', {}, ...value)];
+  const {length, angle, moved} = model.furthest(index);
+  const far = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
+  const words = moved ? 'Show how far it got' : 'Show what holds it';
   const show = element('button.primary', {type: 'button', 'aria-pressed': 'false',
-    onclick: () => app.best?.index === index ? app.leaveBest() : app.showBest(index)}, 'Show how far it got');
+    onclick: () => app.best?.index === index ? app.leaveBest() : app.showBest(index)}, words);
   app.on(what => {
     if (what !== 'best') return;
     const on = app.best?.index === index;
     show.setAttribute('aria-pressed', String(on));
-    show.textContent = on ? 'Back to the assembly' : 'Show how far it got';
+    show.textContent = on ? 'Back to the assembly' : words;
   });
   return element('section.attempt', {'data-part': unsolved.part},
     alone ? null : link(app, unsolved.part, 'button.title'),
     element('dl.facts', {},
       row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
-      row('furthest', distance(model, index, unsolved.best_pose)),
+      row('furthest', !moved ? 'it did not move' : angle < TURNED ? far : `${far}, turned by ${number(Number(angle.toPrecision(2)))}°`),
       overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
     show);
 }
