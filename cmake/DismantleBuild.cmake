@@ -36,6 +36,10 @@ target_compile_options(dismantle_settings INTERFACE -ffp-contract=off)
 # Nobody replaces a function of a library from outside, so calls within one need not go through its table.
 target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 target_link_options(dismantle_settings INTERFACE -Wl,-Bsymbolic-functions)
+# A library names all libraries that it uses. (A sanitizer's own symbols come with the program.)
+if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+  target_link_options(dismantle_settings INTERFACE "LINKER:-z,defs")
+endif()
 if(DISMANTLE_CCACHE)
   target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
@@ -73,6 +77,9 @@ dismantle_pch(dismantle_common_pch ${DISMANTLE_COMMON_HEADERS})
 function(dismantle_precompile target)
   dismantle_reuse_pch(${target} dismantle_common_pch)
 endfunction()
+# The libraries of lib/ export their types: the types of the headers that these are made of must be visible, too.
+dismantle_pch(dismantle_library_pch ${DISMANTLE_COMMON_HEADERS})
+set_target_properties(dismantle_library_pch PROPERTIES CXX_VISIBILITY_PRESET default)
 
 # dismantle_unity(TARGET [EXCEPT FOLDER] | TARGET BATCH N): the files of one folder are compiled as one unit, or N at a time, so
 # that what they have in common is compiled once; two helpers of one folder cannot have the same name. OFF compiles less after

@@ -1,17 +1,22 @@
 # Install rules and the exported package. In a project of your own:
-#   find_package(dismantle REQUIRED)   # dismantle::core, dismantle::plugin_api, dismantle::plugins, dismantle::samples
+#   find_package(dismantle REQUIRED)   # dismantle::plugin_api, dismantle::plugins, dismantle::testing; dismantle::core and each
+#                                      # library of lib/ but bench: dismantle::geometry, ::verification, ::preparation, ...
 #   dismantle_add_plugin(my_planner SOURCES my_planner.cpp)
 include(CMakePackageConfigHelpers)
 
 set(DISMANTLE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/dismantle")
 
-install(TARGETS dismantle_core dismantle_plugin_api dismantle_plugins dismantle_samples EXPORT dismantleTargets
+get_property(libraries GLOBAL PROPERTY DISMANTLE_LIBRARIES)
+install(TARGETS dismantle_core ${libraries} dismantle_plugin_api dismantle_plugins dismantle_testing EXPORT dismantleTargets
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-install(DIRECTORY core/include/ plugins/include/ samples/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+install(DIRECTORY core/include/ plugins/sdk/include/ plugins/host/include/ plugins/testing/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.h")
+foreach(library geometry verification preparation plan_io samples engine)
+  install(DIRECTORY lib/${library}/include/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
+endforeach()
 install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION "${DISMANTLE_PACKAGE_DIR}")
 
 configure_package_config_file(cmake/dismantleConfig.cmake.in "${CMAKE_BINARY_DIR}/package/dismantleConfig.cmake"

@@ -1,7 +1,7 @@
 // dismantle explain PLAN.json
 #include "dismantle/command.h"
 #include "dismantle/console.h"
-#include "dismantle/output/summary.h"
+#include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_file.h"
 
 namespace dismantle::app {

@@ -7,13 +7,15 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/ingredients.h"
-#include "dismantle/output/animation.h"
-#include "dismantle/output/page.h"
-#include "dismantle/output/summary.h"
-#include "dismantle/runner.h"
+#include "dismantle/host/ingredients.h"
+#include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/page.h"
+#include "dismantle/plan_io/summary.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/settings.h"
 #include "dismantle/viewer_template.h"
+#include "dismantle/write_file.h"
+#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
-#include "dismantle/describe.h"
+#include "dismantle/host/describe.h"
 #include "dismantle/settings.h"
 
 namespace dismantle::app {

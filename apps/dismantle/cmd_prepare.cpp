@@ -3,8 +3,8 @@
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
-#include "dismantle/output/summary.h"
-#include "dismantle/prepare/write_prepared.h"
+#include "dismantle/plan_io/summary.h"
+#include "dismantle/preparation/write_prepared.h"
 #include "dismantle/settings.h"
 
 namespace dismantle::app {

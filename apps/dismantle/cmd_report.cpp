@@ -5,8 +5,9 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/plan/plan.h"
+#include "dismantle/plan.h"
 #include "dismantle/settings.h"
+#include "dismantle/write_file.h"
 
 namespace dismantle::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/samples.h"
 #include "dismantle/settings.h"
-#include "dismantle/suggest.h"
+#include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
 namespace {

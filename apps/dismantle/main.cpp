@@ -14,7 +14,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/stopped.h"
-#include "dismantle/suggest.h"
+#include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
 namespace {
@@ -135,6 +135,7 @@ int main(int argc, char** argv) {
       "4 a plugin failed, 130 interrupted.");
   Action action;
   add_plan(app, action);
+  add_check(app, action);
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);

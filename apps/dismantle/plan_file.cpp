@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle::app {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "dismantle/plan/plan.h"
+#include "dismantle/plan.h"
 
 namespace dismantle::app {
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "dismantle/errors.h"
-#include "dismantle/ingredients.h"
+#include "dismantle/host/ingredients.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 #include "dismantle/console.h"
 #include "dismantle/importer.h"
-#include "dismantle/model/assembly.h"
-#include "dismantle/prepare/prepare.h"
-#include "dismantle/prepare/read_input.h"
-#include "dismantle/registry.h"
+#include "dismantle/assembly.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/preparation/read_input.h"
+#include "dismantle/host/registry.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::app {

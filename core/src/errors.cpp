@@ -1,8 +1,8 @@
 #include "dismantle/errors.h"
 
-#include <fmt/format.h>
 
 #include <utility>
+#include "text.h"
 
 namespace dismantle {
 namespace {
@@ -17,7 +17,7 @@ std::string lines(const std::vector<Diagnostic>& diagnostics) {
 }
 
 std::string prefixed(const std::string& subject, const std::string& problem) {
-  return subject.empty() ? problem : fmt::format("{}: {}", subject, problem);
+  return subject.empty() ? problem : text::join(subject, ": ", problem);
 }
 
 }  // namespace
@@ -31,9 +31,9 @@ InputError::~InputError() = default;
 
 std::string Diagnostic::text() const {
   std::string place = file;
-  if (line > 0) place += fmt::format(":{}", line);
-  if (line > 0 && column > 0) place += fmt::format(":{}", column);
-  return place.empty() ? fmt::format("error: {}", message) : fmt::format("{}: error: {}", place, message);
+  if (line > 0) place += text::join(":", line);
+  if (line > 0 && column > 0) place += text::join(":", column);
+  return place.empty() ? text::join("error: ", message) : text::join(place, ": error: ", message);
 }
 
 ConfigError::ConfigError(std::vector<Diagnostic> diagnostics)

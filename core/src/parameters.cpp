@@ -1,11 +1,11 @@
 #include "dismantle/parameters.h"
 
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include "text.h"
 
 namespace dismantle {
 namespace {
@@ -28,7 +28,7 @@ const char* noun(ParamType type) {
 
 /// What the user gave, for a message: text in quotes, numbers with their unit.
 std::string shown(const ParamValue& value, const std::string& unit) {
-  if (const auto* s = std::get_if<std::string>(&value)) return fmt::format("'{}'", *s);
+  if (const auto* s = std::get_if<std::string>(&value)) return text::join("'", *s, "'");
   std::string text = to_text(value);
   if (!std::holds_alternative<bool>(value) && !unit.empty() && unit != "1") text += " " + unit;
   return text;
@@ -58,22 +58,22 @@ bool good_name(const std::string& name) {
 }
 
 void check_choices(const ParamSpec& spec, std::vector<std::string>& problems) {
-  if (spec.choices.empty()) problems.push_back(fmt::format("parameter '{}' has no choices", spec.name));
+  if (spec.choices.empty()) problems.push_back(text::join("parameter '", spec.name, "' has no choices"));
   std::set<std::string> names;
   for (const auto& c : spec.choices) {
-    if (c.name.empty()) problems.push_back(fmt::format("parameter '{}' has a choice without a name", spec.name));
+    if (c.name.empty()) problems.push_back(text::join("parameter '", spec.name, "' has a choice without a name"));
     if (!names.insert(c.name).second)
-      problems.push_back(fmt::format("parameter '{}' lists the choice '{}' twice", spec.name, c.name));
-    if (c.doc.empty()) problems.push_back(fmt::format("choice '{}' of parameter '{}' has no doc", c.name, spec.name));
+      problems.push_back(text::join("parameter '", spec.name, "' lists the choice '", c.name, "' twice"));
+    if (c.doc.empty()) problems.push_back(text::join("choice '", c.name, "' of parameter '", spec.name, "' has no doc"));
   }
 }
 
 void check_numeric(const ParamSpec& spec, std::vector<std::string>& problems) {
   if (spec.unit.empty())
-    problems.push_back(fmt::format("parameter '{}' has no unit (\"1\" for a pure number)", spec.name));
+    problems.push_back(text::join("parameter '", spec.name, "' has no unit (\"1\" for a pure number)"));
   const bool empty =
       spec.min && spec.max && (*spec.min > *spec.max || (*spec.min == *spec.max && (spec.min_open || spec.max_open)));
-  if (empty) problems.push_back(fmt::format("parameter '{}' has an empty range {}", spec.name, spec.range_text()));
+  if (empty) problems.push_back(text::join("parameter '", spec.name, "' has an empty range ", spec.range_text()));
 }
 
 }  // namespace
@@ -81,22 +81,22 @@ void check_numeric(const ParamSpec& spec, std::vector<std::string>& problems) {
 std::string to_text(const ParamValue& value) {
   struct Visitor {
     std::string operator()(bool b) const { return b ? "true" : "false"; }
-    std::string operator()(std::int64_t i) const { return fmt::format("{}", i); }
-    std::string operator()(double d) const { return fmt::format("{}", d); }
+    std::string operator()(std::int64_t i) const { return text::join(i); }
+    std::string operator()(double d) const { return text::join(d); }
     std::string operator()(const std::string& s) const { return s; }
   };
   return std::visit(Visitor{}, value);
 }
 
 std::string ParamSpec::range_text() const {
-  if (min && max) return fmt::format("{}{}, {}{}", min_open ? '(' : '[', *min, *max, max_open ? ')' : ']');
-  if (min) return fmt::format("{} {}", min_open ? ">" : ">=", *min);
-  if (max) return fmt::format("{} {}", max_open ? "<" : "<=", *max);
+  if (min && max) return text::join(min_open ? '(' : '[', *min, ", ", *max, max_open ? ')' : ']');
+  if (min) return text::join(min_open ? ">" : ">=", " ", *min);
+  if (max) return text::join(max_open ? "<" : "<=", " ", *max);
   return "";
 }
 
 std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) const {
-  const auto mistyped = [&] { return fmt::format("must be {}, got {}", noun(type), shown(value, "")); };
+  const auto mistyped = [&] { return text::join("must be ", noun(type), ", got ", shown(value, "")); };
   switch (type) {
     case ParamType::boolean:
       if (!std::holds_alternative<bool>(value)) return mistyped();
@@ -109,13 +109,13 @@ std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) cons
       const bool known =
           s != nullptr && std::any_of(choices.begin(), choices.end(), [&](const auto& c) { return c.name == *s; });
       if (known) return std::nullopt;
-      return fmt::format("must be one of {}; got {}", listed(choices), shown(value, ""));
+      return text::join("must be one of ", listed(choices), "; got ", shown(value, ""));
     }
     case ParamType::integer: {
       const auto* i = std::get_if<std::int64_t>(&value);
       if (i == nullptr) return mistyped();
       if (in_range(*this, static_cast<double>(*i))) return std::nullopt;
-      return fmt::format("{}, got {}", demand(*this), shown(value, unit));
+      return text::join(demand(*this), ", got ", shown(value, unit));
     }
     case ParamType::number: {
       double x = 0;
@@ -126,9 +126,9 @@ std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) cons
       } else {
         return mistyped();
       }
-      if (!std::isfinite(x)) return fmt::format("must be a finite number, got {}", shown(value, ""));
+      if (!std::isfinite(x)) return text::join("must be a finite number, got ", shown(value, ""));
       if (in_range(*this, x)) return std::nullopt;
-      return fmt::format("{}, got {}", demand(*this), shown(value, unit));
+      return text::join(demand(*this), ", got ", shown(value, unit));
     }
   }
   return "has an unknown type";
@@ -139,15 +139,15 @@ std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs)
   std::set<std::string> names;
   for (const auto& spec : specs) {
     if (!good_name(spec.name))
-      problems.push_back(fmt::format("parameter name '{}' does not match [a-z][a-z0-9_]*", spec.name));
+      problems.push_back(text::join("parameter name '", spec.name, "' does not match [a-z][a-z0-9_]*"));
     if (spec.name == "type")  // stands beside the parameters in a configuration
       problems.push_back("parameter name 'type' is reserved for the id in a configuration");
-    if (!names.insert(spec.name).second) problems.push_back(fmt::format("parameter '{}' is declared twice", spec.name));
-    if (spec.doc.empty()) problems.push_back(fmt::format("parameter '{}' has no doc", spec.name));
+    if (!names.insert(spec.name).second) problems.push_back(text::join("parameter '", spec.name, "' is declared twice"));
+    if (spec.doc.empty()) problems.push_back(text::join("parameter '", spec.name, "' has no doc"));
     if (spec.type == ParamType::integer || spec.type == ParamType::number) check_numeric(spec, problems);
     if (spec.type == ParamType::choice) check_choices(spec, problems);
     if (const auto problem = spec.problem_with(spec.fallback))
-      problems.push_back(fmt::format("default of parameter '{}' {}", spec.name, *problem));
+      problems.push_back(text::join("default of parameter '", spec.name, "' ", *problem));
   }
   return problems;
 }
@@ -161,7 +161,7 @@ ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given) {
       continue;
     }
     if (const auto problem = spec.problem_with(it->second))
-      throw std::invalid_argument(fmt::format("parameter '{}' {}", spec.name, *problem));
+      throw std::invalid_argument(text::join("parameter '", spec.name, "' ", *problem));
     const auto* integer = std::get_if<std::int64_t>(&it->second);
     if (spec.type == ParamType::number && integer != nullptr)
       values.emplace(spec.name, static_cast<double>(*integer));
@@ -169,7 +169,7 @@ ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given) {
       values.emplace(spec.name, it->second);
   }
   for (const auto& [name, value] : given)
-    if (!values.contains(name)) throw std::invalid_argument(fmt::format("unknown parameter '{}'", name));
+    if (!values.contains(name)) throw std::invalid_argument(text::join("unknown parameter '", name, "'"));
   return values;
 }
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "collision_mesh.h"
-#include "dismantle/geometry/aabb.h"
-#include "dismantle/model/assembly.h"
+#include "dismantle/aabb.h"
+#include "dismantle/assembly.h"
 #include "dismantle/sdf/solid.h"
 #include "dismantle/sdf/surface_query.h"
 

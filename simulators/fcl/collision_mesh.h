@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/geometry/mesh.h"
-#include "dismantle/geometry/pose.h"
+#include "dismantle/mesh.h"
+#include "dismantle/pose.h"
 
 namespace dismantle::mesh_collision {
 

@@ -1,7 +1,7 @@
 /// Fewer triangles for the same surface.
 #pragma once
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::mesh_collision {
 

@@ -1,14 +1,11 @@
 #include "simulator.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <functional>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include "dismantle/errors.h"
+#include "dismantle/executor.h"
 #include "dismantle/sdf/shape.h"
 #include "world.h"
 
@@ -17,25 +14,6 @@ namespace {
 
 /// Parts with the same triangles up to a rigid motion are one shape if they agree this well (assembly units).
 constexpr double kSameShape = 1e-7;
-
-/// Calls work(k) for k in [0, count) on several threads; the first exception in order of k is thrown on.
-void in_parallel(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work) {
-  std::vector<std::exception_ptr> failure(count);
-  std::atomic<std::size_t> next{0};
-  const auto loop = [&] {
-    for (std::size_t k; (k = next.fetch_add(1)) < count;) try {
-        work(k);
-      } catch (...) {
-        failure[k] = std::current_exception();
-      }
-  };
-  std::vector<std::thread> helpers;
-  for (unsigned t = 1; t < std::min<std::size_t>(threads, count); ++t) helpers.emplace_back(loop);
-  loop();
-  for (auto& t : helpers) t.join();
-  for (const auto& f : failure)
-    if (f) std::rethrow_exception(f);
-}
 
 }  // namespace
 
@@ -65,13 +43,16 @@ std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, 
   }
   std::mutex progress;
   std::size_t done = 0;
-  in_parallel(distinct.size(), context.threads, [&](std::size_t k) {
-    const std::size_t i = distinct[k];
-    if (context.should_stop()) return;
-    prepared->placed[i].body = make_body(assembly.parts[i], std::vector<double>(depths[i].begin(), depths[i].end()));
-    const std::lock_guard lock(progress);
-    context.progress("hierarchies", ++done, distinct.size(), assembly.parts[i].name);
-  });
+  parallel_for(
+      distinct.size(), context,
+      [&](std::size_t k) {
+        const std::size_t i = distinct[k];
+        const std::vector<double> shrunken_by(depths[i].begin(), depths[i].end());
+        prepared->placed[i].body = make_body(assembly.parts[i], shrunken_by);
+        const std::lock_guard lock(progress);
+        context.progress("hierarchies", ++done, distinct.size(), assembly.parts[i].name);
+      },
+      [&] { return context.should_stop(); });
   for (std::size_t i = 0; i < n; ++i) prepared->placed[i].body = prepared->placed[model[i]].body;
   return prepared;
 }

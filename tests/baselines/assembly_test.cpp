@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 #include "dismantle/errors.h"
-#include "dismantle/plan/check_plan.h"
-#include "dismantle/runner.h"
+#include "dismantle/verification/check_plan.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/samples.h"
-#include "fake_planning.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/fake_planning.h"
 
 namespace dismantle {
 namespace {

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 #include "dismantle/errors.h"
-#include "dismantle/runner.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/samples.h"
+#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle {
 namespace {

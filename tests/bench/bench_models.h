@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/model/assembly.h"
-#include "dismantle/prepare/prepare.h"
+#include "dismantle/assembly.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
 #include "dismantle/samples.h"
 

@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench_models.h"
-#include "dismantle/registry.h"
-#include "dismantle/verify/verdict.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/verification/verdict.h"
 
 namespace dismantle::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 
 namespace dismantle {
 namespace {

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/registry.h"
-#include "dismantle/runner.h"
-#include "fake_planning.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/engine/run.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/fake_planning.h"
 #include "one_by_one/fake_oracle.h"
 
 namespace dismantle {

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/prepare/prepare.h"
-#include "dismantle/registry.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/host/registry.h"
 #include "dismantle/samples.h"
-#include "dismantle/verify/verdict.h"
+#include "dismantle/verification/verdict.h"
 
 namespace dismantle::contract {
 

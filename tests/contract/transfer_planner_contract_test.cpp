@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "dismantle/transfer_planner.h"
-#include "fake_planning.h"
+#include "dismantle/testing/fake_planning.h"
 #include "small_assemblies.h"
 
 namespace dismantle::contract {

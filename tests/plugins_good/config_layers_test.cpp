@@ -1,7 +1,7 @@
 // Layers: `extends`, --set and options; places keep pointing at the file where something was written.
 #include <gtest/gtest.h>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 #include "scratch.h"
 
 namespace dismantle {

@@ -1,5 +1,5 @@
 // Binding: defaults, all errors at once with their places, kinds and capabilities.
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 
 #include <gtest/gtest.h>
 

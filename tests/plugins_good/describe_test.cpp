@@ -1,5 +1,5 @@
 // Descriptions hold every parameter with unit, default, range and doc, in every format.
-#include "dismantle/describe.h"
+#include "dismantle/host/describe.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Laws of the registry: what is found is what was registered; what is missing is explained.
-#include "dismantle/registry.h"
+#include "dismantle/host/registry.h"
 
 #include <elf.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 #include "dismantle/run_context.h"
 #include "scratch.h"
 

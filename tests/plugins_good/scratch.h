@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/config.h"
+#include "dismantle/host/config.h"
 
 namespace dismantle::testing_support {
 

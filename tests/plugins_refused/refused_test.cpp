@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "dismantle/registry.h"
+#include "dismantle/host/registry.h"
 
 namespace dismantle {
 namespace {

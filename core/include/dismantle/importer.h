@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dismantle/export.h"
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "dismantle/export.h"
-#include "dismantle/plan/outcome.h"
+#include "dismantle/outcome.h"
 #include "dismantle/run_context.h"
 #include "dismantle/simulator.h"
 

@@ -55,7 +55,7 @@ class DISMANTLE_API Rng {
   std::uint64_t s_[4];
 };
 
-class Crew;
+class Executor;
 
 enum class LogLevel { debug, info, warning, error };
 
@@ -72,8 +72,8 @@ struct RunContext {
   Deadline deadline;
   CancelToken cancel;
   Rng rng{1};
-  unsigned threads = 1;                                    ///< >= 1, that may be started; results never depend on it
-  std::shared_ptr<Crew> crew;                              ///< whose idle threads may help, started or not; may be null
+  unsigned threads = 1;                ///< >= 1, to divide or prefetch work for; results never depend on it
+  std::shared_ptr<Executor> executor;  ///< its idle threads may help, whatever `threads` is; may be null
   std::function<void(const ProgressEvent&)> on_progress;   ///< may be empty; called from one thread at a time
   std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; likewise
 

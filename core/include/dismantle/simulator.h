@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "dismantle/export.h"
-#include "dismantle/geometry/pose.h"
-#include "dismantle/model/assembly.h"
+#include "dismantle/pose.h"
+#include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {

@@ -6,11 +6,10 @@
 #include <limits>
 #include <optional>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/push/plan.h"
 #include "dismantle/tolerant_walk/walk.h"
-#include "give_way.h"
 #include "growth.h"
 
 namespace dismantle::guided {
@@ -63,21 +62,25 @@ class Others {
       own.on_log = nullptr;
       PathQuery walking = query_;
       std::optional<Others> rest;
-      std::optional<GiveWay> give_way;
-      std::optional<Crew::Offer> offer;
-      if (context_.crew && context_.crew->threads() > 1 && limits_.steps_left == nullptr) {
+      Executor::TaskHandle beside;
+      if (context_.executor && context_.executor->threads() > 1 && limits_.steps_left == nullptr) {
+        // If a candidate path of the walk is accepted, the rest is not needed: it pauses while one is verified.
+        Executor& executor = *context_.executor;
         rest.emplace(Others(query_, parameters_, tactics_, cache_, own, thin_));
-        give_way.emplace(*context_.crew);
-        walking.judge = [&](const Path& path) { return give_way->judged(query_.judge, path); };
-        offer = context_.crew->offer([&] { rest->push_and_walk([&] { give_way->wait(); }); }, Crew::Rank::part);
+        walking.judge = [&](const Path& path) {
+          const Executor::PauseScope pause(executor);
+          return query_.judge(path);
+        };
+        beside = executor.submit([&] { rest->push_and_walk([&] { executor.pause_point(); }); },
+                                 Executor::Priority::fork_join);
       }
       lead(walking, depth <= kLeastDepthOfLead ? 1 : 0);
       if (!undecided(led_)) {
         own.cancel.cancel();
         return together(led_);
       }
-      if (offer && !offer->withdraw()) {
-        offer->wait(context_, own.cancel);
+      if (beside && !beside.withdraw()) {
+        beside.wait(context_, own.cancel);
         pushes_ = rest->pushes_;
         squeezed_ = rest->squeezed_;
         return pushed_or_walked();

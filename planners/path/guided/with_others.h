@@ -14,7 +14,7 @@ namespace dismantle::guided {
 /// last. Ends when one of them has found a way, the effort is used up, or none has anything left to try (`exhausted`).
 ///
 /// Under a depth limit, from some depth on: the walk that is led, the pushes and the other walk, in proportion to it;
-/// no forest. An idle thread of the context's crew may begin with the pushes during the first.
+/// no forest. An idle thread of the context's executor may begin with the pushes during the first.
 /// Counts of the walks and of the forest begin with "led_", "squeeze_" and "forest_".
 PathResult plan_with_others(const PathQuery& query, const Parameters& parameters, const push::Tactics& tactics,
                             tolerant_walk::GeometryCache& cache, RunContext& context);

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "dismantle/geometry/aabb.h"
+#include "dismantle/aabb.h"
 
 namespace dismantle::mv_t_rrt {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/geometry/mesh.h"
-#include "dismantle/geometry/pose.h"
+#include "dismantle/mesh.h"
+#include "dismantle/pose.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::tunnel_forest {

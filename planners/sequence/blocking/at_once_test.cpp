@@ -5,7 +5,8 @@
 
 #include "barred_shaft.h"
 #include "blocking/blocking.h"
-#include "dismantle/plan/check_plan.h"
+#include "dismantle/verification/check_plan.h"
+#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle {
 namespace {

@@ -1,7 +1,7 @@
 /// An assembly for tests, of boxes: one part is in the way of another and cannot leave itself.
 #pragma once
 
-#include "fake_planning.h"
+#include "dismantle/testing/fake_planning.h"
 
 namespace dismantle {
 

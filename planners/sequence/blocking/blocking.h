@@ -1,23 +1,10 @@
-/// Takes an assembly apart by what is in whose way; searches only where no straight motion exists.
+/// Takes an assembly apart by what blocks what; searches only where no straight motion exists.
 #pragma once
 
-#include "dismantle/parameters.h"
+#include "blocking/params.h"
 #include "dismantle/sequence_planner.h"
-#include "one_by_one/one_by_one.h"
 
 namespace dismantle {
-
-struct BlockingParams {
-  PartOrder order = PartOrder::small_first;
-  bool straight = true;
-  bool groups = true;
-  std::int64_t slide_states = 60'000;
-  bool cages = true;
-  bool turns = true;
-  bool at_once = true;
-  unsigned max_depth = 8;
-  static void describe(Schema<BlockingParams>& schema);
-};
 
 class Blocking final : public SequencePlanner {
  public:

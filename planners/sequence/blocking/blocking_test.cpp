@@ -9,9 +9,10 @@
 
 #include "barred_shaft.h"
 #include "blocking/proofs_ahead.h"
-#include "dismantle/plan/check_plan.h"
-#include "fake_planning.h"
-#include "held_shapes.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/fake_planning.h"
+#include "dismantle/testing/held_shapes.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -150,7 +151,7 @@ TEST(ProofsAhead, TellWhatTheJudgeDoes) {
     for (const Question::Kind kind : {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_for_sure,
                                       Question::Kind::confined_at_last}) {
       all.push_back(Question::of_pair(kind, a, b));
-      truth[all.back()] = blocking::ProofsAhead(judge, assembly).answer(all.back(), {}, {});
+      truth[all.back()] = blocking::ProofsAhead(judge, assembly, nullptr).answer(all.back(), {}, {});
       held[kind] += truth[all.back()].has_value();
     }
   EXPECT_EQ(held[Question::Kind::confined_at_last], 2u);
@@ -159,8 +160,8 @@ TEST(ProofsAhead, TellWhatTheJudgeDoes) {
   for (int trial = 0; trial < 4; ++trial) {
     RunContext context;
     context.threads = 1 + static_cast<unsigned>(trial % 3);
-    if (context.threads > 1) context.crew = std::make_shared<Crew>(context.threads);
-    blocking::ProofsAhead ahead(judge, assembly);
+    if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
+    blocking::ProofsAhead ahead(judge, assembly, context.executor);
     for (int k = 0; k < 8; ++k) {
       std::vector<Question> wanted;
       for (const Question& q : all)

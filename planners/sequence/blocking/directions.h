@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "dismantle/model/assembly.h"
+#include "dismantle/assembly.h"
 
 namespace dismantle::blocking {
 

@@ -10,7 +10,7 @@
 #include "blocking/graph.h"
 #include "blocking/polyhedron.h"
 #include "blocking/turns.h"
-#include "fake_planning.h"
+#include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {
 namespace {

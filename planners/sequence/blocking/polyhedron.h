@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/aabb.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::blocking {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verify/explanations.h"
+#include "dismantle/verification/explanations.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -13,11 +13,9 @@ using Kind = HoldQuestion::Kind;
 
 /// Of what ways may cut in.
 constexpr double kShareForSure = 1, kShareAtLast = 0.5;
-constexpr std::size_t kOffered = 4;  // at a time
+constexpr std::size_t kAtATime = 4;
 
 }  // namespace
-
-ProofsAhead::~ProofsAhead() { drop_all_but({}); }  // the offers wait for their ends
 
 std::optional<std::string> ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
   const auto why = [&](const auto& found) -> std::optional<std::string> {
@@ -37,58 +35,24 @@ std::optional<std::string> ProofsAhead::ask(const HoldQuestion& q, const RunCont
   return why(judge_.confined(q.a, q.b, context, kShareAtLast));
 }
 
-std::size_t ProofsAhead::open() const {
-  return static_cast<std::size_t>(
-      std::count_if(jobs_.begin(), jobs_.end(), [](const auto& job) { return !job.second.offer.done(); }) +
-      std::count_if(dropped_.begin(), dropped_.end(), [](const Job& job) { return !job.offer.done(); }));
-}
-
-/// What is known stays.
-void ProofsAhead::drop_all_but(std::span<const HoldQuestion> wanted) {
-  for (auto job = jobs_.begin(); job != jobs_.end();) {
-    if (job->second.offer.done() || std::find(wanted.begin(), wanted.end(), job->first) != wanted.end()) {
-      ++job;
-      continue;
-    }
-    job->second.cancel.cancel();
-    if (!job->second.offer.withdraw()) dropped_.push_back(std::move(job->second));
-    job = jobs_.erase(job);
-  }
-  std::erase_if(dropped_, [](const Job& job) { return job.offer.done(); });
-}
-
 void ProofsAhead::begin(std::span<const HoldQuestion> wanted, const RunContext& context) {
-  drop_all_but(wanted);
-  if (!context.crew) return;
+  std::deque<Known::Sequence> first;
   for (const HoldQuestion& question : wanted) {
-    if (open() >= kOffered) return;
-    if (jobs_.contains(question)) continue;
-    RunContext own;
-    own.deadline = context.deadline;
-    own.crew = context.crew;
-    auto why = std::make_shared<std::optional<std::string>>();
-    Crew::Offer offer =
-        context.crew->offer([this, question, own, why] { *why = ask(question, own); }, Crew::Rank::ahead);
-    jobs_.emplace(question, Job{own.cancel, std::move(why), std::move(offer)});
+    if (first.size() >= kAtATime) break;
+    if (known_.is_computed(question)) continue;
+    first.push_back({{question, [this, question](const RunContext& c) { return ask(question, c); }}});
   }
+  known_.prefetch(std::move(first), context);
 }
 
 std::optional<std::string> ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
                                                const RunContext& context) {
-  std::vector<HoldQuestion> wanted{question};
+  std::vector<HoldQuestion> wanted;
+  if (known_.is_running(question)) wanted.push_back(question);  // it goes on
   wanted.insert(wanted.end(), next.begin(), next.end());
-  drop_all_but(wanted);
-  const auto known = jobs_.find(question);
-  if (known == jobs_.end() || known->second.offer.withdraw()) {
-    if (known != jobs_.end()) jobs_.erase(known);
-    begin(next, context);
-    return ask(question, context);
-  }
-  Job job = std::move(known->second);
-  jobs_.erase(known);
-  begin(next, context);
-  job.offer.wait(context, job.cancel);
-  return *job.why;
+  begin(wanted, context);
+  return known_.get(
+      question, [this, &question](const RunContext& c) { return ask(question, c); }, context);
 }
 
 }  // namespace dismantle::blocking

@@ -3,15 +3,13 @@
 
 #include <compare>
 #include <cstddef>
-#include <list>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
-#include "dismantle/crew.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/speculative_cache.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 
@@ -30,37 +28,28 @@ struct HoldQuestion {
   static HoldQuestion of_pair(Kind kind, PartId a, PartId b) { return {kind, std::min(a, b), std::max(a, b)}; }
 };
 
-/// What the judge says of a pair is a fact about the two, so it does not matter who finds it, and when. One caller.
+/// What the judge says of a pair is a fact about the two, so it does not matter which thread finds it and when. One
+/// caller.
 class ProofsAhead {
  public:
-  /// Both must outlive this.
-  ProofsAhead(const Verifier& judge, const Assembly& assembly) : judge_(judge), assembly_(assembly) {}
-  /// Tells what is still sought to stop, and waits for that.
-  ~ProofsAhead();
-  ProofsAhead(const ProofsAhead&) = delete;
-  ProofsAhead& operator=(const ProofsAhead&) = delete;
+  /// All must outlive this; `executor` may be null.
+  ProofsAhead(const Verifier& judge, const Assembly& assembly, std::shared_ptr<Executor> executor)
+      : judge_(judge), assembly_(assembly), known_(std::move(executor), Executor::Priority::speculative) {}
 
-  /// Offers the first of `wanted`, the likeliest to be asked first, to the context's crew. What is not among them any
-  /// more is withdrawn, or told to stop.
+  /// Idle threads work on the first few of `wanted`, the likeliest to be asked first, that are not known. What is not
+  /// among them any more is cancelled.
   void begin(std::span<const HoldQuestion> wanted, const RunContext& context);
   /// Why they do. Idle threads work on the first of `next` meanwhile.
   std::optional<std::string> answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
                                     const RunContext& context);
-  std::size_t open() const;  ///< offers that have not come to an end
 
  private:
-  struct Job {
-    CancelToken cancel;
-    std::shared_ptr<std::optional<std::string>> why;
-    Crew::Offer offer;
-  };
+  using Known = SpeculativeCache<HoldQuestion, std::optional<std::string>>;
   std::optional<std::string> ask(const HoldQuestion& question, const RunContext& context) const;
-  void drop_all_but(std::span<const HoldQuestion> wanted);
 
   const Verifier& judge_;
   const Assembly& assembly_;
-  std::map<HoldQuestion, Job> jobs_;
-  std::list<Job> dropped_;  // which come to an end
+  Known known_;
 };
 
 }  // namespace dismantle::blocking

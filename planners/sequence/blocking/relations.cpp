@@ -15,8 +15,14 @@ constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
 
 }  // namespace
 
-Relations::Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Crew> crew)
-    : directions_(directions), judge_(judge), shadows_(directions.all.size()), answers_(judge, std::move(crew)) {
+Relations::Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+                     std::shared_ptr<Executor> executor)
+    : directions_(directions),
+      judge_(judge),
+      shadows_(directions.all.size()),
+      turns_(orientations),
+      executor_(std::move(executor)),
+      blocks_ahead_(executor_, Executor::Priority::speculative, [](bool blocked) { return blocked; }) {
   for (const auto& d : directions.all) {
     const Vec3 across = d.unitOrthogonal();
     Eigen::Matrix3d frame;
@@ -55,16 +61,6 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
   return {s.lo[0], s.hi[0]};
 }
 
-std::size_t Relations::turn(const Eigen::Quaterniond& q) {
-  const auto known =
-      std::find_if(turns_.begin(), turns_.end(), [&](const auto& t) { return std::abs(t.dot(q)) > 1 - 1e-14; });
-  if (known == turns_.end()) {
-    turns_.push_back(q);
-    return turns_.size() - 1;
-  }
-  return static_cast<std::size_t>(known - turns_.begin());
-}
-
 /// One of both ways of looking at a pair: i along d past j is j along -d past i. A proof that has a budget may tell
 /// them apart, and rounding offsets; asked like this, it does not matter who asks.
 Pair Relations::canonical(Pair p) {
@@ -87,6 +83,12 @@ Relations::Key Relations::key_of(const Pair& pair) {
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
 
+bool Relations::known_to_block(const Pair& pair) const {
+  if (far(pair)) return false;
+  const auto found = blocks_.find(key_of(pair));
+  return found != blocks_.end() && found->second;
+}
+
 double Relations::way_past(const Pair& p) const {
   return shadow(p.still, p.direction, p.turn_still).hi[0] - shadow(p.moving, p.direction, p.turn_moving).lo[0] -
          p.offset.dot(directions_.all[p.direction]);
@@ -101,12 +103,16 @@ bool Relations::far(const Pair& p) const {
   return false;
 }
 
-PassQuestion Relations::question(const Pair& pair) const {
+/// Does the part fail to pass the other on its straight way?
+Relations::Ahead::Request Relations::request(const Pair& pair) const {
   const Pair p = canonical(pair);
   const Pose begin{p.offset, turns_[p.turn_moving]};
   Pose end = begin;
   end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
-  return {key_of(pair), p.moving, p.still, Pose{Vec3::Zero(), turns_[p.turn_still]}, {begin, end}};
+  const Pose still{Vec3::Zero(), turns_[p.turn_still]};
+  return {key_of(pair), [this, p, still, way = std::vector<Pose>{begin, end}](const RunContext&) {
+            return !judge_.passes(p.moving, p.still, still, way);
+          }};
 }
 
 bool Relations::blocks(const Pair& pair) {
@@ -114,32 +120,36 @@ bool Relations::blocks(const Pair& pair) {
   const Key key = key_of(pair);
   const auto found = blocks_.find(key);
   if (found != blocks_.end()) return found->second;
-  const PassQuestion asked = question(pair);
-  return blocks_.emplace(key, answers_.answer({&asked, 1}).front() != 0).first->second;
+  const bool blocked = blocks_ahead_.get(key, request(pair).compute, {});
+  return blocks_.emplace(key, blocked).first->second;
 }
 
 void Relations::compute(std::span<const Pair> pairs) {
-  std::vector<PassQuestion> unknown;
+  std::vector<Ahead::Request> unknown;
   for (const Pair& pair : pairs)
-    if (!known(pair)) unknown.push_back(question(pair));
+    if (!known(pair)) unknown.push_back(request(pair));
   const auto by_key = [](const auto& a, const auto& b) { return a.key < b.key; };
   std::sort(unknown.begin(), unknown.end(), by_key);
   unknown.erase(
       std::unique(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.key == b.key; }),
       unknown.end());
-  const std::vector<char> answers = answers_.answer(unknown);
-  for (std::size_t k = 0; k < unknown.size(); ++k) blocks_.emplace(unknown[k].key, answers[k] != 0);
+  std::vector<char> blocked(unknown.size());
+  parallel_for(
+      unknown.size(), executor_.get(),
+      [&](std::size_t k) { blocked[k] = blocks_ahead_.get(unknown[k].key, unknown[k].compute, {}); },
+      [] { return false; });
+  for (std::size_t k = 0; k < unknown.size(); ++k) blocks_.emplace(unknown[k].key, blocked[k] != 0);
 }
 
 void Relations::hint(const std::vector<std::vector<Pair>>& lists) {
-  std::deque<AnswersAhead::Line> lines;
+  std::deque<Ahead::Sequence> sequences;
   for (const auto& list : lists) {
-    AnswersAhead::Line line;
+    Ahead::Sequence sequence;
     for (const Pair& pair : list)
-      if (!known(pair)) line.push_back(question(pair));
-    if (!line.empty()) lines.push_back(std::move(line));
+      if (!known(pair)) sequence.push_back(request(pair));
+    if (!sequence.empty()) sequences.push_back(std::move(sequence));
   }
-  answers_.hint(std::move(lines));
+  blocks_ahead_.prefetch(std::move(sequences), {});
 }
 
 }  // namespace dismantle::blocking

@@ -11,9 +11,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "blocking/answers_ahead.h"
 #include "blocking/directions.h"
-#include "dismantle/verify/verifier.h"
+#include "blocking/orientations.h"
+#include "dismantle/speculative_cache.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 
@@ -22,25 +23,31 @@ struct Pair {
   PartId moving = 0, still = 0;
   std::size_t direction = 0;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
-  std::size_t turn_moving = 0, turn_still = 0;       ///< as Relations::turn names them
+  std::size_t turn_moving = 0, turn_still = 0;       ///< numbers of Orientations
 };
 
+/// A pair, how the two stand to each other, and a direction; see Relations.
+using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
+
 /// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
-/// its end. Not safe to call from several threads; a crew's idle ones, if given, help.
+/// its end. Not safe to call from several threads; idle threads of an executor, if given, help.
 class Relations {
  public:
-  /// All references must outlive this; `crew` may be null.
-  Relations(const Verifier& judge, const Directions& directions, std::shared_ptr<Crew> crew);
+  /// All references must outlive this; `executor` may be null.
+  Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+            std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
   /// The same for many.
   void compute(std::span<const Pair> pairs);
   /// Asked for before, or far. What was found ahead does not count, so that threads do not show.
   bool known(const Pair& pair) const;
+  /// Is it known, and does it block?
+  bool known_to_block(const Pair& pair) const;
   /// Are there threads for what will probably be asked?
-  bool works_ahead() const { return answers_.works_ahead(); }
+  bool works_ahead() const { return blocks_ahead_.computes_ahead(); }
   /// Is it worth telling them? They have little left.
-  bool wants_hints() const { return works_ahead() && answers_.waiting() < kEnoughHints; }
+  bool wants_hints() const { return works_ahead() && blocks_ahead_.waiting() < kEnoughHints; }
   /// Each list in the order in which it will be asked, until a pair is blocked. Replaces what was told before.
   void hint(const std::vector<std::vector<Pair>>& lists);
   /// Certainly apart all the way, by boxes alone.
@@ -49,8 +56,6 @@ class Relations {
   double way_past(const Pair& pair) const;
   /// Extent of a part along a direction, turned but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
-  /// A number for a rotation from the assembled orientation; 0 is none. Equal rotations have equal numbers.
-  std::size_t turn(const Eigen::Quaterniond& q);
   /// How many were asked for.
   std::uint64_t computed() const { return blocks_.size(); }
 
@@ -62,7 +67,8 @@ class Relations {
   static constexpr std::size_t kEnoughHints = 8;
   static Pair canonical(Pair pair);
   static Key key_of(const Pair& pair);
-  PassQuestion question(const Pair& pair) const;
+  using Ahead = SpeculativeCache<RelationKey, bool>;
+  Ahead::Request request(const Pair& pair) const;
   Shadow cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
@@ -70,10 +76,11 @@ class Relations {
   const Verifier& judge_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
-  std::vector<Eigen::Quaterniond> turns_{Eigen::Quaterniond::Identity()};
+  const Orientations& turns_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
-  AnswersAhead answers_;
+  std::shared_ptr<Executor> executor_;
+  Ahead blocks_ahead_;
 };
 
 }  // namespace dismantle::blocking

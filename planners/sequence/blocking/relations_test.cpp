@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "barred_shaft.h"
-#include "fake_planning.h"
+#include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -21,7 +21,8 @@ TEST(Relations, AreTheSameWhoeverHelps) {
       for (PartId b = 0; b < assembly.parts.size(); ++b)
         for (std::size_t d = 0; a != b && d < directions.all.size(); ++d)
           pairs.push_back({a, b, d, Eigen::Vector3d::Zero(), 0, 0});
-    Relations alone(judge, directions, nullptr);
+    const Orientations orientations;
+    Relations alone(judge, directions, orientations, nullptr);
     EXPECT_FALSE(alone.works_ahead());
     std::size_t blocked = 0;
     for (const Pair& p : pairs) blocked += alone.blocks(p);
@@ -30,8 +31,8 @@ TEST(Relations, AreTheSameWhoeverHelps) {
     Rng rng(6);
     for (const unsigned threads : {1U, 2U, 4U})
       for (int trial = 0; trial < 5; ++trial) {
-        const auto crew = std::make_shared<Crew>(threads);
-        Relations helped(judge, directions, crew);
+        const auto executor = std::make_shared<Executor>(threads);
+        Relations helped(judge, directions, orientations, executor);
         EXPECT_EQ(helped.works_ahead(), threads > 1);
         for (int round = 0; round < 10; ++round) {
           std::vector<std::vector<Pair>> lines(rng.below(6));

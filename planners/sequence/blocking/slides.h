@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "blocking/polyhedron.h"
-#include "dismantle/model/assembly.h"
+#include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::blocking {

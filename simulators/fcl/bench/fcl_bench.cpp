@@ -5,7 +5,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 
-#include "dismantle/prepare/prepare.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
 #include "world.h"
 

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "dismantle/prepare/prepare.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 #include "simulator.h"
-#include "test_shapes.h"
+#include "dismantle/testing/shapes.h"
 #include "world.h"
 
 namespace dismantle::mesh_collision {

@@ -6,7 +6,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/samples.h"
-#include "test_shapes.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::mesh_collision {
 namespace {

@@ -1,14 +1,13 @@
 #include "dismantle/sdf/shape.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <thread>
 
 #include "dismantle/errors.h"
+#include "dismantle/executor.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::sdf {
@@ -153,28 +152,17 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
   chosen.points.spacing = std::clamp(0.5 * thinnest, 0.5 * options.points.spacing, 2 * options.points.spacing);
 
   std::vector<Placed> placed(n);
-  std::vector<std::exception_ptr> failure(distinct.size());
-  std::atomic<std::size_t> next{0}, done{0};
+  std::size_t done = 0;
   std::mutex progress;
-  const auto work = [&] {
-    for (std::size_t k; (k = next.fetch_add(1)) < distinct.size();) {
-      const Part& part = assembly.parts[distinct[k]];
-      try {
-        if (!context.should_stop())
-          placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
-      } catch (const std::exception&) {
-        failure[k] = std::current_exception();
-      }
-      const std::lock_guard lock(progress);
-      context.progress("fields", ++done, distinct.size(), part.name);
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned t = 1; t < std::min<std::size_t>(context.threads, distinct.size()); ++t) threads.emplace_back(work);
-  work();
-  for (auto& t : threads) t.join();
-  for (const auto& f : failure)
-    if (f) std::rethrow_exception(f);
+  parallel_for(
+      distinct.size(), context,
+      [&](std::size_t k) {
+        const Part& part = assembly.parts[distinct[k]];
+        placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
+        const std::lock_guard lock(progress);
+        context.progress("fields", ++done, distinct.size(), part.name);
+      },
+      [&] { return context.should_stop(); });
   for (std::size_t i = 0; i < n; ++i)
     if (model[i] != i) placed[i] = {placed[model[i]].shape, from_model[i] * placed[model[i]].rest};
   return placed;

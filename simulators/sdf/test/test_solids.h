@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::sdf::test {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/registry.h"
+#include "dismantle/host/registry.h"
 #include "dismantle/simulator.h"
 
 namespace dismantle::sdf::test {

@@ -1,6 +1,6 @@
-/// Uses the installed libraries: samples, core and the plugin registry.
-#include <dismantle/prepare/prepare.h>
-#include <dismantle/registry.h>
+/// Uses the installed libraries: samples, preparation and the plugin registry.
+#include <dismantle/host/registry.h>
+#include <dismantle/preparation/prepare.h>
 #include <dismantle/samples.h>
 
 #include <iostream>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::path::test {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
-#include "dismantle/model/assembly.h"
+#include "dismantle/aabb.h"
+#include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::path::test {

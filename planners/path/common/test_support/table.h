@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "dismantle/crew.h"
+#include "dismantle/executor.h"
+#include "dismantle/host/registry.h"
 #include "dismantle/path_planner.h"
-#include "dismantle/registry.h"
-#include "dismantle/verify/verdict.h"
+#include "dismantle/verification/verdict.h"
 #include "solids.h"
 
 namespace dismantle::path::test {
@@ -30,7 +30,7 @@ struct Table {
   std::shared_ptr<const Prepared> prepared;
   Verifier verifier;
   std::atomic<std::size_t> judged = 0;
-  std::shared_ptr<Crew> crew;  ///< whose idle threads may help
+  std::shared_ptr<Executor> executor;  ///< whose idle threads may help
 
   explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
     RunContext context;
@@ -55,7 +55,7 @@ struct Table {
     }
     RunContext context;
     context.rng = Rng(seed);
-    context.crew = crew;
+    context.executor = executor;
     const auto judge = [&](const Path& path) {
       ++judged;
       Verdict v = verdict_of(verifier.check_motion(moving, cast.still, path));

@@ -103,7 +103,7 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
     for (const unsigned depth : {2U, 3U, 4U}) {
       Table table(maze(gap));
       const PathResult alone = table.plan("guided", few, 1, 0, depth);
-      table.crew = std::make_shared<Crew>(3);
+      table.executor = std::make_shared<Executor>(3);
       const PathResult helped = table.plan("guided", few, 1, 0, depth);
       EXPECT_EQ(helped.outcome, alone.outcome);
       EXPECT_EQ(helped.counts, alone.counts);

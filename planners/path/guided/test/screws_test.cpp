@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "dismantle/prepare/prepare.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
 #include "table.h"
 

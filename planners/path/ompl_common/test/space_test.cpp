@@ -4,7 +4,7 @@
 #include "dismantle/sampling/nearest.h"
 #include "dismantle/sampling/scene.h"
 #include "fake_world.h"
-#include "test_shapes.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::sampling {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <thread>
 
-#include "dismantle/prepare/prepare.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
 #include "dismantle/sampling/targetless.h"
 #include "dismantle/sampling/tree_planner.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 #include "simulator.h"
 
 namespace dismantle::sampling {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "dismantle/path_planner.h"
-#include "dismantle/registry.h"
+#include "dismantle/host/registry.h"
 
 namespace dismantle::push::test {
 

@@ -5,7 +5,7 @@
 
 #include "dismantle/tolerant_walk/solid_field.h"
 #include "dismantle/tolerant_walk/tolerance.h"
-#include "dismantle/verify/verifier.h"
+#include "dismantle/verification/verifier.h"
 #include "solids.h"
 
 namespace dismantle::tolerant_walk {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::mesh_files::testing {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
+#include "dismantle/aabb.h"
 
 namespace dismantle::sdf {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/model/assembly.h"
+#include "dismantle/assembly.h"
 #include "dismantle/sdf/surface_query.h"
 
 namespace dismantle::sdf {

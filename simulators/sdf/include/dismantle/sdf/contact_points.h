@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::sdf {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
+#include "dismantle/aabb.h"
 #include "dismantle/sdf/surface_query.h"
 
 namespace dismantle::sdf {

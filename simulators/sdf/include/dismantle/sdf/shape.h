@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/model/assembly.h"
+#include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
 #include "dismantle/sdf/contact_points.h"
 #include "dismantle/sdf/distance_grid.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::free_space {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dismantle/free_space/body_points.h"
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::free_space {
 

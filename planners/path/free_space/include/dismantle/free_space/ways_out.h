@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
+#include "dismantle/aabb.h"
 #include "dismantle/simulator.h"
 
 namespace dismantle::free_space {

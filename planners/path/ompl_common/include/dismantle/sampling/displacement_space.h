@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "dismantle/geometry/aabb.h"
-#include "dismantle/geometry/pose.h"
+#include "dismantle/aabb.h"
+#include "dismantle/pose.h"
 #include "dismantle/run_context.h"
 #include "dismantle/simulator.h"
 

@@ -9,8 +9,8 @@
 #include <memory>
 #include <mutex>
 
-#include "dismantle/geometry/mesh.h"
-#include "dismantle/geometry/pose.h"
+#include "dismantle/mesh.h"
+#include "dismantle/pose.h"
 #include "dismantle/tolerant_walk/probes.h"
 #include "dismantle/tolerant_walk/solid_field.h"
 

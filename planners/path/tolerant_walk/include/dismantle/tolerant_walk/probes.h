@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-#include "dismantle/geometry/aabb.h"
-#include "dismantle/geometry/pose.h"
+#include "dismantle/aabb.h"
+#include "dismantle/pose.h"
 #include "dismantle/tolerant_walk/solid_field.h"
 
 namespace dismantle::tolerant_walk {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "dismantle/geometry/mesh.h"
+#include "dismantle/mesh.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::tolerant_walk {

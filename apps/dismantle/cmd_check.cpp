@@ -1,0 +1,75 @@
+// dismantle check INPUT
+#include <fmt/format.h>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/preparation/check_assembly.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+namespace {
+
+struct Check {
+  std::string input;
+  ConfigFlags config;
+  ConsoleOptions console;
+};
+
+/// Depths are exact to this share of the tolerance that plans are verified by.
+constexpr double kDepthShare = 0.01;
+
+int finish(const AssemblyCheck& check, const std::string& input, bool usable, Console& console) {
+  console.end_progress();
+  console.text(findings_text(check, input));
+  nlohmann::ordered_json json = {{"status", usable ? "complete" : "error"}};
+  json.update(nlohmann::ordered_json::parse(findings_json(check)));
+  console.result(std::move(json));
+  if (!usable) return kBadInput;
+  return check.count(Severity::error) + check.count(Severity::warning) == 0 ? kComplete : kPartial;
+}
+
+int check(const Check& options) {
+  Console console(options.console);
+  Registry registry;
+  const RunConfig config = load_config(options.config.source(), registry);
+  warn_of_problems(registry, console);
+  RunContext context = context_of(config.run, console);
+  context.on_log = nullptr;  // the findings say it all
+  PrepareReport report;
+  try {
+    const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+    const AssemblyCheck found = stoppable(context, [&] {
+      return check_assembly(assembly, report, kDepthShare * config.verify.max_penetration, context);
+    });
+    return finish(found, options.input, true, console);
+  } catch (const InputError&) {
+    if (report.parts.empty()) throw;
+    return finish(check_parts(report), options.input, false, console);
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("check", "Find out what is wrong with an assembly before anyone plans");
+  auto options = std::make_shared<Check>();
+  command->add_option("INPUT", options->input, "Folder of mesh files (one part each), or one file with several parts")
+      ->required()
+      ->option_text(" ");
+  options->config.add_file_and_set(*command);
+  options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer(
+      "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth and place),\n"
+      "parts inside the solid of others, and parts that touch nothing.\n"
+      "Exit status: 0 nothing found, 1 something was found, 3 the input cannot be planned with.\n"
+      "Examples:\n"
+      "  dismantle check gearbox.step\n"
+      "  dismantle check gearbox/ --format json -q | tail -n 1");
+  command->callback([&action, options] { action = [options] { return check(*options); }; });
+}
+
+}  // namespace dismantle::app

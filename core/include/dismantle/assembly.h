@@ -1,0 +1,81 @@
+/// Parts in assembled position, in assembly units.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/mesh.h"
+#include "dismantle/pose.h"
+
+namespace dismantle {
+
+/// Index into Assembly::parts.
+using PartId = std::uint32_t;
+
+/// One rigid part. `mesh` holds the original triangles (welded, oriented, repaired), scaled to assembly
+/// units: it is what the verifier judges. `surface` is the same surface with no edge longer than the
+/// `subdivide` parameter (appendix B.1, step 9): where simulators take their contact points.
+struct Part {
+  PartId id = 0;
+  std::string name;  ///< unique in the assembly
+  std::string file;  ///< file name (not path) that it came from
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Mesh> surface;
+  double volume = 0;  ///< assembly units cubed, > 0
+};
+
+/// From input units to assembly units: internal = scale * (input - center).
+struct Normalization {
+  double scale = 1;  ///< > 0
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  Eigen::Vector3d to_internal(const Eigen::Vector3d& p) const { return scale * (p - center); }
+  Eigen::Vector3d to_input(const Eigen::Vector3d& p) const { return p / scale + center; }
+  /// A pose that acts on input coordinates and does what `p` does on internal ones, and back.
+  Pose pose_to_input(const Pose& p) const { return {center - p.q * center + p.t / scale, p.q}; }
+  Pose pose_to_internal(const Pose& p) const { return {scale * (p.t + p.q * center - center), p.q}; }
+};
+
+/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Whoever judges a plan has to
+/// look at the same surfaces.
+struct SurfaceRepair {
+  double weld = 1e-6;
+  bool repair = true;
+  double max_hole = 0.1;
+  bool operator==(const SurfaceRepair&) const = default;
+};
+
+struct ExcludedPart {
+  std::string name;
+  std::string reason;
+};
+
+/// Two parts that penetrate each other when assembled (usual in CAD). depth: assembly units, > 0.
+struct InitialOverlap {
+  PartId a = 0, b = 0;  ///< a < b
+  double depth = 0;
+};
+
+struct Assembly {
+  std::string source;   ///< as the user named it
+  std::string sha256;   ///< of the input files' bytes, in name order
+  Normalization normalization;
+  SurfaceRepair repair;
+  Aabb input_box;       ///< of all parts kept, input units
+  std::vector<Part> parts;
+  std::vector<ExcludedPart> excluded;
+  std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles
+
+  /// Allowed depth of the pair when assembled, 0 when they do not overlap.
+  double initial_overlap(PartId a, PartId b) const {
+    if (a > b) std::swap(a, b);
+    for (const auto& o : overlaps)
+      if (o.a == a && o.b == b) return o.depth;
+    return 0;
+  }
+};
+
+}  // namespace dismantle

@@ -1,0 +1,95 @@
+/// The plan: what is written, read, verified and shown. Field by field the JSON of DESIGN section 7.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/aabb.h"
+#include "dismantle/pose.h"
+#include "dismantle/assembly.h"
+#include "dismantle/outcome.h"
+
+namespace dismantle {
+
+/// Poses in a plan act on input coordinates, in input units.
+struct PlanMove {
+  std::string part;
+  std::vector<Pose> poses;  ///< >= 2; all moves of a step have the same number
+};
+
+struct PlanStep {
+  unsigned step = 0;  ///< from 1
+  std::vector<PlanMove> moves;
+  std::vector<std::vector<std::string>> separates;
+  double max_penetration = 0;  ///< assembly units, certified bound above the initial overlap
+  double seconds = 0;
+  std::string planner;
+  unsigned depth = 0;
+  std::vector<std::string> contacts;  ///< parts touched on the way
+  /// Assembly steps: index of the pose at which the way from the layout ends and the disassembly path backwards begins.
+  /// 0 = there is no such way, the step begins where the disassembly ended.
+  std::size_t transfer = 0;
+  /// Disassembly steps: those that this one needs to have been done, by number, without those that follow from others.
+  std::vector<unsigned> after;
+  /// Disassembly steps: 1 + the largest layer of `after`, or 1. Steps of one layer need not wait for each other.
+  unsigned layer = 0;
+};
+
+struct PlanUnsolved {
+  std::string part;
+  Outcome outcome = Outcome::exhausted;
+  std::vector<std::string> blocked_by;
+  Pose best_pose;
+  std::string message;
+};
+
+struct PlanPart {
+  unsigned id = 0;
+  std::string name;
+  std::string file;
+};
+
+struct PlanOverlap {
+  std::string a, b;
+  double depth = 0;  ///< assembly units
+};
+
+struct PlanAssembly {
+  std::string source, sha256;
+  double scale = 1;                                  ///< assembly units per input unit
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
+  Aabb box;                                          ///< input units
+  SurfaceRepair repair;
+  std::vector<PlanPart> parts;
+  std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
+  std::vector<PlanOverlap> overlaps;
+};
+
+enum class PlanStatus { complete, partial };
+
+/// What `assembly_steps` are.
+enum class AssemblyStatus {
+  complete,  ///< each step that there is in the disassembly, from the layout on
+  partial,   ///< no way from the layout was found for some; `assembly_message` says for which
+  reversed,  ///< the disassembly backwards and nothing more: no layout was asked for
+};
+
+struct Plan {
+  std::string generator_name = "dismantle";
+  std::string generator_version;
+  PlanAssembly assembly;
+  PlanStatus status = PlanStatus::partial;
+  std::uint64_t seed = 0;
+  double verified_max_penetration = 0.01;  ///< the tolerance that every step was judged by
+  std::vector<PlanStep> disassembly;
+  std::vector<PlanStep> assembly_steps;
+  AssemblyStatus assembly_status = AssemblyStatus::reversed;
+  std::string assembly_message;  ///< why partial; else empty
+  std::vector<std::string> remaining;
+  std::vector<PlanUnsolved> unsolved;
+};
+
+}  // namespace dismantle

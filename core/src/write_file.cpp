@@ -1,0 +1,43 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "dismantle/errors.h"
+#include "dismantle/write_file.h"
+#include "text.h"
+
+namespace dismantle {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& file, int error) {
+  throw Error(text::join(file.string(), ": cannot write: ", std::generic_category().message(error)));
+}
+
+}  // namespace
+
+void write_file(const std::filesystem::path& file, const std::string& content) {
+  // The process id keeps two runs that write to one folder from sharing a temporary file.
+  std::filesystem::path temporary = file;
+  temporary.replace_filename(text::join(".", file.filename().string(), ".", ::getpid(), ".tmp"));
+
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd < 0) fail(file, errno);
+  int error = 0;
+  for (std::size_t done = 0; done < content.size() && error == 0;) {
+    const ssize_t n = ::write(fd, content.data() + done, content.size() - done);
+    if (n >= 0)
+      done += static_cast<std::size_t>(n);
+    else if (errno != EINTR)
+      error = errno;
+  }
+  if (::close(fd) != 0 && error == 0) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    fail(file, error);
+  }
+}
+
+}  // namespace dismantle

@@ -1,0 +1,133 @@
+#include "campaign/enlist.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan.h"
+#include "dismantle/write_file.h"
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string sha256_of(const std::string& text) {
+  unsigned char digest[EVP_MAX_MD_SIZE];
+  unsigned length = 0;
+  if (EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr) != 1)
+    throw Error("SHA-256 is not available");
+  std::string out;
+  for (unsigned i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
+  return out;
+}
+
+RunConfig with_seed(RunConfig config, std::int64_t seed) {
+  config.run.seed = seed;
+  config.sections.at("run").at("seed") = seed;
+  config.origins.clear();  // where a value came from does not change what is run
+  return config;
+}
+
+/// Folders are absolute: the recorded configuration works wherever it is written to.
+std::string text_of(const RunConfig& config, const Registry& registry, const fs::path& folder) {
+  RunConfig bare = config;
+  bare.plugin_search_paths.clear();
+  std::string text = resolved_yaml(bare, registry, folder);
+  std::string plugins;
+  for (const auto& path : config.plugin_search_paths)
+    plugins += "    - " + nlohmann::json(fs::absolute(path).lexically_normal().string()).dump() + "\n";
+  if (!plugins.empty()) text.insert(text.find("assembly:\n"), "plugins:\n  search_paths:\n" + plugins);
+  return text;
+}
+
+std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& registry,
+                                  std::map<fs::path, std::string>& hashes) {
+  const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
+                                   &config.transfer_planner};
+  std::vector<PluginUse> out;
+  for (std::size_t i = 0; i < plugin_sections().size(); ++i) {
+    const auto& section = plugin_sections()[i];
+    const PluginFile& file = *registry.find(section.kind, choices[i]->type).file;
+    std::string& hash = hashes[file.path];
+    if (hash.empty()) hash = sha256_of_file(file.path);
+    out.push_back({section.name, choices[i]->type, file.id, file.version, file.path.filename().string(), hash});
+  }
+  return out;
+}
+
+/// A name for a folder, from a name and from what is in it.
+std::string folder_name(const std::string& name, const std::string& recipe) {
+  std::string out;
+  for (const char c : name) {
+    const bool good = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
+                      c == '-' || c == '_' || c == '=' || c == '(' || c == ')' || c == ',';
+    out += good ? c : '_';
+  }
+  return out.substr(0, 100) + "-" + sha256_of(name + "|" + recipe).substr(0, 12);
+}
+
+/// What an assembly that is made depends on is in its name, so that it is never taken for another.
+std::string input_name(const SuiteAssembly& assembly, bool rotate, std::int64_t seed) {
+  std::string recipe = assembly.path.string() + "|" + assembly.sample;
+  for (const auto& [key, value] : assembly.sample_values) recipe += "|" + key + "=" + to_text(value);
+  return folder_name(assembly.name + (rotate ? fmt::format("_turned{}", seed) : ""), recipe);
+}
+
+}  // namespace
+
+Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
+  const fs::path configs = fs::absolute(options.folder) / "configs";
+  fs::create_directories(configs);
+  Enlistment out;
+  struct Known {
+    std::string hash;
+    fs::path file;
+  };
+  std::map<std::pair<std::size_t, std::int64_t>, Known> known;
+  std::vector<std::string> planner_hashes;
+  std::map<fs::path, std::string> hashes;
+  for (const auto& planner : suite.planners) {
+    RunConfig bare = with_seed(planner.config, 0);
+    bare.plugin_search_paths.clear();  // the hashes of the plugin files say more
+    planner_hashes.push_back(sha256_of(resolved_yaml(bare, *planner.registry, configs)));
+  }
+  for (const Cell& cell : shard_of(matrix(suite), options.shard, options.shards)) {
+    const SuiteAssembly& assembly = suite.assemblies[cell.assembly];
+    const SuiteVariant& variant = suite.variants[cell.variant];
+    const SuitePlanner& planner = suite.planners[cell.planner];
+    Known& config = known[{cell.planner, cell.seed}];
+    if (config.hash.empty()) {
+      const RunConfig seeded = with_seed(planner.config, cell.seed);
+      const std::string text = text_of(seeded, *planner.registry, configs);
+      config.hash = sha256_of(text);
+      config.file = configs / (config.hash.substr(0, 16) + ".yaml");
+      write_file(config.file, text);
+      out.configs.push_back({config.hash, text, plugins_of(seeded, *planner.registry, hashes)});
+    }
+    Enlisted trial;
+    trial.plan.key = {assembly.name, variant.name, planner.name, cell.seed};
+    trial.plan.category = assembly.category;
+    trial.plan.part = variant.part.empty() ? assembly.part : variant.part;
+    trial.plan.planner_hash = planner_hashes[cell.planner];
+    trial.plan.config_hash = config.hash;
+    TrialRequest& r = trial.request;
+    r.config = config.file;
+    r.input = assembly.path;
+    r.sample = assembly.sample;
+    r.sample_values = assembly.sample_values;
+    r.rotate = variant.rotate;
+    r.seed = cell.seed;
+    r.part = trial.plan.part;
+    r.inputs = fs::absolute(options.folder) / "inputs";
+    r.input_name = input_name(assembly, variant.rotate, cell.seed);
+    r.max_penetration = suite.max_penetration;
+    out.trials.push_back(std::move(trial));
+  }
+  return out;
+}
+
+}  // namespace dismantle::bench

@@ -1,0 +1,160 @@
+#include "campaign/running_trial.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <ctime>
+#include <fstream>
+
+#include "dismantle/errors.h"
+#include "dismantle/outcome.h"
+#include "trial/files.h"
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How a process ended that left no result. Names: docs/benchmark.md.
+std::string outcome_of(const ChildEnd& end) {
+  if (end.out_of_wall) return "wall_limit";
+  if (end.out_of_cpu) return "cpu_limit";
+  if (end.signal == SIGKILL) return "killed";
+  if (end.signal != 0) return "crash";
+  if (end.status == kOutOfMemory) return "out_of_memory";
+  if (end.status == 2) return "bad_configuration";
+  if (end.status == 3) return "bad_input";
+  if (end.status == 4) return "plugin_error";
+  return "no_result";
+}
+
+void read_progress(const fs::path& file, TrialRow& row) {
+  std::ifstream in(file);
+  double seconds = 0;
+  std::int64_t removed = 0;
+  while (in >> seconds >> removed) row.progress.emplace_back(seconds, removed);
+}
+
+std::optional<double> count(const nlohmann::json& counts, const char* name) {
+  return counts.contains(name) ? std::optional(counts.at(name).get<double>()) : std::nullopt;
+}
+
+}  // namespace
+
+RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Limits& limits,
+                           const CampaignOptions& options, fs::path folder)
+    : place_(place),
+      limits_(limits),
+      options_(options),
+      folder_(std::move(folder)),
+      one_part_(!trial.plan.part.empty()) {
+  fs::remove_all(folder_);
+  fs::create_directories(folder_);
+  fs::create_directories(trial.request.inputs);
+  write_request(trial.request, folder_);
+  row_.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  start(options.plan_command);
+}
+
+RunningTrial::~RunningTrial() {
+  child_.reset();
+  std::error_code error;
+  fs::remove_all(folder_, error);  // what cannot be removed is removed by the next run
+}
+
+void RunningTrial::start(const std::vector<std::string>& command) {
+  ChildSpec spec;
+  spec.command = command;
+  spec.command.push_back(folder_.string());
+  spec.wall = limits_.wall_limit();
+  spec.cpu = limits_.cpu_limit();
+  spec.memory = limits_.memory;
+  child_ = std::make_unique<Child>(spec);
+}
+
+bool RunningTrial::ended() {
+  if (!child_->ended()) return false;
+  if (judging_) {
+    take_judgement(child_->end());
+    return true;
+  }
+  take_plan(child_->end());
+  if (row_.plan.empty()) return true;
+  judging_ = true;
+  start(options_.judge_command);
+  return false;
+}
+
+void RunningTrial::take_plan(const ChildEnd& end) {
+  row_.signal = end.signal;
+  row_.exit_status = end.status;
+  row_.wall_seconds = end.wall_seconds;
+  row_.cpu_seconds = end.cpu_seconds;
+  row_.peak_rss_mb = end.peak_rss_mb;
+  row_.last_words = end.last_words;
+  read_progress(folder_ / kProgressFile, row_);
+  std::error_code error;
+  if (fs::is_regular_file(folder_ / kPlanFile, error)) row_.plan = read_text(folder_ / kPlanFile);
+  row_.outcome = outcome_of(end);
+  if (!row_.progress.empty()) row_.removed = row_.progress.back().second;
+  if (end.signal == 0 && end.status == 0 && fs::is_regular_file(folder_ / kResultFile, error)) take_result();
+}
+
+void RunningTrial::take_result() {
+  try {
+    const nlohmann::json r = read_json(folder_ / kResultFile);
+    row_.input = r.at("input").get<std::string>();
+    row_.input_sha256 = r.at("input_sha256").get<std::string>();
+    row_.parts = r.at("parts").get<std::int64_t>();
+    row_.excluded = r.at("excluded").get<std::int64_t>();
+    row_.left = r.at("left").get<std::int64_t>();
+    row_.removed = *row_.parts - *row_.left;
+    row_.steps = r.at("steps").get<std::int64_t>();
+    row_.load_seconds = r.at("load_seconds").get<double>();
+    row_.prepare_seconds = r.at("prepare_seconds").get<double>();
+    row_.plan_seconds = r.at("plan_seconds").get<double>();
+    row_.solve_seconds = r.at("solve_seconds").get<double>();
+    row_.attempts = r.at("attempts").get<std::int64_t>();
+    row_.memoised = r.at("memoised").get<std::int64_t>();
+    const nlohmann::json& counts = r.at("counts");
+    row_.counts = counts.dump();
+    row_.simulated_steps = count(counts, "steps");
+    row_.nodes = count(counts, "nodes");
+    row_.collision_checks = count(counts, "checks");
+    if (const double peak = r.at("peak_rss_mb").get<double>(); peak > 0) row_.peak_rss_mb = peak;
+    row_.outcome = r.at("outcome").get<std::string>();
+    const auto outcome = outcome_from_string(row_.outcome);
+    success_ = outcome && is_success(*outcome);
+  } catch (const nlohmann::json::exception& e) {
+    row_.outcome = "no_result";
+    row_.last_words += fmt::format("\nthe result of the trial cannot be read: {}\n", e.what());
+  } catch (const InputError& e) {
+    row_.outcome = "no_result";
+    row_.last_words += fmt::format("\n{}\n", e.what());
+  }
+}
+
+void RunningTrial::take_judgement(const ChildEnd& end) {
+  row_.judge_seconds = end.wall_seconds;
+  std::error_code error;
+  const fs::path file = folder_ / kJudgementFile;
+  if (end.signal != 0 || end.status != 0 || !fs::is_regular_file(file, error)) {
+    row_.judgement = fmt::format("no judgement: {} {}", outcome_of(end), end.last_words);
+    return;
+  }
+  try {
+    const nlohmann::json j = read_json(file);
+    row_.verified = j.at("valid").get<bool>();
+    row_.complete = j.at("complete").get<bool>();
+    row_.max_penetration = j.at("max_penetration").get<double>();
+    for (const auto& problem : j.at("problems"))
+      row_.judgement += (row_.judgement.empty() ? "" : "\n") + problem.get<std::string>();
+    row_.solved = success_ && *row_.verified && (one_part_ || *row_.complete);
+  } catch (const nlohmann::json::exception& e) {
+    row_.verified.reset();
+    row_.judgement = fmt::format("no judgement: {}", e.what());
+  }
+}
+
+}  // namespace dismantle::bench

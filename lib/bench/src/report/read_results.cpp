@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "dismantle/bench/report.h"
+#include "dismantle/errors.h"
+#include "dismantle/preparation/read_input.h"
+#include "store/results.h"
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> databases_in(const std::vector<fs::path>& paths) {
+  std::vector<fs::path> out;
+  for (const auto& path : paths) {
+    std::error_code error;
+    if (!fs::exists(path, error)) throw InputError(path.string(), "does not exist");
+    if (!fs::is_directory(path, error)) {
+      out.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(path))
+      if (entry.path().extension() == ".db") found.push_back(entry.path());
+    if (found.empty()) throw InputError(path.string(), "holds no results (*.db); `dismantle bench` writes them");
+    std::sort(found.begin(), found.end(),
+              [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+void append_new(std::vector<std::string>& list, const std::string& lines) {
+  for (std::size_t begin = 0; begin < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', begin), lines.size());
+    const std::string word = lines.substr(begin, end - begin);
+    if (std::find(list.begin(), list.end(), word) == list.end()) list.push_back(word);
+    begin = end + 1;
+  }
+}
+
+constexpr const char* kColumns =
+    "SELECT id, assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, "
+    "coalesce(counts, ''), coalesce(input, ''), seed, signal, solved, verified, max_penetration, solve_seconds, parts, "
+    "removed, "
+    "wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout, limit_wall, limit_memory_mb, coalesce(last_words, ''), "
+    "coalesce(judgement, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id";
+
+ReportRow row_of(const Statement& s, const fs::path& database) {
+  ReportRow r;
+  r.database = database;
+  r.id = s.integer(0);
+  std::string* const texts[] = {&r.assembly,     &r.variant,     &r.planner, &r.category, &r.part,   &r.outcome,
+                                &r.planner_hash, &r.config_hash, &r.host,    &r.version,  &r.counts, &r.input};
+  int column = 1;
+  for (std::string* text : texts) *text = s.text(column++);
+  r.seed = s.integer(13);
+  r.signal = s.integer(14);
+  r.solved = s.integer(15) != 0;
+  if (!s.is_null(16)) r.verified = s.integer(16) != 0;
+  r.max_penetration = s.maybe_number(17);
+  r.solve_seconds = s.maybe_number(18);
+  r.parts = s.maybe_integer(19);
+  r.removed = s.maybe_integer(20);
+  r.wall_seconds = s.number(21);
+  r.cpu_seconds = s.number(22);
+  r.peak_rss_mb = s.number(23);
+  r.limit_timeout = s.number(24);
+  r.limit_wall = s.number(25);
+  r.limit_memory_mb = s.integer(26);
+  r.last_words = s.text(27);
+  r.judgement = s.text(28);
+  r.has_plan = s.integer(29) != 0;
+  return r;
+}
+
+class Merger {
+ public:
+  void add(const fs::path& file) {
+    Sqlite db(file, Sqlite::Mode::read);
+    const auto value = [&](const char* key) {
+      auto read = db.prepare("SELECT value FROM suite WHERE key = ?");
+      read.bind(key);
+      return read.step() ? read.text(0) : std::string();
+    };
+    if (value("store_version") != std::to_string(kStoreVersion))
+      throw InputError(file.string(), fmt::format("holds results in version '{}', this Dismantle reads version {}",
+                                                  value("store_version"), kStoreVersion));
+    append_new(names_, value("name"));
+    append_new(data_.planners, value("planners"));
+    append_new(data_.variants, value("variants"));
+    auto open = db.prepare("SELECT count(*) FROM trials WHERE state <> 'done'");
+    if (open.step()) data_.missing += static_cast<std::size_t>(open.integer(0));
+    auto read = db.prepare(kColumns);
+    auto progress = db.prepare("SELECT seconds, removed FROM progress WHERE trial = ? ORDER BY seconds, removed");
+    while (read.step()) {
+      ReportRow row = row_of(read, file);
+      check_same_planner(row);
+      if (!seen_.insert({row.assembly, row.variant, row.planner, row.seed}).second) {
+        ++twice_;
+        continue;
+      }
+      progress.bind(row.id);
+      while (progress.step()) row.progress.emplace_back(progress.number(0), progress.integer(1));
+      progress.done();
+      append_new(data_.planners, row.planner);  // rows of planners that the suite does not have any more
+      append_new(data_.variants, row.variant);
+      data_.rows.push_back(std::move(row));
+    }
+  }
+
+  ReportData take() {
+    for (const auto& name : names_) data_.name += (data_.name.empty() ? "" : ", ") + name;
+    fill_parts();
+    sort();
+    if (data_.missing > 0)
+      data_.notes.push_back(fmt::format("{} trials are not done yet and not counted.", data_.missing));
+    if (twice_ > 0)
+      data_.notes.push_back(fmt::format("{} rows were in several databases; the first of each was taken.", twice_));
+    note_versions();
+    return std::move(data_);
+  }
+
+ private:
+  void check_same_planner(const ReportRow& row) {
+    const auto [known, is_new] = planners_.try_emplace(row.planner, row.planner_hash, row.database);
+    if (is_new || known->second.first == row.planner_hash) return;
+    throw InputError(row.database.string(),
+                     fmt::format("planner '{}' has another configuration or another plugin file than in {}; rows of "
+                                 "different planners are not merged under one name",
+                                 row.planner, known->second.second.string()));
+  }
+
+  /// A trial that crashed early does not know how many parts there are; others of the same assembly do.
+  void fill_parts() {
+    std::map<std::string, std::int64_t> parts;
+    std::set<std::string> differ;
+    for (const auto& row : data_.rows) {
+      if (!row.parts) continue;
+      auto& most = parts[row.assembly];
+      if (most != 0 && most != *row.parts) differ.insert(row.assembly);
+      most = std::max(most, *row.parts);
+    }
+    for (auto& row : data_.rows)
+      if (const auto known = parts.find(row.assembly); !row.parts && known != parts.end()) row.parts = known->second;
+    if (!differ.empty())
+      data_.notes.push_back(fmt::format(
+          "Planners kept different numbers of parts of: {}. Their rows are not comparable.", fmt::join(differ, ", ")));
+  }
+
+  void sort() {
+    const auto rank = [](const std::vector<std::string>& list, const std::string& name) {
+      return std::find(list.begin(), list.end(), name) - list.begin();
+    };
+    std::sort(data_.rows.begin(), data_.rows.end(), [&](const ReportRow& a, const ReportRow& b) {
+      if (a.assembly != b.assembly) return natural_less(a.assembly, b.assembly);
+      return std::make_tuple(rank(data_.variants, a.variant), rank(data_.planners, a.planner), a.seed) <
+             std::make_tuple(rank(data_.variants, b.variant), rank(data_.planners, b.planner), b.seed);
+    });
+  }
+
+  void note_versions() {
+    std::set<std::string> hosts, versions;
+    for (const auto& row : data_.rows) {
+      hosts.insert(row.host);
+      versions.insert(row.version);
+    }
+    if (hosts.size() > 1) data_.notes.push_back(fmt::format("Times are from {} machines.", hosts.size()));
+    if (versions.size() > 1)
+      data_.notes.push_back(fmt::format("Rows are from several versions of Dismantle: {}.", fmt::join(versions, ", ")));
+  }
+
+  ReportData data_;
+  std::vector<std::string> names_;
+  std::set<std::tuple<std::string, std::string, std::string, std::int64_t>> seen_;
+  std::map<std::string, std::pair<std::string, fs::path>> planners_;
+  std::size_t twice_ = 0;
+};
+
+}  // namespace
+
+ReportData read_results(const std::vector<fs::path>& paths) {
+  Merger merger;
+  for (const auto& file : databases_in(paths)) merger.add(file);
+  return merger.take();
+}
+
+}  // namespace dismantle::bench

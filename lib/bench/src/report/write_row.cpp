@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "dismantle/bench/report.h"
+#include "dismantle/errors.h"
+#include "dismantle/plan.h"
+#include "dismantle/write_file.h"
+#include "store/compress.h"
+#include "store/sqlite.h"
+
+namespace dismantle::bench {
+namespace {
+
+/// Every column of the row.
+nlohmann::ordered_json json_of(Sqlite& db, std::int64_t id) {
+  sqlite3_stmt* statement = nullptr;
+  nlohmann::ordered_json out;
+  if (sqlite3_prepare_v2(db.handle(), "SELECT * FROM trials WHERE id = ?", -1, &statement, nullptr) != SQLITE_OK)
+    db.fail("is not a database of results");
+  sqlite3_bind_int64(statement, 1, id);
+  if (sqlite3_step(statement) == SQLITE_ROW)
+    for (int i = 0; i < sqlite3_column_count(statement); ++i) {
+      auto& value = out[sqlite3_column_name(statement, i)];
+      switch (sqlite3_column_type(statement, i)) {
+        case SQLITE_INTEGER:
+          value = sqlite3_column_int64(statement, i);
+          break;
+        case SQLITE_FLOAT:
+          value = sqlite3_column_double(statement, i);
+          break;
+        case SQLITE_NULL:
+          break;
+        default:
+          value = reinterpret_cast<const char*>(sqlite3_column_text(statement, i));
+      }
+    }
+  sqlite3_finalize(statement);
+  return out;
+}
+
+std::string plan_of(Sqlite& db, std::int64_t id) {
+  auto plan = db.prepare("SELECT size, bytes FROM plans WHERE trial = ?");
+  plan.bind(id);
+  if (!plan.step()) throw InputError(db.name(), fmt::format("the plan of row {} is gone", id));
+  return expanded(plan.text(1), static_cast<std::size_t>(plan.integer(0)));
+}
+
+}  // namespace
+
+std::size_t write_plans(const ReportData& data, const std::filesystem::path& folder) {
+  std::map<std::filesystem::path, std::unique_ptr<Sqlite>> open;
+  std::size_t written = 0;
+  for (std::size_t i = 0; i < data.rows.size(); ++i) {
+    const ReportRow& row = data.rows[i];
+    if (!row.has_plan) continue;
+    auto& db = open[row.database];
+    if (!db) db = std::make_unique<Sqlite>(row.database, Sqlite::Mode::read);
+    write_file(folder / fmt::format("{}.json", i + 1), plan_of(*db, row.id));
+    ++written;
+  }
+  return written;
+}
+
+std::string write_row(const ReportRow& row, const std::filesystem::path& folder) {
+  Sqlite db(row.database, Sqlite::Mode::read);
+  auto config = db.prepare("SELECT text FROM configs WHERE hash = ?");
+  config.bind(row.config_hash);
+  if (!config.step()) throw InputError(row.database.string(), fmt::format("row {} has no configuration", row.id));
+  write_file(folder / "config.yaml", config.text(0));
+  if (row.has_plan) write_file(folder / "plan.json", plan_of(db, row.id));
+  const auto json = json_of(db, row.id);
+  write_file(folder / "row.json", json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return fmt::format("dismantle plan '{}' -c '{}'{}", row.input, (folder / "config.yaml").string(),
+                     row.part.empty() ? "" : fmt::format(" --part '{}'", row.part));
+}
+
+}  // namespace dismantle::bench

@@ -1,0 +1,342 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "dismantle/bench/suite.h"
+#include "dismantle/host/config_bind.h"
+#include "dismantle/host/suggest.h"
+#include "suite/assemblies.h"
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxSeeds = 100000;
+
+/// `rotate:` of a variant.
+enum class Rotate { none, random };
+
+struct VariantValues {
+  Rotate rotate = Rotate::none;
+  std::string part;
+  static void describe(Schema<VariantValues>& s) {
+    s.add_choice("rotate", &VariantValues::rotate,
+                 {{"none", Rotate::none, "As it stands in the files."},
+                  {"random", Rotate::random, "The whole assembly turned by a rotation drawn from the trial's seed."}},
+                 "How the assembly is turned.");
+    s.add("part", &VariantValues::part, {.doc = "Plan just this part, all others still."});
+  }
+};
+
+struct JudgeValues {
+  double max_penetration = VerifyOptions{}.max_penetration;
+  static void describe(Schema<JudgeValues>& s) {
+    s.add("max_penetration", &JudgeValues::max_penetration,
+          {.unit = "assembly units",
+           .min = 0,
+           .min_open = true,
+           .doc = "Deepest penetration that a plan may have, above what the pair had when assembled."});
+  }
+};
+
+/// "1..6" or a number.
+bool read_seeds(const std::string& text, std::vector<std::int64_t>& seeds) {
+  const std::size_t dots = text.find("..");
+  const auto number = [](const std::string& word, std::int64_t& value) {
+    const char* end = word.data() + word.size();
+    const auto read = std::from_chars(word.data(), end, value);
+    return read.ec == std::errc{} && read.ptr == end && value >= 0;
+  };
+  std::int64_t first = 0, last = 0;
+  if (!number(text.substr(0, dots), first)) return false;
+  last = first;
+  if (dots != std::string::npos && !number(text.substr(dots + 2), last)) return false;
+  if (last < first || static_cast<std::uint64_t>(last - first) >= kMaxSeeds) return false;
+  for (std::int64_t seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  return true;
+}
+
+/// A value of `set:` as the YAML that it was.
+std::string yaml_of(const ConfigNode& node) {
+  if (node.kind == ConfigNode::Kind::sequence) {
+    std::string items;
+    for (const auto& item : node.items) items += (items.empty() ? "" : ", ") + yaml_of(item);
+    return "[" + items + "]";
+  }
+  if (!node.quoted) return node.scalar;
+  std::string out = "'";
+  for (const char c : node.scalar) out += c == '\'' ? std::string("''") : std::string(1, c);
+  return out + "'";
+}
+
+class Reader {
+ public:
+  explicit Reader(const fs::path& file) { suite_.file = file; }
+
+  Suite read() {
+    ConfigNode root;
+    std::string unreadable;
+    if (!read_yaml(suite_.file.string(), root, problems_, unreadable))
+      throw ConfigError({Diagnostic{"", 0, 0, unreadable}});
+    if (!root.is_map()) {
+      problems_.push_back(root.mark.error(fmt::format("a suite must be a map of keys, not {}", root.kind_name())));
+      throw ConfigError(problems_);
+    }
+    std::ifstream in(suite_.file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    suite_.text = text.str();
+    take_schema(root, problems_);
+    root_ = &root;
+    check_keys();
+    read_name();
+    suite_.limits = section<Limits>("limits");
+    suite_.max_penetration = section<JudgeValues>("judge").max_penetration;
+    check_limits();
+    read_seed_list();
+    if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);
+    if (const ConfigNode* map = required("planners")) read_planners(*map);
+    read_variants();
+    if (!problems_.empty()) {
+      sort_by_place(problems_);
+      throw ConfigError(std::move(problems_));
+    }
+    return std::move(suite_);
+  }
+
+ private:
+  const ConfigNode* node(const char* key) const {
+    const auto* member = root_->find(key);
+    return member == nullptr ? nullptr : &member->value;
+  }
+  const ConfigNode* required(const char* key) {
+    const ConfigNode* found = node(key);
+    if (found == nullptr) problems_.push_back(root_->mark.error(fmt::format("missing key '{}'", key)));
+    return found;
+  }
+
+  void check_keys() {
+    const std::vector<std::string> known = {"schema", "name",  "assemblies",     "planners", "seeds",
+                                            "limits", "judge", "assembly_steps", "variants"};
+    for (const auto& member : root_->members)
+      if (std::find(known.begin(), known.end(), member.key) == known.end())
+        problems_.push_back(member.key_mark.error(unknown_key_message(member.key, {"", "", ""}, known, {})));
+  }
+
+  void read_name() {
+    suite_.name = suite_.file.stem().string();
+    struct Top {
+      std::string name;
+      bool assembly_steps = false;
+      static void describe(Schema<Top>& s) {
+        s.add("name", &Top::name, {.doc = "Title of the reports; default: the file's name."});
+        s.add("assembly_steps", &Top::assembly_steps, {.doc = "Plan the way back as well."});
+      }
+    };
+    ConfigNode plain;
+    plain.kind = ConfigNode::Kind::map;
+    for (const char* key : {"name", "assembly_steps"})
+      if (const auto* member = root_->find(key)) plain.members.push_back(*member);
+    std::map<std::string, std::string> origins;
+    const Top top =
+        Schema<Top>().bind(bind_section(Schema<Top>().specs(), &plain, {"suite", "", ""}, {}, origins, problems_));
+    if (!top.name.empty()) suite_.name = top.name;
+    assembly_steps_ = top.assembly_steps;
+  }
+
+  template <class T>
+  T section(const char* name) {
+    std::map<std::string, std::string> origins;
+    return Schema<T>().bind(bind_section(Schema<T>().specs(), node(name), {name, "", ""}, {}, origins, problems_));
+  }
+
+  void check_limits() {
+    if (suite_.limits.timeout > 0 || suite_.limits.wall > 0) return;
+    const ConfigNode* limits = node("limits");
+    problems_.push_back((limits != nullptr ? limits : root_)
+                            ->mark.error("limits.timeout is 0, so limits.wall must be given: a trial that hangs has to "
+                                         "end some time"));
+  }
+
+  void read_seed_list() {
+    const ConfigNode* seeds = node("seeds");
+    if (seeds == nullptr) {
+      suite_.seeds = {1};
+      return;
+    }
+    const bool list = seeds->kind == ConfigNode::Kind::sequence;
+    for (const auto& item : list ? seeds->items : std::vector<ConfigNode>{*seeds})
+      if (!item.is_scalar() || !read_seeds(item.scalar, suite_.seeds))
+        problems_.push_back(item.mark.error(
+            fmt::format("seeds must be whole numbers >= 0 or ranges such as 1..6 (at most {}), got {}", kMaxSeeds,
+                        item.is_scalar() ? "'" + item.scalar + "'" : std::string(item.kind_name()))));
+    if (std::set<std::int64_t>(suite_.seeds.begin(), suite_.seeds.end()).size() != suite_.seeds.size())
+      problems_.push_back(seeds->mark.error("seeds names a seed twice"));
+    if (suite_.seeds.empty() && list && seeds->items.empty()) problems_.push_back(seeds->mark.error("seeds is empty"));
+  }
+
+  void read_planners(const ConfigNode& map) {
+    if (!map.is_map() || map.members.empty()) {
+      problems_.push_back(map.mark.error("planners must be a map from names to configurations"));
+      return;
+    }
+    for (const auto& member : map.members) read_planner(member);
+  }
+
+  void read_planner(const ConfigMember& member) {
+    const std::string label = "planners." + member.key;
+    if (!member.value.is_map() && member.value.kind != ConfigNode::Kind::null) {
+      problems_.push_back(member.value.mark.error(
+          fmt::format("{} must be a map with the keys config and set, not {}", label, member.value.kind_name())));
+      return;
+    }
+    ConfigSource source;
+    std::vector<ConfigMark> places;
+    const auto fail = [&](const ConfigMark& mark, const std::string& what) {
+      problems_.push_back(mark.error(fmt::format("{}: {}", label, what)));
+    };
+    for (const auto& [key, key_mark, value] : member.value.members) {
+      if (key == "config" && value.is_scalar() && !value.scalar.empty()) {
+        source.file = (suite_.file.parent_path() / value.scalar).lexically_normal();
+      } else if (key == "set" && value.is_map()) {
+        for (const auto& item : value.members) {
+          if (item.value.is_map()) {
+            fail(item.value.mark, "keys of set are written with dots, as in path_planner.goal_bias: 0.1");
+            continue;
+          }
+          source.set.push_back(item.key + "=" + yaml_of(item.value));
+          places.push_back(item.value.mark);
+        }
+      } else if (key == "config" || key == "set") {
+        fail(value.mark, fmt::format("{} must be {}, not {}", key, key == "set" ? "a map" : "the name of a file",
+                                     value.kind_name()));
+      } else {
+        problems_.push_back(key_mark.error(unknown_key_message(key, {label, "", ""}, {"config", "set"}, {})));
+      }
+    }
+    load_planner(member.key, source, places, member.key_mark);
+  }
+
+  void load_planner(const std::string& name, ConfigSource source, const std::vector<ConfigMark>& places,
+                    const ConfigMark& name_mark) {
+    const Limits& l = suite_.limits;
+    const auto option = [&](const char* flag, const char* key, const ParamValue& value) {
+      source.options.push_back({flag, key, to_text(value)});
+    };
+    option("limits.path_timeout", "run.path_timeout", l.path_timeout);
+    option("limits.path_steps", "run.path_steps", l.path_steps);
+    option("limits.timeout", "run.timeout", l.timeout);
+    option("limits.threads", "run.threads", static_cast<std::int64_t>(l.threads));
+    option("seeds", "run.seed", std::int64_t{1});
+    option("assembly_steps", "layout.enabled", assembly_steps_);
+    SuitePlanner planner;
+    planner.name = name;
+    planner.registry = std::make_shared<Registry>();
+    try {
+      planner.config = load_config(source, *planner.registry);
+    } catch (const ConfigError& e) {
+      for (Diagnostic d : e.diagnostics()) {
+        // What `set` says stands in this file; what has no place is about the entry.
+        const auto at = static_cast<std::size_t>(d.line) - 1;
+        const ConfigMark* mark = d.file == "<--set>" && d.line > 0 && at < places.size() ? &places[at]
+                                 : d.file.empty() || d.file.starts_with('<')             ? &name_mark
+                                                                                         : nullptr;
+        if (mark != nullptr) d = mark->error(fmt::format("planners.{}: {}", name, d.message));
+        problems_.push_back(std::move(d));
+      }
+      return;
+    }
+    suite_.planners.push_back(std::move(planner));
+  }
+
+  void read_variants() {
+    const ConfigNode* map = node("variants");
+    if (map == nullptr) {
+      suite_.variants.emplace_back().name = "plain";
+      return;
+    }
+    if (!map->is_map() || map->members.empty()) {
+      problems_.push_back(map->mark.error("variants must be a map from names to variants, such as plain: {}"));
+      return;
+    }
+    for (const auto& member : map->members) {
+      SuiteVariant variant;
+      variant.name = member.key;
+      ConfigNode plain = member.value;
+      if (const auto* planners = member.value.find("planners")) {
+        read_names(planners->value, "variants." + member.key, variant.planners);
+        plain.erase("planners");
+      }
+      std::map<std::string, std::string> origins;
+      const auto values = Schema<VariantValues>().bind(bind_section(Schema<VariantValues>().specs(), &plain,
+                                                                    {"variants." + member.key, "", ""},
+                                                                    {{"planners", {"a variant"}}}, origins, problems_));
+      variant.rotate = values.rotate == Rotate::random;
+      variant.part = values.part;
+      suite_.variants.push_back(std::move(variant));
+    }
+  }
+
+  void read_names(const ConfigNode& list, const std::string& label, std::vector<std::string>& out) {
+    std::vector<std::string> known;
+    if (const ConfigNode* planners = node("planners"))
+      for (const auto& member : planners->members) known.push_back(member.key);
+    if (list.kind != ConfigNode::Kind::sequence || list.items.empty())
+      problems_.push_back(list.mark.error(label + ".planners must be a list of names of planners"));
+    for (const auto& item : list.items) {
+      if (std::find(known.begin(), known.end(), item.scalar) == known.end()) {
+        const auto near = nearest(item.scalar, known);
+        problems_.push_back(item.mark.error(fmt::format("{}: there is no planner '{}'{}", label, item.scalar,
+                                                        near ? fmt::format("; did you mean '{}'?", *near) : "")));
+      }
+      out.push_back(item.scalar);
+    }
+  }
+
+  const ConfigNode* root_ = nullptr;
+  std::vector<Diagnostic> problems_;
+  Suite suite_;
+  bool assembly_steps_ = false;
+};
+
+}  // namespace
+
+void Limits::describe(Schema<Limits>& s) {
+  s.add("path_timeout", &Limits::path_timeout, {.unit = "s", .min = 0, .doc = "Time for one attempt; 0 = no limit."});
+  s.add("path_steps", &Limits::path_steps,
+        {.unit = "1", .min = 0, .doc = "Simulated steps for one attempt; 0 = no limit."});
+  s.add("timeout", &Limits::timeout, {.unit = "s", .min = 0, .doc = "Time for planning one trial; 0 = no limit."});
+  s.add("wall", &Limits::wall, {.unit = "s", .min = 0, .doc = "Time after which a trial is killed; 0 = timeout + 60."});
+  s.add("cpu", &Limits::cpu,
+        {.unit = "s", .min = 0, .doc = "CPU time after which a trial is killed; 0 = threads * wall."});
+  s.add("memory", &Limits::memory, {.unit = "MiB", .min = 256, .doc = "Address space of a trial."});
+  s.add("threads", &Limits::threads, {.unit = "1", .min = 1, .max = 1024, .doc = "Threads of a trial."});
+}
+
+Suite read_suite(const fs::path& file) { return Reader(file).read(); }
+
+std::vector<Cell> matrix(const Suite& suite) {
+  std::vector<Cell> cells;
+  for (std::size_t a = 0; a < suite.assemblies.size(); ++a)
+    for (const std::int64_t seed : suite.seeds)
+      for (std::size_t v = 0; v < suite.variants.size(); ++v)
+        for (std::size_t p = 0; p < suite.planners.size(); ++p) {
+          const auto& only = suite.variants[v].planners;
+          if (only.empty() || std::find(only.begin(), only.end(), suite.planners[p].name) != only.end())
+            cells.push_back({a, v, p, seed});
+        }
+  return cells;
+}
+
+std::vector<Cell> shard_of(const std::vector<Cell>& cells, unsigned index, unsigned count) {
+  std::vector<Cell> out;
+  for (std::size_t i = index - 1; i < cells.size(); i += count) out.push_back(cells[i]);
+  return out;
+}
+
+}  // namespace dismantle::bench

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <new>
+#include <sstream>
+
+#include "dismantle/errors.h"
+#include "dismantle/host/ingredients.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/verification/check_plan.h"
+#include "dismantle/plan.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/preparation/read_input.h"
+#include "dismantle/write_file.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "trial/files.h"
+
+namespace dismantle::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Whoever catches std::bad_alloc could go on for ever at the limit.
+void end_without_memory() {
+  constexpr std::string_view text = "out of memory: the limit of the trial (limits.memory) is reached\n";
+  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) _exit(kOutOfMemory);
+  _exit(kOutOfMemory);
+}
+
+/// Largest resident memory of this process so far, MiB; 0 when it cannot be told.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return std::stod(line.substr(6)) / 1024;
+  return 0;
+}
+
+/// Warnings and errors go to the trial's last words.
+RunContext context_of_trial() {
+  RunContext context;
+  context.on_log = [](LogLevel level, std::string_view text) {
+    if (level >= LogLevel::warning) fmt::print(stderr, "{}\n", text);
+  };
+  return context;
+}
+
+/// Steps as they come: what a trial that is killed has done is not lost.
+class Recorder {
+ public:
+  explicit Recorder(const fs::path& folder) : folder_(folder), progress_(folder / kProgressFile) {}
+
+  void operator()(const Plan& plan) {
+    progress_ << fmt::format("{:.6f} {}\n", seconds_since(begin_), plan.assembly.parts.size() - plan.remaining.size())
+              << std::flush;
+    if (saved_ && seconds_since(last_) < 1) return;
+    write_file(folder_ / kPlanFile, to_json(plan));
+    saved_ = true;
+    last_ = Clock::now();
+  }
+
+ private:
+  fs::path folder_;
+  std::ofstream progress_;
+  Clock::time_point begin_ = Clock::now(), last_;
+  bool saved_ = false;
+};
+
+/// Why parts are still there, for whoever reads the row.
+std::string reasons_of(const Plan& plan) {
+  std::string text;
+  for (const auto& u : plan.unsolved)
+    if (!u.message.empty()) text += fmt::format("{}: {}: {}\n", u.part, to_string(u.outcome), u.message);
+  return text;
+}
+
+}  // namespace
+
+void plan_trial(const fs::path& folder) {
+  std::set_new_handler(end_without_memory);
+  const Clock::time_point start = Clock::now();
+  const TrialRequest request = read_request(folder);
+  Registry registry;
+  const RunConfig config = load_config({request.config, {}, {}}, registry);
+  RunContext context = context_of_trial();
+  context.threads = std::max(1u, config.run.threads);
+  const auto importers = importers_of(registry);
+  const fs::path input = input_of(request, importers, context);
+  ReadOptions read;
+  read.max_triangles = config.assembly.max_triangles;
+  InputParts parts = read_input(input, importers, read, context);
+  PrepareReport report;
+  const Assembly assembly =
+      prepare_assembly(std::move(parts.parts), input.string(), parts.sha256, config.assembly, context, report);
+  const Ingredients ingredients = ingredients_of(config, registry);
+  const double load_seconds = seconds_since(start);
+
+  const Clock::time_point begin = Clock::now();
+  if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
+  Recorder recorder(folder);
+  const RunResult result =
+      run(assembly, ingredients, run_options_of(config, request.part), context, std::ref(recorder));
+  const double solve_seconds = seconds_since(begin);
+  write_file(folder / kPlanFile, to_json(result.plan));
+  fmt::print(stderr, "{}", reasons_of(result.plan));
+  const nlohmann::json json = {{"outcome", to_string(result.outcome)},
+                               {"input", input.string()},
+                               {"input_sha256", assembly.sha256},
+                               {"parts", assembly.parts.size()},
+                               {"excluded", assembly.excluded.size()},
+                               {"left", result.plan.remaining.size()},
+                               {"steps", result.plan.disassembly.size()},
+                               {"load_seconds", load_seconds},
+                               {"prepare_seconds", result.prepare_seconds},
+                               {"plan_seconds", result.plan_seconds},
+                               {"solve_seconds", solve_seconds},
+                               {"attempts", result.counts.attempts},
+                               {"memoised", result.counts.memoised},
+                               {"proposed", result.counts.proposed},
+                               {"counts", result.planner_counts},
+                               {"peak_rss_mb", peak_memory()}};
+  write_file(folder / kResultFile, json.dump(1) + "\n");
+}
+
+void judge_trial(const fs::path& folder) {
+  std::set_new_handler(end_without_memory);
+  const TrialRequest request = read_request(folder);
+  const fs::path file = folder / kPlanFile;
+  const Plan plan = plan_from_json(read_text(file), file.string());
+  Registry registry;
+  registry.scan();
+  RunContext context = context_of_trial();
+  const auto importers = importers_of(registry);
+  const fs::path input = input_of(request, importers, context);
+  ReadOptions read;
+  read.max_triangles = std::numeric_limits<std::int64_t>::max();
+  const Assembly assembly =
+      assembly_of_plan(plan, read_input(input, importers, read, context), input.string(), context);
+  // A planner's configuration may scale otherwise: the tolerance is that of an assembly of size 10.
+  const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff() / 10;
+  VerifyOptions options;
+  options.max_penetration = request.max_penetration * size;
+  const PlanCheck check = check_plan(plan, assembly, options, context);
+  auto problems = nlohmann::json::array();
+  for (const auto& p : check.problems) problems.push_back(fmt::format("step {}: {}", p.step, p.message));
+  const nlohmann::json json = {{"valid", check.valid},
+                               {"complete", check.complete},
+                               {"max_penetration", check.max_penetration / size},
+                               {"problems", problems}};
+  write_file(folder / kJudgementFile, json.dump(1) + "\n");
+}
+
+}  // namespace dismantle::bench

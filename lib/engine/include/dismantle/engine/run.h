@@ -1,0 +1,66 @@
+/// The main job: assembly + planners -> verified plan.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/engine/layout.h"
+#include "dismantle/assembly.h"
+#include "dismantle/path_oracle.h"
+#include "dismantle/plan.h"
+#include "dismantle/run_context.h"
+#include "dismantle/sequence_planner.h"
+#include "dismantle/transfer_planner.h"
+#include "dismantle/verification/verifier.h"
+
+namespace dismantle {
+
+/// How each kind is made; called once per thread for path and transfer planners.
+struct Ingredients {
+  std::shared_ptr<Simulator> simulator;
+  std::function<std::shared_ptr<PathPlanner>()> path_planner;
+  std::shared_ptr<SequencePlanner> sequence_planner;  ///< unused when `only_part` is set
+  std::string path_planner_id;
+  /// Empty: assembly steps begin where the disassembly ended.
+  std::function<std::shared_ptr<TransferPlanner>()> transfer_planner;
+  std::string transfer_planner_id;
+};
+
+struct RunOptions {
+  double path_timeout = 120;     ///< seconds per attempt, 0 = none
+  std::uint64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
+  std::string only_part;         ///< plan just this part's path, all others still
+  VerifyOptions verify;
+  LayoutOptions layout;  ///< used when there is a transfer planner
+  std::uint64_t seed = 1;
+  Constraints constraints;
+};
+
+struct RunResult {
+  Plan plan;
+  Outcome outcome = Outcome::crashed;
+  OracleCounts counts;
+  std::map<std::string, double>
+      planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
+  std::map<std::string, double> sequence_counts;                ///< SequenceResult::counts
+  std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
+  double prepare_seconds = 0;                                   ///< simulator preparation
+  double plan_seconds = 0;
+};
+
+/// Runs to the end, the deadline or cancellation; in each case the result holds every finished step.
+/// `on_step` (may be empty) is called after each step with the plan so far.
+DISMANTLE_API RunResult run(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options,
+                            RunContext& context, const std::function<void(const Plan&)>& on_step = {});
+
+/// The oracle that `run` uses; public for tests and for sequence planners' authors.
+DISMANTLE_API std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const Prepared& prepared,
+                                                      const Ingredients& ingredients, const RunOptions& options,
+                                                      const Verifier& verifier, RunContext& context);
+
+}  // namespace dismantle

@@ -1,0 +1,389 @@
+#include "assembler.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "dismantle/errors.h"
+#include "dismantle/executor.h"
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kWave = 16;        // steps per thread whose ways are looked for together
+constexpr double kGoalTolerance = 1e-6;  // of a pose's coefficients, assembly units or 1
+
+bool near(const Pose& a, const Pose& b) {
+  const double turn = std::min((a.q.coeffs() - b.q.coeffs()).cwiseAbs().maxCoeff(),
+                               (a.q.coeffs() + b.q.coeffs()).cwiseAbs().maxCoeff());
+  return turn <= kGoalTolerance && (a.t - b.t).cwiseAbs().maxCoeff() <= kGoalTolerance * (1 + b.t.norm());
+}
+
+bool contains(const std::vector<PartId>& parts, PartId id) {
+  return std::find(parts.begin(), parts.end(), id) != parts.end();
+}
+
+Path displaced(const Pose& displacement, const Path& path) {
+  Path result = path;
+  for (auto& instant : result)
+    for (auto& pose : instant) pose = displacement * pose;
+  return result;
+}
+
+Path backwards(Path path) {
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+Aabb box_under(const Aabb& box, const Pose& pose) {
+  Aabb out;
+  for (int k = 0; k < 8; ++k)
+    out.extend(pose * Eigen::Vector3d(k & 1 ? box.hi.x() : box.lo.x(), k & 2 ? box.hi.y() : box.lo.y(),
+                                      k & 4 ? box.hi.z() : box.lo.z()));
+  return out;
+}
+
+}  // namespace
+
+/// Who is where. Group g > 0 was made by step g - 1. "Place" of a group: its displacement from where the disassembly
+/// has it.
+struct Assembler::Scenery {
+  const std::vector<BookedStep>& steps;
+  std::vector<std::vector<Pose>> poses;          ///< [k][part]: after k steps of the disassembly
+  std::vector<std::vector<std::size_t>> groups;  ///< [k][part]: likewise, its group
+  std::vector<Pose> place;                       ///< [group]
+  std::vector<std::string> missing;              ///< [group]: why it does not lie in the layout; empty: it does
+
+  Scenery(const std::vector<BookedStep>& booked, std::size_t parts)
+      : steps(booked), poses(1, std::vector<Pose>(parts)), groups(1, std::vector<std::size_t>(parts, 0)) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      poses.push_back(poses.back());
+      groups.push_back(groups.back());
+      for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
+        poses.back()[steps[i].parts[k]] = steps[i].path->back()[k];
+        if (steps[i].leaves(steps[i].parts[k])) groups.back()[steps[i].parts[k]] = i + 1;
+      }
+    }
+    place.resize(steps.size() + 1);
+    missing.resize(steps.size() + 1);
+  }
+
+  std::size_t part_count() const { return poses.front().size(); }
+  /// Everything but the parts of step `i`, at the time when these are brought. Groups that lie nowhere are left out,
+  /// unless it is the one that the step adds to.
+  std::vector<PlacedPart> others(std::size_t i) const {
+    std::vector<PlacedPart> all;
+    for (std::size_t p = 0; p < part_count(); ++p) {
+      const auto id = static_cast<PartId>(p);
+      const std::size_t g = groups[i + 1][p];
+      if (contains(steps[i].parts, id) || (!missing[g].empty() && g != steps[i].from)) continue;
+      all.push_back({id, place[g] * poses[i + 1][p]});
+    }
+    return all;
+  }
+  void leave_out(std::size_t group, std::string why) {
+    missing[group] = std::move(why);
+    place[group] = place[steps[group - 1].from];
+  }
+  /// The disassembly path of step `i` where its parts are put in, backwards.
+  Path way_in(std::size_t i) const { return backwards(displaced(place[steps[i].from], *steps[i].path)); }
+};
+
+/// From the layout to where the way in begins.
+struct Assembler::Way {
+  Path path;  ///< empty: there is none
+  double max_penetration = 0;
+  unsigned depth = 0;
+  double seconds = 0;
+  std::string problem;
+  bool looked_for = true;
+  std::vector<std::pair<LogLevel, std::string>> log;
+};
+
+Assembler::Assembler(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+                     const RunOptions& options, const Verifier& verifier)
+    : assembly_(assembly),
+      prepared_(prepared),
+      ingredients_(ingredients),
+      options_(options),
+      verifier_(verifier),
+      normalizer_(assembly) {}
+
+Aabb Assembler::box_of(PartId part, const Pose& pose) const {
+  Aabb box;
+  for (const auto& v : assembly_.parts[part].mesh->vertices) box.extend(pose * v);
+  return box;
+}
+
+/// Gives every group its place.
+void Assembler::place_groups(Scenery& scenery, const RunContext& context) const {
+  const LayoutOptions& layout = options_.layout;
+  const std::size_t n = scenery.steps.size();
+  // Room that the work at each group needs: what is there, and what is put in there. Along a screw motion between two
+  // dense poses a point leaves the box of its ends by less than a share of its way.
+  std::vector<Aabb> rooms(n + 1);
+  const double sagitta = 0.5 * normalizer_.max_travel();
+  for (std::size_t p = 0; p < scenery.part_count(); ++p)
+    rooms[0].extend(box_of(static_cast<PartId>(p), scenery.poses[0][p]));
+  const Aabb assembled = rooms[0];
+  for (std::size_t i = 0; i < n; ++i) {
+    const BookedStep& step = scenery.steps[i];
+    for (std::size_t k = 0; k < step.parts.size(); ++k) {
+      if (step.leaves(step.parts[k])) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
+      Aabb swept;
+      for (const auto& instant : *step.path)
+        swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
+      swept.inflate(sagitta);
+      rooms[step.from].extend(swept);
+    }
+  }
+
+  std::vector<std::string> remarks;
+  std::vector<Aabb> taken{rooms[0]};
+  std::vector<bool> given(n + 1, false);
+  for (const auto& [name, pose] : layout.poses) {
+    const auto part = std::find_if(assembly_.parts.begin(), assembly_.parts.end(),
+                                   [&, &wanted = name](const Part& p) { return p.name == wanted; });
+    if (part == assembly_.parts.end()) continue;  // run() has told the user
+    const std::size_t g = scenery.groups.back()[part->id];
+    if (g == 0) {
+      remarks.push_back(fmt::format("layout: '{}' is not removed, so it stays where it is", name));
+    } else if (given[g]) {
+      remarks.push_back(fmt::format("layout: '{}' lies with parts whose place was given already", name));
+    } else {
+      given[g] = true;
+      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.poses.back()[part->id].inverse();
+      taken.push_back(box_under(rooms[g], scenery.place[g]));
+    }
+  }
+  std::vector<Aabb> boxes;
+  std::vector<std::size_t> ours;
+  for (std::size_t g = 1; g <= n; ++g)
+    if (!given[g] && !scenery.steps[g - 1].part_way) {
+      boxes.push_back(rooms[g]);
+      ours.push_back(g);
+    }
+  auto shifts = lay_out(boxes, taken, layout.up, layout.gap);
+  // The plane is that on which the assembly stands, however far below parts leave.
+  const int w = static_cast<int>(layout.up);
+  for (auto& shift : shifts) shift[w] += assembled.lo[w] - rooms[0].lo[w];
+  for (std::size_t k = 0; k < ours.size(); ++k)
+    scenery.place[ours[k]] = Pose{shifts[k], Eigen::Quaterniond::Identity()};
+  for (const auto& remark : remarks) context.log(LogLevel::warning, remark);
+}
+
+/// What lies where another part is put in cannot lie there. Our own layout leaves room; a given one may not.
+void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
+  for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
+    const std::size_t from = scenery.steps[i].from;
+    std::vector<PlacedPart> others = scenery.others(i);
+    // Those that it passed on its way out are in order: the motion is the same.
+    std::erase_if(others, [&](const PlacedPart& p) { return scenery.groups[i + 1][p.part] == from; });
+    const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
+    if (check.interrupted) return;  // no way is looked for any more
+    if (check.valid) continue;
+    const Violation v = check.violation.value_or(Violation{});
+    const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;
+    const std::size_t lies = scenery.groups[i + 1][id];
+    const std::size_t wrong = lies > 0 ? lies : from;  // the base stays: then it is the group that is added to
+    if (!scenery.missing[wrong].empty()) continue;
+    scenery.leave_out(wrong, fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
+                                         assembly_.parts[scenery.steps[i].parts.front()].name));
+    i = static_cast<std::size_t>(-1);  // from the beginning: what hangs on the group has moved
+  }
+}
+
+Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
+                                   const RunContext& context) const {
+  const BookedStep& step = scenery.steps[i];
+  TransferQuery query{assembly_, *ingredients_.simulator, prepared_, {}, {}, options_.layout.up_axis(), {}, {}};
+  query.cast.still = scenery.others(i);
+  for (const PartId id : step.parts) {
+    const Pose& out = scenery.poses[i + 1][id];
+    if (!step.leaves(id)) {  // there, and waits
+      query.cast.still.push_back({id, scenery.place[step.from] * out});
+      continue;
+    }
+    query.cast.moving.push_back({id, scenery.place[i + 1] * out});
+    query.goal.push_back(scenery.place[step.from] * out);
+  }
+  query.effort.max_steps = options_.path_steps;
+  query.effort.timeout = options_.path_timeout;
+
+  std::vector<std::pair<LogLevel, std::string>> log;
+  RunContext own = context;
+  own.rng = context.rng.fork(i);
+  own.threads = 1;
+  own.on_progress = nullptr;
+  own.on_log = [&](LogLevel level, std::string_view text) { log.emplace_back(level, text); };
+
+  std::vector<PartId> moving;
+  for (const PlacedPart& p : query.cast.moving) moving.push_back(p.part);
+  Way accepted;
+  query.judge = [&](const Path& path) {
+    Verdict verdict;
+    NormalizedPath written = normalizer_.normalize(path, query.cast.moving);
+    verdict.reason = written.problem;
+    if (!verdict.reason.empty()) return verdict;
+    for (std::size_t k = 0; k < query.goal.size(); ++k) {
+      if (!near(written.path.back()[k], query.goal[k])) {
+        verdict.reason = "the path does not end at the goal";
+        return verdict;
+      }
+      written.path.back()[k] = query.goal[k];
+    }
+    const MotionCheck check = verifier_.check_motion(moving, query.cast.still, written.path, own);
+    if (!check.valid) {
+      const Violation v = check.violation.value_or(Violation{});
+      verdict.has_witness = check.violation.has_value();
+      verdict.part = v.part;
+      verdict.other = v.other;
+      verdict.point = v.point;
+      verdict.instant = written.given_instant(v.segment, v.u);
+      verdict.reason =
+          fmt::format("'{}' and '{}' would meet", assembly_.parts[v.part].name, assembly_.parts[v.other].name);
+      return verdict;
+    }
+    verdict.accepted = true;
+    accepted.path = std::move(written.path);
+    accepted.max_penetration = check.max_penetration;
+    return verdict;
+  };
+
+  if (options_.path_timeout > 0) own.deadline = own.deadline.earlier(Deadline::after_seconds(options_.path_timeout));
+  const auto begin = Clock::now();
+  PathResult result;
+  try {
+    result = planner.plan(query, own);
+  } catch (const std::exception& e) {
+    result.outcome = Outcome::crashed;
+    result.message = e.what();
+  } catch (...) {
+    result.outcome = Outcome::crashed;
+    result.message = "it threw something that is not a std::exception";
+  }
+  accepted.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  accepted.depth = result.depth;
+  accepted.log = log;
+  if (is_success(result.outcome) && !accepted.path.empty()) return accepted;
+  Way none;
+  none.log = std::move(log);
+  none.problem = std::string(to_string(is_success(result.outcome) ? Outcome::crashed : result.outcome));
+  if (!result.message.empty()) none.problem += ", " + result.message;
+  return none;
+}
+
+/// The ways of the steps [first, last) that have one, by several threads, with what lies where as it is now.
+std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::size_t first, std::size_t last,
+                                                 const RunContext& context) {
+  std::vector<Way> ways(last - first);
+  const auto one = [&](std::size_t k, TransferPlanner& planner) {
+    const std::size_t i = first + k;
+    if (!scenery.missing[i + 1].empty() || scenery.steps[i].part_way) return;
+    if (context.should_stop())
+      ways[k].looked_for = false;
+    else
+      ways[k] = transfer(scenery, i, planner, context);
+  };
+  const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), ways.size());
+  while (planners_.size() < threads) {
+    planners_.push_back(ingredients_.transfer_planner());
+    if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
+  }
+  std::atomic<std::size_t> next{0};
+  parallel_for(
+      threads, context,
+      [&](std::size_t thread) {
+        for (std::size_t k = next++; k < ways.size(); k = next++) one(k, *planners_[thread]);
+      },
+      [] { return false; });
+  return ways;
+}
+
+PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& way, const PlanStep& there) const {
+  const BookedStep& step = scenery.steps[i];
+  PlanStep back = reversed(there);
+  back.max_penetration = std::max(there.max_penetration, way.max_penetration);
+  back.planner = way.path.empty() ? "" : ingredients_.transfer_planner_id;
+  back.seconds = way.seconds;
+  back.depth = way.depth;
+  back.transfer = way.path.empty() ? 0 : way.path.size() - 1;
+  // At its place in the base a step is the one of the disassembly backwards, number for number.
+  const Path in = scenery.way_in(i);
+  std::size_t column = 0;  // of the way
+  for (std::size_t k = 0; k < step.parts.size(); ++k) {
+    std::vector<Pose> poses;
+    const bool waits = !step.leaves(step.parts[k]);
+    for (std::size_t at = 0; at < back.transfer; ++at)
+      poses.push_back(assembly_.normalization.pose_to_input(waits ? in.front()[k] : way.path[at][column]));
+    if (!waits) ++column;
+    if (scenery.place[step.from].is_identity())
+      poses.insert(poses.end(), back.moves[k].poses.begin(), back.moves[k].poses.end());
+    else
+      for (const auto& instant : in) poses.push_back(assembly_.normalization.pose_to_input(instant[k]));
+    back.moves[k].poses = std::move(poses);
+  }
+  return back;
+}
+
+AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const std::vector<PlanStep>& written,
+                                     const RunContext& context) {
+  AssemblyPlan plan;
+  std::vector<std::string> problems;
+  std::size_t not_looked_for = 0;
+  const auto names = [&](std::size_t i) {
+    std::string text;
+    for (const PartId id : steps[i].parts) text += (text.empty() ? "'" : ", '") + assembly_.parts[id].name + "'";
+    return text;
+  };
+  Scenery scenery(steps, assembly_.parts.size());
+  place_groups(scenery, context);
+  clear_ways_in(scenery, context);
+
+  // In the order of the disassembly: where a group is put in is known before it is asked how to get there. A group that
+  // is left out lies elsewhere from then on, so what was found for later steps does not count.
+  const std::size_t wave = context.threads > 1 ? kWave * context.threads : 1;
+  for (std::size_t first = 0; first < steps.size();) {
+    std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);
+    bool as_supposed = true;
+    for (std::size_t k = 0; k < ways.size() && as_supposed; ++k) {
+      const std::size_t i = first++;
+      context.progress("assembly", i, steps.size(), assembly_.parts[steps[i].parts.front()].name);
+      for (const auto& [level, text] : ways[k].log) context.log(level, text);
+      if (!ways[k].looked_for) {
+        ++not_looked_for;
+        scenery.leave_out(i + 1, fmt::format("the way of {} from the layout was not looked for", names(i)));
+        as_supposed = false;
+      } else {
+        if (scenery.missing[i + 1].empty() && !steps[i].part_way && ways[k].path.empty()) {
+          scenery.leave_out(i + 1,
+                            fmt::format("no way from the layout was found for {}: {}", names(i), ways[k].problem));
+          as_supposed = false;
+        }
+        if (!scenery.missing[i + 1].empty()) problems.push_back(scenery.missing[i + 1]);
+      }
+      plan.steps.push_back(to_step(scenery, i, ways[k], written[i]));
+    }
+  }
+  context.progress("assembly", steps.size(), steps.size());
+  std::reverse(plan.steps.begin(), plan.steps.end());
+  for (std::size_t i = 0; i < plan.steps.size(); ++i) plan.steps[i].step = static_cast<unsigned>(i) + 1;
+  if (not_looked_for > 0)
+    problems.push_back(fmt::format("{} of {} ways from the layout were not looked for: the run was stopped before",
+                                   not_looked_for, steps.size()));
+  for (const auto& p : problems) plan.message += (plan.message.empty() ? "" : "; ") + p;
+  if (!problems.empty()) {
+    plan.status = AssemblyStatus::partial;
+    context.log(LogLevel::warning, fmt::format("assembly: {}", plan.message));
+  }
+  return plan;
+}
+
+}  // namespace dismantle

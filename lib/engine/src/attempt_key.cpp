@@ -1,0 +1,126 @@
+#include "attempt_key.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+namespace dismantle {
+
+namespace {
+
+/// True when q has to be negated to be the one of {q, -q} whose first non-zero coefficient (w, x, y, z) is positive.
+bool has_wrong_sign(const Eigen::Quaterniond& q) {
+  for (const double c : {q.w(), q.x(), q.y(), q.z()})
+    if (c != 0) return c < 0;
+  return false;
+}
+
+void canonicalise(std::vector<PlacedPart>& parts, std::vector<bool>& seen) {
+  for (auto& p : parts) {
+    if (p.part >= seen.size()) throw std::invalid_argument(fmt::format("attempt names the unknown part {}", p.part));
+    if (seen[p.part]) throw std::invalid_argument(fmt::format("attempt names part {} twice", p.part));
+    seen[p.part] = true;
+    if (!p.pose.t.allFinite() || !p.pose.q.coeffs().allFinite())
+      throw std::invalid_argument(fmt::format("pose of part {} is not finite", p.part));
+    if (has_wrong_sign(p.pose.q)) p.pose.q.coeffs() = -p.pose.q.coeffs();
+    p.pose.q.coeffs().array() += 0.0;  // -0 becomes +0
+    p.pose.t.array() += 0.0;
+  }
+  std::sort(parts.begin(), parts.end(), [](const PlacedPart& a, const PlacedPart& b) { return a.part < b.part; });
+}
+
+void append(std::string& bytes, std::uint64_t word) {
+  for (int shift = 0; shift < 64; shift += 8) bytes.push_back(static_cast<char>((word >> shift) & 0xff));
+}
+
+void append(std::string& bytes, const std::vector<PlacedPart>& parts) {
+  append(bytes, parts.size());
+  for (const auto& p : parts) {
+    append(bytes, p.part);
+    for (const double c :
+         {p.pose.t.x(), p.pose.t.y(), p.pose.t.z(), p.pose.q.w(), p.pose.q.x(), p.pose.q.y(), p.pose.q.z()})
+      append(bytes, std::bit_cast<std::uint64_t>(c));
+  }
+}
+
+CastDigest sha256(const std::string& bytes) {
+  CastDigest digest{};
+  unsigned length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1 ||
+      length != digest.size())
+    throw std::runtime_error("SHA-256 is not available in this OpenSSL");
+  return digest;
+}
+
+}  // namespace
+
+Attempt canonical(const Attempt& attempt, std::size_t part_count) {
+  if (attempt.moving.empty()) throw std::invalid_argument("attempt in which no part moves");
+  Attempt result = attempt;
+  std::vector<bool> seen(part_count, false);
+  canonicalise(result.moving, seen);
+  canonicalise(result.still, seen);
+  if (result.leaving.empty()) return result;
+  if (result.part_way || result.moving.size() < 2)
+    throw std::invalid_argument(
+        "attempt in which a part leaves those that move with it, but none does or nobody leaves");
+  std::sort(result.leaving.begin(), result.leaving.end());
+  result.leaving.erase(std::unique(result.leaving.begin(), result.leaving.end()), result.leaving.end());
+  for (const PartId id : result.leaving)
+    if (std::none_of(result.moving.begin(), result.moving.end(), [id](const PlacedPart& p) { return p.part == id; }))
+      throw std::invalid_argument(fmt::format("attempt in which part {} is to leave, but does not move", id));
+  return result;
+}
+
+CastDigest digest_of(const Attempt& canonical_attempt) {
+  std::string bytes;
+  bytes.reserve(64 * (canonical_attempt.moving.size() + canonical_attempt.still.size()) + 16);
+  append(bytes, canonical_attempt.moving);
+  append(bytes, canonical_attempt.still);
+  if (canonical_attempt.part_way) bytes.push_back('p');
+  if (!canonical_attempt.leaving.empty()) {
+    bytes.push_back('l');
+    for (const PartId id : canonical_attempt.leaving) append(bytes, id);
+  }
+  return sha256(bytes);
+}
+
+CastDigest digest_of(const AttemptKey& key) {
+  std::string bytes(key.cast.begin(), key.cast.end());
+  append(bytes, key.max_depth);
+  if (key.after != CastDigest{}) bytes.append(key.after.begin(), key.after.end());
+  return sha256(bytes);
+}
+
+bool may_follow(const Attempt& now, const Attempt& earlier) {
+  const auto same = [](const PlacedPart& a, const PlacedPart& b) {
+    return a.part == b.part && a.pose.t == b.pose.t && a.pose.q.coeffs() == b.pose.q.coeffs();
+  };
+  const auto before = [](const PlacedPart& p, PartId id) { return p.part < id; };
+  return now.leaving == earlier.leaving && now.part_way == earlier.part_way &&
+         std::equal(now.moving.begin(), now.moving.end(), earlier.moving.begin(), earlier.moving.end(), same) &&
+         std::all_of(now.still.begin(), now.still.end(), [&](const PlacedPart& s) {
+           const auto then = std::lower_bound(earlier.still.begin(), earlier.still.end(), s.part, before);
+           return then != earlier.still.end() && same(*then, s);
+         });
+}
+
+std::uint64_t stream_of(const AttemptKey& key) {
+  const CastDigest digest = digest_of(AttemptKey{key.cast, key.max_depth, {}});
+  std::uint64_t stream = 0;
+  for (int i = 0; i < 8; ++i) stream |= static_cast<std::uint64_t>(digest[static_cast<std::size_t>(i)]) << (8 * i);
+  return stream;
+}
+
+std::vector<PartId> ids_of(const std::vector<PlacedPart>& placed) {
+  std::vector<PartId> ids;
+  ids.reserve(placed.size());
+  for (const auto& p : placed) ids.push_back(p.part);
+  return ids;
+}
+
+}  // namespace dismantle

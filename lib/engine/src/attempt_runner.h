@@ -1,0 +1,57 @@
+/// One attempt, from question to judged answer. The only place where a path planner is called.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dismantle/path_oracle.h"
+#include "dismantle/engine/run.h"
+#include "attempt_key.h"
+#include "path_normalizer.h"
+
+namespace dismantle {
+
+struct ComputedAttempt {
+  AttemptResult answer;
+  bool interrupted = false;  ///< ended by cancellation or the run's deadline: says nothing about the question
+};
+
+/// Immutable after construction; run() may be called from several threads, with one planner each.
+class AttemptRunner {
+ public:
+  /// All references must outlive the runner. `rng` is the run's generator.
+  AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+                const RunOptions& options, const Verifier& verifier, const Rng& rng);
+
+  /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
+  /// the attempt is added here. Throws nothing: what a plugin throws becomes Outcome::crashed.
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+                      const RunContext& context) const;
+
+  /// Judges a way in place of a search. `attempt` and the columns of `way` in the same order.
+  ComputedAttempt judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const;
+
+  const std::string& planner_id() const { return planner_id_; }
+
+ private:
+  struct Judgement;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, const RunContext& run,
+                  Judgement& last) const;
+  const Lock* locked(const Attempt& attempt) const;
+  std::optional<Cage> caged(const Attempt& attempt, const RunContext& context) const;
+  std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
+  Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
+  std::string lacking(const Capabilities& needs, std::size_t moving) const;
+
+  const Assembly& assembly_;
+  const Prepared& prepared_;
+  const Simulator& simulator_;
+  const Verifier& verifier_;
+  std::string planner_id_;
+  double path_timeout_;
+  std::uint64_t path_steps_;
+  Rng rng_;
+  PathNormalizer normalizer_;
+};
+
+}  // namespace dismantle

@@ -1,0 +1,228 @@
+#include "oracle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace dismantle {
+
+namespace {
+
+bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 || depth > than); }
+
+/// A search that ended for a reason other than its depth ends the same way when it may go deeper; one that found
+/// nothing to search ends the same way at any depth.
+bool holds_for_deeper(Outcome o) { return o == Outcome::exhausted || o == Outcome::timeout; }
+bool holds_for_all(Outcome o) {
+  return o == Outcome::start_is_goal || o == Outcome::invalid_start || o == Outcome::unsupported;
+}
+
+void check(const Ingredients& ingredients) {
+  if (!ingredients.simulator) throw std::invalid_argument("no simulator given");
+  if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
+}
+
+}  // namespace
+
+Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+               const RunOptions& options, const Verifier& verifier, const RunContext& context)
+    : part_count_((check(ingredients), assembly.parts.size())),
+      verifier_(verifier),
+      constraints_(options.constraints),
+      make_planner_(ingredients.path_planner),
+      runner_(assembly, prepared, ingredients, options, verifier, context.rng),
+      computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
+
+std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
+  const std::lock_guard lock(planner_mutex_);
+  if (concurrent_planner_) return concurrent_planner_;
+  if (!unused_planners_.empty()) {
+    std::shared_ptr<PathPlanner> planner = std::move(unused_planners_.back());
+    unused_planners_.pop_back();
+    return planner;
+  }
+  std::shared_ptr<PathPlanner> planner = make_planner_();
+  if (!planner) throw std::runtime_error("nothing was made");
+  if (planner->is_concurrent()) concurrent_planner_ = planner;
+  return planner;
+}
+
+void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
+  const std::lock_guard lock(planner_mutex_);
+  if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));
+}
+
+/// On any thread. What is computed ahead has no log, and brings its lines along.
+LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, RunContext context) {
+  LoggedAttempt result;
+  context.threads = 1;
+  if (!context.on_log)
+    context.on_log = [&result](LogLevel level, std::string_view text) {
+      result.log.push_back({level, std::string(text)});
+    };
+  std::shared_ptr<PathPlanner> planner;
+  std::string problem;
+  try {
+    planner = borrow_planner();
+  } catch (const std::exception& e) {
+    problem = e.what();
+  } catch (...) {
+    problem = "it threw something that is not a std::exception";
+  }
+  if (planner) {
+    result.computed = runner_.run(*planner, attempt, key, context);
+    give_back(std::move(planner));
+    return result;
+  }
+  PathResult& crashed = result.computed.answer.result;
+  crashed.outcome = Outcome::crashed;
+  crashed.message = fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem);
+  context.log(LogLevel::error, crashed.message);
+  return result;
+}
+
+const AttemptResult& Oracle::keep(AttemptResult result) { return results_.emplace_back(std::move(result)); }
+
+const AttemptResult* Oracle::remembered(const AttemptKey& key) {
+  if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
+  const auto known = finals_.find(key.cast);
+  if (known == finals_.end()) return nullptr;
+  const auto& [depth, answer] = known->second;
+  if (!holds_for_all(answer->result.outcome) && !is_deeper(key.max_depth, depth)) return nullptr;
+  return answer;
+}
+
+/// `question.after` is dropped where nothing was kept to go on from: then it begins anew, and is the same question as
+/// one that was to begin anew.
+AttemptKey Oracle::key_of(Attempt& question) const {
+  AttemptKey key{digest_of(question), question.max_depth, {}};
+  const AttemptResult* const after = std::exchange(question.after, nullptr);
+  if (after == nullptr) return key;
+  const AskedAbout* asked = asked_about(after);
+  if (asked == nullptr || is_success(after->result.outcome))
+    throw std::invalid_argument("attempt that is to go on from what is not an attempt in vain of this oracle");
+  if (!asked->resumable) return key;
+  if (!may_follow(question, *asked->resumable))
+    throw std::invalid_argument("attempt that is to go on from one of other parts, or at other places");
+  question.after = after;
+  key.after = digest_of(asked->key);
+  return key;
+}
+
+const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& key, RunContext& context) {
+  if (const AttemptResult* known = remembered(key)) {
+    ++memoised_;
+    return *known;
+  }
+  if (context.should_stop()) {
+    AttemptResult stopped;
+    stopped.result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+    stopped.result.message = "not begun: the run was told to stop";
+    return keep(std::move(stopped));
+  }
+  const auto compute_it = [&](const RunContext& c) { return compute(attempt, key, c); };
+  LoggedAttempt logged = computed_ahead_.get(key, compute_it, context);
+  for (const auto& line : logged.log) context.log(line.level, line.text);
+  ComputedAttempt& computed = logged.computed;
+  if (!attempt.keep_reached) computed.answer.result.reached = nullptr;
+  const AttemptResult& result = keep(std::move(computed.answer));
+  for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
+  if (computed.interrupted) return result;  // says nothing about the question: not remembered
+  ++planned_;
+  answers_.emplace(key, &result);
+  const Outcome outcome = result.result.outcome;
+  if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
+  asked_about_.emplace(&result, AskedAbout{key, ids_of(attempt.moving), attempt.leaving,
+                                           result.result.reached ? std::make_shared<Attempt>(attempt) : nullptr});
+  return result;
+}
+
+const AttemptResult& Oracle::reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
+                                       const std::vector<PartId>& order) {
+  const auto known = reordered_.find({&result, order});
+  if (known != reordered_.end()) return *known->second;
+  std::vector<std::size_t> column;
+  for (const PartId id : order)
+    column.push_back(static_cast<std::size_t>(std::lower_bound(canonical_order.begin(), canonical_order.end(), id) -
+                                              canonical_order.begin()));
+  const auto permute = [&](std::vector<Pose>& poses) {
+    const std::vector<Pose> old = poses;
+    for (std::size_t i = 0; i < column.size(); ++i) poses[i] = old[column[i]];
+  };
+  AttemptResult copy = result;
+  for (auto& instant : copy.result.path) permute(instant);
+  if (!copy.result.best_pose.empty()) permute(copy.result.best_pose);
+  const AttemptResult& kept = keep(std::move(copy));
+  reordered_.emplace(std::pair{&result, order}, &kept);
+  if (const AskedAbout* asked = asked_about(&result)) {
+    AskedAbout same = *asked;
+    same.moving = order;
+    asked_about_.emplace(&kept, std::move(same));
+  }
+  return kept;
+}
+
+const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context) {
+  Attempt question = canonical(attempt, part_count_);
+  const std::vector<PartId> order = ids_of(attempt.moving);
+  const std::vector<PartId> canonical_order = ids_of(question.moving);
+  const std::lock_guard lock(ask_mutex_);
+  const AttemptKey key = key_of(question);
+  const AttemptResult& result = answer(question, key, context);
+  return order == canonical_order ? result : reordered(result, canonical_order, order);
+}
+
+void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
+  if (!computed_ahead_.computes_ahead() || context.should_stop()) return;
+  std::deque<SpeculativeCache<AttemptKey, LoggedAttempt>::Sequence> wanted;
+  const std::lock_guard lock(ask_mutex_);
+  for (const Attempt& attempt : attempts) {
+    Attempt question = canonical(attempt, part_count_);
+    const AttemptKey key = key_of(question);
+    if (remembered(key)) continue;
+    const auto compute_it = [this, question = std::move(question), key](const RunContext& c) {
+      return compute(question, key, c);
+    };
+    wanted.push_back({{key, compute_it}});
+  }
+  computed_ahead_.prefetch(std::move(wanted), context);
+}
+
+const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
+  const CastDigest cast = digest_of(canonical(attempt, part_count_));
+  const std::lock_guard lock(ask_mutex_);
+  ComputedAttempt computed = runner_.judge_way(attempt, way, context);
+  const AttemptResult& result = keep(std::move(computed.answer));
+  if (computed.interrupted) return result;
+  ++proposed_;
+  if (is_success(result.result.outcome))
+    asked_about_.emplace(&result, AskedAbout{{.cast = cast}, ids_of(attempt.moving), attempt.leaving});
+  else
+    ++refused_;
+  return result;
+}
+
+OracleCounts Oracle::counts() const {
+  OracleCounts counts;
+  counts.attempts = planned_;
+  counts.memoised = memoised_;
+  counts.proposed = proposed_;
+  counts.refused = refused_;
+  counts.discarded = computed_ahead_.unused();
+  return counts;
+}
+
+const AskedAbout* Oracle::asked_about(const AttemptResult* result) const {
+  const auto known = asked_about_.find(result);
+  return known == asked_about_.end() ? nullptr : &known->second;
+}
+
+std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const Prepared& prepared,
+                                        const Ingredients& ingredients, const RunOptions& options,
+                                        const Verifier& verifier, RunContext& context) {
+  return std::make_unique<Oracle>(assembly, prepared, ingredients, options, verifier, context);
+}
+
+}  // namespace dismantle

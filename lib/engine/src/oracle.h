@@ -1,0 +1,87 @@
+/// The oracle that `run` uses, with what the runner wants to know beyond the interface.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "attempt_runner.h"
+#include "dismantle/speculative_cache.h"
+
+namespace dismantle {
+
+/// What an answer was an answer to.
+struct AskedAbout {
+  AttemptKey key;
+  std::vector<PartId> moving;  ///< columns of the path
+  std::vector<PartId> leaving{};
+  std::shared_ptr<const Attempt> resumable{};  ///< canonical; null where no search can go on from there
+};
+
+struct LogLine {
+  LogLevel level = LogLevel::info;
+  std::string text;
+};
+
+/// An attempt that was computed, perhaps before it was asked for.
+struct LoggedAttempt {
+  ComputedAttempt computed;
+  std::vector<LogLine> log;  ///< for the thread that asks to pass on; empty where the attempt had a log to write to
+};
+
+class Oracle final : public PathOracle {
+ public:
+  Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients, const RunOptions& options,
+         const Verifier& verifier, const RunContext& context);
+
+  const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
+  void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
+  const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) override;
+  OracleCounts counts() const override;
+  const Verifier* judge() const override { return &verifier_; }
+  const Constraints& constraints() const override { return constraints_; }
+
+  /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
+  const AskedAbout* asked_about(const AttemptResult* result) const;
+  /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
+  const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
+
+ private:
+  struct Final {
+    unsigned max_depth = 0;
+    const AttemptResult* answer = nullptr;
+  };
+  AttemptKey key_of(Attempt& canonical_attempt) const;
+  const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
+  const AttemptResult* remembered(const AttemptKey& key);
+  LoggedAttempt compute(const Attempt& attempt, const AttemptKey& key, RunContext context);
+  std::shared_ptr<PathPlanner> borrow_planner();
+  void give_back(std::shared_ptr<PathPlanner> planner);
+  const AttemptResult& keep(AttemptResult result);
+  const AttemptResult& reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
+                                 const std::vector<PartId>& order);
+
+  std::size_t part_count_;
+  const Verifier& verifier_;
+  Constraints constraints_;
+  std::function<std::shared_ptr<PathPlanner>()> make_planner_;
+  AttemptRunner runner_;
+  std::mutex ask_mutex_;  ///< one question at a time
+  std::deque<AttemptResult> results_;
+  std::map<AttemptKey, const AttemptResult*> answers_;
+  std::map<CastDigest, Final> finals_;
+  std::map<const AttemptResult*, AskedAbout> asked_about_;
+  std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
+  std::map<std::string, double> planner_counts_;
+  std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
+  std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads
+  std::shared_ptr<PathPlanner> concurrent_planner_;  ///< serves all attempts; null where planners do not
+  std::vector<std::shared_ptr<PathPlanner>> unused_planners_;   ///< each serves one attempt at a time
+  SpeculativeCache<AttemptKey, LoggedAttempt> computed_ahead_;  ///< last: its tasks use all of the above
+};
+
+}  // namespace dismantle

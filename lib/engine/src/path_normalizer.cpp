@@ -1,0 +1,171 @@
+#include "path_normalizer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "dismantle/aabb.h"
+
+namespace dismantle {
+
+namespace {
+
+// DESIGN section 7 allows 1 % of the largest edge between two poses; the margin is for the rounding of poses
+// on their way to input units and back.
+constexpr double kTravelShare = 0.01 * 0.99;
+// How far an instant may lie off the screw motion through its neighbours to be left out. A four-hundredth of the
+// tightest fit that we know (clearance 4e-5 of the size), so leaving it out spoils no good path. What is judged is
+// the result anyway.
+constexpr double kToleranceShare = 1e-7;
+constexpr double kStartTolerance = 1e-9;  // of a pose's coefficients, assembly units or 1
+constexpr double kNormTolerance = 1e-6;   // of a quaternion's norm
+constexpr double kMaxInstants = 1e5;      // a thousand times across the assembly: no removal, but a runaway
+
+PartBall ball_of(const Mesh& mesh) {
+  PartBall ball;
+  if (mesh.vertices.empty()) return ball;
+  ball.center = mesh.box().center();
+  for (const auto& v : mesh.vertices) ball.radius = std::max(ball.radius, (v - ball.center).norm());
+  return ball;
+}
+
+bool same_pose(const Pose& a, const Pose& b) {
+  const double turn = std::min((a.q.coeffs() - b.q.coeffs()).cwiseAbs().maxCoeff(),
+                               (a.q.coeffs() + b.q.coeffs()).cwiseAbs().maxCoeff());
+  return turn <= kStartTolerance && (a.t - b.t).cwiseAbs().maxCoeff() <= kStartTolerance * (1 + b.t.norm());
+}
+
+/// Checks the shape of the path and makes its quaternions unit and continuous in sign. Returns what is wrong.
+std::string clean(Path& path, const std::vector<PlacedPart>& moving) {
+  if (path.empty()) return "the path is empty";
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    if (path[k].size() != moving.size())
+      return fmt::format("instant {} has {} poses for {} moving parts", k, path[k].size(), moving.size());
+    for (std::size_t i = 0; i < path[k].size(); ++i) {
+      Pose& pose = path[k][i];
+      if (!pose.t.allFinite() || !pose.q.coeffs().allFinite()) return fmt::format("instant {} is not finite", k);
+      if (std::abs(pose.q.norm() - 1) > kNormTolerance) return fmt::format("instant {} has no unit quaternion", k);
+      if (k == 0) {
+        if (!same_pose(pose, moving[i].pose)) return "the path does not start where its parts are";
+        pose = moving[i].pose;
+      } else {
+        pose.q.normalize();
+        if (pose.q.dot(path[k - 1][i].q) < 0) pose.q.coeffs() = -pose.q.coeffs();
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+PathNormalizer::PathNormalizer(const Assembly& assembly) {
+  Aabb box;
+  for (const auto& part : assembly.parts) {
+    balls_.push_back(ball_of(*part.mesh));
+    box.extend(part.mesh->box());
+  }
+  const double largest = box.empty() ? 0.0 : box.size().maxCoeff();
+  max_travel_ = kTravelShare * largest;
+  tolerance_ = kToleranceShare * largest;
+}
+
+double PathNormalizer::travel(const std::vector<Pose>& a, const std::vector<Pose>& b,
+                              const std::vector<PlacedPart>& moving) const {
+  double most = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const PartBall& ball = balls_[moving[i].part];
+    most = std::max(most, screw_travel(a[i], b[i], ball.center, ball.radius));
+  }
+  return most;
+}
+
+std::size_t NormalizedPath::given_instant(std::size_t segment, double u) const {
+  const std::size_t a = std::min(segment, way.size() - 1);
+  const std::size_t b = std::min(segment + 1, way.size() - 1);
+  const double place = way[a] + std::clamp(u, 0.0, 1.0) * (way[b] - way[a]);
+  const auto after = std::upper_bound(given_way.begin(), given_way.end(), place);
+  return after == given_way.begin() ? 0 : static_cast<std::size_t>(after - given_way.begin()) - 1;
+}
+
+std::vector<double> PathNormalizer::ways(const Path& path, const std::vector<PlacedPart>& moving) const {
+  std::vector<double> way(path.size(), 0.0);
+  for (std::size_t k = 1; k < path.size(); ++k) way[k] = way[k - 1] + travel(path[k - 1], path[k], moving);
+  return way;
+}
+
+// Ramer, Douglas and Peucker on screw motions: an instant is left out when it lies on the screw motion that joins
+// the instants kept, at the place that the length of the way gives it.
+std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::vector<double>& way,
+                                                   const std::vector<PlacedPart>& moving) const {
+  const std::size_t n = path.size();
+  std::vector<bool> keep(n, false);
+  keep.front() = keep.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> open{{0, n - 1}};
+  std::vector<Pose> there(moving.size());
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    double worst = tolerance_;
+    std::size_t where = 0;
+    const double length = way[last] - way[first];
+    for (std::size_t k = first + 1; k < last; ++k) {
+      const double u = length > 0 ? (way[k] - way[first]) / length : 0.0;
+      for (std::size_t i = 0; i < moving.size(); ++i) there[i] = screw_interpolate(path[first][i], path[last][i], u);
+      const double off = travel(path[k], there, moving);
+      if (off > worst) {
+        worst = off;
+        where = k;
+      }
+    }
+    if (where == 0) continue;
+    keep[where] = true;
+    open.emplace_back(first, where);
+    open.emplace_back(where, last);
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < n; ++k)
+    if (keep[k]) kept.push_back(k);
+  return kept;
+}
+
+NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<PlacedPart>& moving) const {
+  NormalizedPath result;
+  Path clean_path = path;
+  result.problem = clean(clean_path, moving);
+  if (!result.problem.empty()) return result;
+  result.given_way = ways(clean_path, moving);
+  const std::vector<std::size_t> kept = essential(clean_path, result.given_way, moving);
+  result.path.push_back(clean_path.front());
+  result.way.push_back(0);
+  for (std::size_t j = 1; j < kept.size(); ++j) {
+    const std::vector<Pose>& a = clean_path[kept[j - 1]];
+    const std::vector<Pose>& b = clean_path[kept[j]];
+    const double way = travel(a, b, moving);
+    const double share = max_travel_ > 0 ? std::ceil(way / max_travel_) : 1.0;
+    if (!(share + static_cast<double>(result.path.size()) <= kMaxInstants)) {
+      result.problem =
+          fmt::format("the path is too long: over {} assembly units of travel", kMaxInstants * max_travel_);
+      return result;
+    }
+    const std::size_t pieces = share > 1 ? static_cast<std::size_t>(share) : 1;
+    for (std::size_t p = 1; p <= pieces; ++p) {
+      const double u = static_cast<double>(p) / static_cast<double>(pieces);
+      std::vector<Pose> instant = b;
+      if (p < pieces)
+        for (std::size_t i = 0; i < moving.size(); ++i) instant[i] = screw_interpolate(a[i], b[i], u);
+      result.path.push_back(std::move(instant));
+      const double begin = result.given_way[kept[j - 1]];
+      result.way.push_back(begin + u * (result.given_way[kept[j]] - begin));
+    }
+  }
+  if (result.path.size() == 1) {  // a plan's move has at least two poses
+    result.path.push_back(result.path.front());
+    result.way.push_back(0);
+  }
+  return result;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,53 @@
+/// Brings a planner's path into the form that is judged and written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/path_planner.h"
+
+namespace dismantle {
+
+/// Ball around a part, assembled frame, assembly units.
+struct PartBall {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+
+/// A path as DESIGN section 7 wants it, or why there is none.
+struct NormalizedPath {
+  Path path;
+  std::vector<double> way;        ///< for each instant, the length of the way from the start; assembly units
+  std::vector<double> given_way;  ///< the same for each instant of the given path
+  std::string problem;            ///< not empty: the given path is unusable
+
+  /// The last instant of the given path at or before place `u` in [0, 1] of `segment` (after instant `segment`).
+  std::size_t given_instant(std::size_t segment, double u) const;
+};
+
+/// Immutable; safe to share between threads.
+class PathNormalizer {
+ public:
+  explicit PathNormalizer(const Assembly& assembly);
+
+  /// Same motion with as few instants as describe it to within tolerance(), yet so many that no point of a part
+  /// travels further than max_travel() from one to the next. At least two instants. The first is exactly the pose
+  /// of the cast. Refuses paths that are not finite, have the wrong width or start elsewhere.
+  NormalizedPath normalize(const Path& path, const std::vector<PlacedPart>& moving) const;
+
+  double max_travel() const { return max_travel_; }  ///< assembly units
+  double tolerance() const { return tolerance_; }    ///< assembly units
+
+ private:
+  double travel(const std::vector<Pose>& a, const std::vector<Pose>& b, const std::vector<PlacedPart>& moving) const;
+  std::vector<double> ways(const Path& path, const std::vector<PlacedPart>& moving) const;
+  std::vector<std::size_t> essential(const Path& path, const std::vector<double>& way,
+                                     const std::vector<PlacedPart>& moving) const;
+
+  std::vector<PartBall> balls_;  // by part id
+  double max_travel_ = 0;
+  double tolerance_ = 0;
+};
+
+}  // namespace dismantle

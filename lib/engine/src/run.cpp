@@ -1,0 +1,241 @@
+// The main job: prepares, asks the sequence planner, books what it removes.
+#include "dismantle/engine/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "assembler.h"
+#include "dismantle/errors.h"
+#include "dismantle/executor.h"
+#include "oracle.h"
+#include "precedence.h"
+#include "step_ledger.h"
+#include "stopwatch.h"
+
+namespace dismantle {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint64_t kSequenceStream = 0x73657175656e6365;  // "sequence": apart from the attempts' streams
+
+constexpr std::uint64_t kTransferStream = 0x7472616e73666572;  // "transfer"
+
+Outcome why_stopped(const RunContext& context) {
+  return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+}
+
+void check(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options) {
+  if (assembly.parts.empty()) throw InputError(assembly.source, "has no parts");
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i)
+    if (assembly.parts[i].id != i || !assembly.parts[i].mesh)
+      throw std::invalid_argument("parts of an assembly are numbered by their place and have meshes");
+  if (!ingredients.simulator) throw std::invalid_argument("no simulator given");
+  if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
+  if (options.only_part.empty() && !ingredients.sequence_planner)
+    throw std::invalid_argument("no sequence planner given");
+  if (options.only_part.empty() && !options.constraints.empty() && !ingredients.sequence_planner->keeps_constraints())
+    throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
+}
+
+PartId part_named(const Assembly& assembly, const std::string& name) {
+  for (const auto& part : assembly.parts)
+    if (part.name == name) return part.id;
+  std::string names;
+  for (const auto& part : assembly.parts) names += (names.empty() ? "'" : ", '") + part.name + "'";
+  throw InputError(assembly.source, fmt::format("has no part '{}'; its parts are {}", name, names));
+}
+
+/// Nothing when the run was stopped meanwhile.
+std::shared_ptr<const Prepared> prepare(Simulator& simulator, const Assembly& assembly, RunContext& context) {
+  std::shared_ptr<const Prepared> prepared;
+  try {
+    prepared = simulator.prepare(assembly, context);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    if (!context.should_stop()) throw PluginError("simulator", fmt::format("preparing the parts failed: {}", e.what()));
+    context.log(LogLevel::debug, fmt::format("preparing the parts was stopped: {}", e.what()));
+  } catch (...) {
+    throw PluginError("simulator", "preparing the parts threw something that is not a std::exception");
+  }
+  if (context.should_stop()) return nullptr;
+  if (!prepared) throw PluginError("simulator", "preparing the parts gave nothing");
+  return prepared;
+}
+
+/// Books each removal as it comes and passes the plan so far on.
+class Booking final : public SequenceObserver {
+ public:
+  Booking(StepLedger& ledger, const std::function<void(const Plan&)>& on_step, const RunContext& context)
+      : ledger_(ledger), on_step_(on_step), context_(context) {}
+
+  /// Throws std::logic_error at a removal that does not hold; the sequence planner is stopped by it.
+  void removed(const Removal& removal, std::size_t /*parts_left*/) override {
+    if (!problem_.empty()) throw std::logic_error(problem_);  // after an error that was caught and ignored
+    try {
+      ledger_.book(removal);
+    } catch (const std::logic_error& e) {
+      problem_ = e.what();
+      throw;
+    }
+    if (!on_step_) return;
+    try {
+      on_step_(ledger_.plan());
+    } catch (const std::exception& e) {  // the run is worth more than one saving; the next step tries again
+      context_.log(LogLevel::error, fmt::format("the plan so far could not be passed on: {}", e.what()));
+    }
+  }
+  const std::string& problem() const { return problem_; }
+
+ private:
+  StepLedger& ledger_;
+  const std::function<void(const Plan&)>& on_step_;
+  const RunContext& context_;
+  std::string problem_;
+};
+
+SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner, Oracle& oracle, Booking& booking,
+                             const RunContext& context) {
+  RunContext own = context;
+  own.rng = context.rng.fork(kSequenceStream);
+  SequenceResult result;
+  std::string problem;
+  try {
+    result = planner.plan(assembly, oracle, booking, own);
+    problem = booking.problem();
+  } catch (const std::exception& e) {
+    problem = e.what();
+  } catch (...) {
+    problem = "it threw something that is not a std::exception";
+  }
+  if (!problem.empty()) {
+    context.log(LogLevel::error, fmt::format("the sequence planner failed: {}", problem));
+    result = {};
+    result.outcome = Outcome::crashed;
+  }
+  return result;
+}
+
+SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, Booking& booking, RunContext context) {
+  Attempt attempt;
+  for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.still).push_back({p.id, Pose{}});
+  SequenceResult result;
+  if (attempt.still.empty()) {
+    result.outcome = Outcome::start_is_goal;
+    return result;
+  }
+  context.progress("sequence", 0, 1, assembly.parts[part].name);
+  const AttemptResult& answer = oracle.attempt(attempt, context);
+  result.outcome = answer.result.outcome;
+  if (is_success(result.outcome)) {
+    result.removals.push_back({{part}, &answer});
+    booking.removed(result.removals.back(), assembly.parts.size() - 1);
+    context.progress("sequence", 1, 1, assembly.parts[part].name);
+  } else {
+    result.unsolved.push_back(
+        {part, result.outcome, answer.result.blocked_by, answer.result.best_pose, answer.result.message});
+  }
+  return result;
+}
+
+/// What the sequence planner says of the parts that are left, completed and without what cannot be.
+std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
+  const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
+  std::vector<Unsolved> result;
+  for (const auto& u : said.unsolved)
+    if (is_left(u.part)) result.push_back(u);
+  for (const PartId id : left) {
+    const auto same = [id](const Unsolved& u) { return u.part == id; };
+    if (std::any_of(result.begin(), result.end(), same)) continue;
+    const bool planned = said.outcome != Outcome::cancelled && said.outcome != Outcome::timeout;
+    result.push_back({id,
+                      is_success(said.outcome) ? Outcome::crashed : said.outcome,
+                      {},
+                      {},
+                      planned ? "the sequence planner gave no reason" : "not tried: the run was stopped before"});
+  }
+  for (auto& u : result) std::erase_if(u.blocked_by, [&](PartId id) { return !is_left(id); });
+  return result;
+}
+
+}  // namespace
+
+RunResult run(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options, RunContext& context,
+              const std::function<void(const Plan&)>& on_step) {
+  check(assembly, ingredients, options);
+  const bool only_one = !options.only_part.empty();
+  const PartId part = only_one ? part_named(assembly, options.only_part) : 0;
+  if (ingredients.transfer_planner && options.layout.enabled)
+    for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
+  RunContext own = context;
+  own.rng = Rng(options.seed);
+  if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
+
+  RunResult result;
+  Clock::time_point begin = Clock::now();
+  const std::shared_ptr<const Prepared> prepared = prepare(*ingredients.simulator, assembly, own);
+  result.prepare_seconds = seconds_since(begin);
+
+  begin = Clock::now();
+  const Verifier verifier(assembly, options.verify, own.executor.get());
+  struct Nothing final : Prepared {};
+  const Nothing nothing;
+  if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
+  Oracle oracle(assembly, prepared ? *prepared : nothing, ingredients, options, verifier, own);
+  StepLedger ledger(assembly, oracle, options, ingredients.path_planner_id);
+  Booking booking(ledger, on_step, own);
+  SequenceResult sequence;
+  if (!prepared)
+    sequence.outcome = why_stopped(own);
+  else if (only_one)
+    sequence = plan_one(assembly, part, oracle, booking, own);
+  else
+    sequence = plan_sequence(assembly, *ingredients.sequence_planner, oracle, booking, own);
+
+  result.outcome = sequence.outcome;
+  result.sequence_counts = sequence.counts;
+  if (only_one) {
+    ledger.set_unsolved(sequence.unsolved);
+  } else if (ledger.fulfilled()) {
+    result.outcome = Outcome::solved;
+  } else {
+    if (is_success(sequence.outcome)) {
+      result.outcome = Outcome::crashed;
+      own.log(LogLevel::error,
+              fmt::format("the sequence planner reports success with {} parts still together", ledger.left().size()));
+    }
+    ledger.set_unsolved(reasons(sequence, ledger.left()));
+  }
+  AssemblyPlan back;
+  const bool puts_together =
+      prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty();
+  const auto put_together = [&] {
+    if (!puts_together) return;
+    RunContext putting = own;
+    putting.rng = Rng(options.seed).fork(kTransferStream);
+    back = Assembler(assembly, *prepared, ingredients, options, verifier)
+               .put_together(ledger.booked(), ledger.plan().disassembly, putting);
+  };
+  std::vector<std::vector<std::size_t>> needed;
+  const auto find_needed = [&] { needed = needed_steps(ledger.booked(), assembly.parts.size(), verifier, own); };
+  // Neither uses a result of the other.
+  parallel_for(
+      2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
+  ledger.set_needed(needed);
+  for (const auto& [a, b] : part_precedence(ledger.booked(), needed))
+    result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
+  if (puts_together) ledger.set_assembly(std::move(back.steps), back.status, std::move(back.message));
+  result.plan = ledger.plan();
+  result.counts = oracle.counts();
+  result.planner_counts = oracle.planner_counts();
+  result.plan_seconds = seconds_since(begin);
+  return result;
+}
+
+}  // namespace dismantle

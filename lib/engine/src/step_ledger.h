@@ -1,0 +1,76 @@
+/// Books the removals of a run: who stands where, in which group, and the plan that comes of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/plan.h"
+#include "dismantle/engine/run.h"
+#include "oracle.h"
+
+namespace dismantle {
+
+/// A step that was booked. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
+struct BookedStep {
+  std::vector<PartId> parts;
+  std::size_t from = 0;              ///< the group that they left
+  std::shared_ptr<const Path> path;  ///< of the oracle's answer, or of several, one after the other
+  bool part_way = false;             ///< the parts stay in `from`; no group is made
+  std::optional<PartId> alone{};     ///< this one leaves; the others that moved stay in `from`
+
+  /// Is `part`, which moved, out after the step?
+  bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
+};
+
+/// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
+/// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
+/// sequence planner does.
+class StepLedger {
+ public:
+  StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
+
+  /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: to
+  /// whoever follows the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
+  /// has changed then.
+  void book(const Removal& removal);
+
+  const Plan& plan() const { return plan_; }
+  const std::vector<BookedStep>& booked() const { return booked_; }
+  /// Parts whose group still has others: the group that was never left, then groups that came out whole.
+  std::vector<PartId> left() const;
+  bool complete() const;
+  /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
+  bool fulfilled() const;
+  /// Sets plan().unsolved.
+  void set_unsolved(const std::vector<Unsolved>& unsolved);
+  /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
+  void set_needed(const std::vector<std::vector<std::size_t>>& needed);
+  /// Sets plan().assembly_steps in place of the disassembly backwards.
+  void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
+
+ private:
+  void check_constraints(const Removal& removal, const std::vector<PartId>& rest) const;
+  bool stays_together(const std::vector<PartId>& group) const;
+  std::vector<PartId>& group_of(const std::vector<PartId>& parts);
+  PlanStep to_step(const Removal& removal) const;
+  bool goes_on(const Removal& removal, std::size_t from) const;
+  void take_back_last(PlanStep& step, Path& path);
+  void refresh_status();
+
+  const Assembly& assembly_;
+  const Oracle& oracle_;
+  std::string planner_id_;
+  Constraints constraints_;
+  Plan plan_;
+  std::vector<Pose> poses_;                  // by part id
+  std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
+  std::vector<BookedStep> booked_;
+};
+
+/// The disassembly step run backwards (Algorithm 3 from the disassembled poses).
+PlanStep reversed(const PlanStep& step);
+
+}  // namespace dismantle

@@ -1,0 +1,94 @@
+// Laws of the layout: nothing overlaps, large things come first and lie nearest, the same boxes give the same layout.
+#include "dismantle/engine/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+namespace {
+
+using Eigen::Vector3d;
+
+Aabb random_box(Rng& rng, double most) {
+  Aabb box;
+  const Vector3d at(rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-5, 5));
+  box.extend(at);
+  box.extend(at + Vector3d(rng.uniform(0.01, most), rng.uniform(0.01, most), rng.uniform(0.01, most)));
+  return box;
+}
+
+Aabb shifted(Aabb box, const Vector3d& way) {
+  box.lo += way;
+  box.hi += way;
+  return box;
+}
+
+/// Way between the shadows of two boxes on the plane, along its axes.
+double apart(const Aabb& a, const Aabb& b, int up) {
+  double most = -1e300;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != up) most = std::max({most, b.lo[axis] - a.hi[axis], a.lo[axis] - b.hi[axis]});
+  return most;
+}
+
+TEST(Layout, NothingOverlapsAndAllLiesOnThePlane) {
+  Rng rng(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int up = static_cast<int>(rng.below(3));
+    const double gap = rng.uniform(0.01, 2);
+    std::vector<Aabb> taken{random_box(rng, 10)}, boxes;
+    for (auto n = rng.below(3); n > 0; --n) taken.push_back(random_box(rng, 8));
+    for (auto n = 1 + rng.below(30); n > 0; --n) boxes.push_back(random_box(rng, 6));
+    const auto shifts = lay_out(boxes, taken, static_cast<Up>(up), gap);
+    ASSERT_EQ(shifts.size(), boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Aabb a = shifted(boxes[i], shifts[i]);
+      EXPECT_NEAR(a.lo[up], taken[0].lo[up], 1e-12);
+      for (const auto& t : taken) EXPECT_GE(apart(a, t, up), gap);
+      for (std::size_t k = 0; k < i; ++k) EXPECT_GE(apart(a, shifted(boxes[k], shifts[k]), up), gap);
+    }
+  }
+}
+
+TEST(Layout, SameBoxesSameLayout) {
+  Rng rng(2);
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 40; ++i) boxes.push_back(random_box(rng, 5));
+  const std::vector<Aabb> taken{random_box(rng, 10)};
+  EXPECT_EQ(lay_out(boxes, taken, Up::z, 0.5), lay_out(boxes, taken, Up::z, 0.5));
+}
+
+TEST(Layout, OfEqualShapesTheLargerLieNearer) {
+  Aabb base;
+  base.extend(Vector3d(-5, -5, 0));
+  base.extend(Vector3d(5, 5, 4));
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 12; ++i) {
+    boxes.emplace_back();
+    boxes.back().extend(Vector3d(0, 0, 0));
+    boxes.back().extend(Vector3d::Constant(0.5 + 0.5 * ((7 * i) % 12)));
+  }
+  const auto shifts = lay_out(boxes, {base}, Up::z, 0.5);
+  // Whatever was placed before does not depend on what is smaller: leaving small ones out changes nothing.
+  std::vector<std::size_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return boxes[a].size().x() > boxes[b].size().x(); });
+  std::vector<Aabb> some;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    some.push_back(boxes[order[k]]);
+    const auto fewer = lay_out(some, {base}, Up::z, 0.5);
+    for (std::size_t j = 0; j <= k; ++j) EXPECT_EQ(fewer[j], shifts[order[j]]);
+  }
+  // The largest four find a place at the four sides, right beside the base.
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(apart(shifted(boxes[order[k]], shifts[order[k]]), base, 2), 0.5, 1e-6);
+}
+
+TEST(Layout, WantsSomethingToLieAround) { EXPECT_THROW(lay_out({}, {}, Up::z, 1), std::invalid_argument); }
+
+}  // namespace
+}  // namespace dismantle

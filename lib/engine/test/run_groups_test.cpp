@@ -1,0 +1,219 @@
+// What runs book: groups, parts that are left part-way, and nothing that the oracle did not allow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "dismantle/errors.h"
+#include "dismantle/verification/check_plan.h"
+#include "dismantle/testing/run_rig.h"
+
+namespace dismantle {
+namespace {
+
+using fake::Custom;
+using fake::leave;
+using fake::Steps;
+
+TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
+  const AttemptResult forged{fake::outcome(Outcome::solved), 0, 0};
+  const std::vector<std::pair<std::string, Steps>> cheats{
+      {"own answer",
+       [&](const Assembly&, PathOracle&, SequenceObserver& observer, RunContext&) {
+         observer.removed({{1}, &forged}, 2);
+         return SequenceResult{};
+       }},
+      {"failed attempt",
+       [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+         observer.removed({{1}, &oracle.attempt(leave(a, 1), c)}, 2);
+         return SequenceResult{};
+       }},
+      {"found with a part absent",
+       [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+         Attempt without = leave(a, 1);
+         without.still.pop_back();
+         observer.removed({{1}, &oracle.attempt(without, c)}, 2);
+         return SequenceResult{};
+       }},
+      {"found for another part",
+       [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+         observer.removed({{1}, &oracle.attempt(leave(a, 2), c)}, 2);
+         return SequenceResult{};
+       }},
+      {"unknown part",
+       [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+         observer.removed({{9}, &oracle.attempt(leave(a, 2), c)}, 2);
+         return SequenceResult{};
+       }},
+      {"swallows the error",
+       [&](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+         try {
+           observer.removed({{1}, &forged}, 2);
+         } catch (const std::exception&) {  // the runner has noticed all the same
+         }
+         SequenceResult result;
+         result.outcome = Outcome::solved;
+         result.removals.push_back({{1}, &oracle.attempt(leave(a, 2), c)});
+         return result;
+       }},
+      {"claims success",
+       [](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
+         SequenceResult result;
+         result.outcome = Outcome::solved;
+         return result;
+       }},
+  };
+  for (const auto& [name, steps] : cheats) {
+    RunContext context;
+    const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(steps)),
+                            RunOptions{}, context);
+    EXPECT_EQ(r.outcome, Outcome::crashed) << name;
+    EXPECT_TRUE(r.plan.disassembly.empty()) << name;
+    EXPECT_EQ(r.plan.unsolved.size(), 3u) << name;
+  }
+}
+
+TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
+  const auto lift = [](const PathQuery& q, RunContext&) {
+    PathResult r;
+    r.path = fake::straight(q.cast, {0, 0, 30});
+    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
+    return r;
+  };
+  const auto in_groups = [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+    Attempt both;
+    both.moving = {{2, Pose{}}, {1, Pose{}}};
+    both.still = {{0, Pose{}}};
+    SequenceResult result;
+    const AttemptResult& up = oracle.attempt(both, c);
+    result.removals.push_back({{2, 1}, &up});
+    observer.removed(result.removals.back(), 1);
+    Attempt apart;
+    apart.moving = {{2, up.result.path.back()[0]}};
+    apart.still = {{1, up.result.path.back()[1]}};
+    result.removals.push_back({{2}, &oracle.attempt(apart, c)});
+    observer.removed(result.removals.back(), 1);
+    result.outcome = Outcome::solved;
+    result.remaining = {0};
+    return result;
+  };
+  RunContext context;
+  const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(lift, std::make_shared<Custom>(in_groups)),
+                          RunOptions{}, context);
+  EXPECT_EQ(r.outcome, Outcome::solved);
+  ASSERT_EQ(r.plan.disassembly.size(), 2u);
+  EXPECT_EQ(r.plan.disassembly[0].separates, (std::vector<std::vector<std::string>>{{"block2", "block1"}}));
+  EXPECT_EQ(r.plan.remaining, (std::vector<std::string>{"tube"}));
+  const auto& first = r.plan.disassembly[0].moves[0].poses;
+  const auto& second = r.plan.disassembly[1].moves[0].poses;
+  EXPECT_EQ(first.back().t, second.front().t);  // rule (a)
+}
+
+TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
+  for (const bool honest : {true, false}) {
+    const auto at_once = [&](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext&) {
+      SequenceResult result;
+      Attempt both;
+      both.moving = {{2, Pose{}}, {1, Pose{}}};
+      both.still = {{0, Pose{}}};
+      both.leaving = {1, 2};
+      Path way = fake::straight({both.moving, both.still}, {0, 0, 30});
+      way[1][1].t.z() = 0.5;
+      RunContext c;
+      const AttemptResult& r = oracle.propose(both, way, c);
+      result.removals.push_back({{2, 1}, &r});
+      observer.removed(result.removals.back(), 2);
+      Attempt last;
+      last.moving = {{1, honest ? r.result.path.back()[1] : Pose{}}};
+      last.still = {{0, Pose{}}};
+      result.removals.push_back({{1}, &oracle.propose(last, fake::straight({last.moving, {}}, {0, 0, 30}), c)});
+      observer.removed(result.removals.back(), 1);
+      result.outcome = Outcome::solved;
+      result.remaining = {0};
+      return result;
+    };
+    RunContext context;
+    const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(at_once)),
+                            RunOptions{}, context);
+    ASSERT_EQ(r.plan.disassembly.size(), honest ? 2u : 1u) << "the other is not where it was";
+    const PlanStep& first = r.plan.disassembly[0];
+    EXPECT_EQ(first.moves.size(), 2u);
+    EXPECT_EQ(first.separates, (std::vector<std::vector<std::string>>{{"block2"}}));
+    if (!honest) continue;
+    EXPECT_EQ(r.outcome, Outcome::solved);
+    EXPECT_EQ(r.plan.status, PlanStatus::complete);
+    EXPECT_EQ(r.plan.disassembly[1].moves[0].poses.front().t.z(), 0.5);
+    EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
+    EXPECT_EQ(r.precedence, (std::vector<std::pair<std::string, std::string>>{{"block2", "block1"}}));
+    const PlanCheck check = check_plan(r.plan, fake::tube_with_blocks(2), VerifyOptions{}, context);
+    EXPECT_TRUE(check.valid && check.complete);
+    Plan lies = r.plan;
+    lies.disassembly[0].separates[0][0] = "block1";
+    EXPECT_FALSE(check_plan(lies, fake::tube_with_blocks(2), VerifyOptions{}, context).valid);
+  }
+}
+
+/// Lifts blocks by bits, in the order given; the last bit of a block brings it out.
+RunResult in_bits(const std::vector<PartId>& order) {
+  const auto bits = [&](const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
+    SequenceResult result;
+    std::vector<Pose> at(assembly.parts.size());
+    std::vector<bool> gone(assembly.parts.size(), false);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const PartId part = order[k];
+      const bool last = std::count(order.begin() + static_cast<std::ptrdiff_t>(k), order.end(), part) == 1;
+      Attempt a;
+      a.part_way = !last;
+      a.moving = {{part, at[part]}};
+      for (const auto& p : assembly.parts)
+        if (p.id != part && !gone[p.id]) a.still.push_back({p.id, at[p.id]});
+      const Path way = fake::straight({a.moving, a.still}, {0, 0, last ? 30 : 0.25});
+      const AttemptResult& r = oracle.propose(a, way, c);
+      at[part] = r.result.path.back()[0];
+      gone[part] = last;
+      result.removals.push_back({{part}, &r, !last});
+      observer.removed(result.removals.back(), 1);
+    }
+    result.outcome = Outcome::solved;
+    return result;
+  };
+  RunContext context;
+  return run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(bits)), RunOptions{},
+             context);
+}
+
+TEST(Run, WhatMovesOnFromPartWayIsOneStep) {
+  const RunResult r = in_bits({2, 2, 2, 1});
+  EXPECT_EQ(r.outcome, Outcome::solved);
+  ASSERT_EQ(r.plan.disassembly.size(), 2u);
+  const PlanStep& step = r.plan.disassembly[0];
+  EXPECT_EQ(step.separates, (std::vector<std::vector<std::string>>{{"block2"}}));
+  EXPECT_EQ(step.moves[0].poses.front().t.z(), 0);
+  EXPECT_EQ(step.moves[0].poses.back().t.z(), 30.5);
+  for (std::size_t k = 1; k < step.moves[0].poses.size(); ++k)
+    EXPECT_GT(step.moves[0].poses[k].t.z(), step.moves[0].poses[k - 1].t.z()) << "no instant twice";
+  EXPECT_EQ(r.plan.disassembly[1].step, 2u);
+  EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
+  ASSERT_EQ(r.plan.assembly_steps.size(), 2u);
+  EXPECT_EQ(r.plan.assembly_steps[1].moves[0].part, "block2");
+  RunContext context;
+  EXPECT_TRUE(check_plan(r.plan, fake::tube_with_blocks(2), VerifyOptions{}, context).valid);
+}
+
+TEST(Run, WhatMovesInBetweenKeepsStepsApart) {
+  const RunResult r = in_bits({2, 2, 1, 2, 1});
+  EXPECT_EQ(r.outcome, Outcome::solved);
+  ASSERT_EQ(r.plan.disassembly.size(), 4u);
+  EXPECT_TRUE(r.plan.disassembly[0].separates.empty());
+  EXPECT_TRUE(r.plan.disassembly[1].separates.empty());
+  EXPECT_EQ(r.plan.disassembly[0].moves[0].poses.back().t.z(), 0.5);
+  EXPECT_EQ(r.plan.disassembly[2].separates.size(), 1u);
+  RunContext context;
+  EXPECT_TRUE(check_plan(r.plan, fake::tube_with_blocks(2), VerifyOptions{}, context).valid);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,60 @@
+/// Exact closest-point and inside queries on the original triangles of a mesh.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/aabb.h"
+#include "dismantle/mesh.h"
+
+namespace dismantle {
+
+/// Closest point of the triangle (a, b, c) to p.
+DISMANTLE_API Eigen::Vector3d closest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                                  const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+
+struct ClosestPoint {
+  double distance = std::numeric_limits<double>::infinity();  ///< >= 0
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  std::uint32_t triangle = 0xffffffffu;  ///< 0xffffffff when nothing lies within the limit
+};
+
+/// Bounding-volume hierarchy over the triangles of one mesh. Immutable and safe to share between threads.
+/// Inside is decided by the winding number of the surface, counted exactly along a ray, so that
+/// overlapping shells count as their union and a void with inward normals counts as outside.
+class DISMANTLE_API TriangleBvh {
+ public:
+  struct Node {
+    Aabb box;
+    std::uint32_t first = 0;  ///< leaf: first entry of order(); inner: index of the right child (left is next)
+    std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
+  };
+
+  explicit TriangleBvh(const Mesh& mesh);  ///< copies what it needs
+
+  ClosestPoint closest(const Eigen::Vector3d& p,
+                       double limit = std::numeric_limits<double>::infinity()) const;
+  int winding_number(const Eigen::Vector3d& p) const;
+  bool inside(const Eigen::Vector3d& p) const { return winding_number(p) > 0; }
+  /// Distance to the surface, negative inside. Exact.
+  double signed_distance(const Eigen::Vector3d& p) const;
+  /// Calls f(triangle) for each triangle whose box overlaps `box`.
+  void overlapping(const Aabb& box, const std::function<void(std::uint32_t)>& f) const;
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<std::uint32_t>& order() const { return order_; }  ///< triangle ids, leaves contiguous
+  const std::array<Eigen::Vector3d, 3>& corners(std::uint32_t triangle) const { return corners_[triangle]; }
+
+ private:
+  void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes);
+  std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // by triangle id
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace dismantle

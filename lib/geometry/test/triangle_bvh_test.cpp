@@ -1,0 +1,143 @@
+#include "dismantle/geometry/triangle_bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "dismantle/testing/shapes.h"
+
+namespace dismantle {
+namespace {
+
+using shapes::random_pose;
+using shapes::random_vector;
+using shapes::Vec3;
+
+double box_distance(const Vec3& p, const Vec3& lo, const Vec3& hi) {
+  const Vec3 out = (lo - p).cwiseMax(p - hi);
+  const double outside = out.cwiseMax(0.0).norm();
+  return outside > 0 ? outside : out.maxCoeff();
+}
+
+TEST(TriangleBvh, ClosestEqualsBruteForce) {
+  Rng rng(1);
+  const Mesh mesh = shapes::moved(shapes::tube(0.6, 1.3, -1, 2, 40, 6), random_pose(rng, 2));
+  const TriangleBvh bvh(mesh);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 p = random_vector(rng, -4, 4);
+    double best = 1e9;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      best =
+          std::min(best, (closest_on_triangle(p, mesh.vertex(t, 0), mesh.vertex(t, 1), mesh.vertex(t, 2)) - p).norm());
+    const ClosestPoint c = bvh.closest(p);
+    EXPECT_DOUBLE_EQ(c.distance, best);
+    EXPECT_NEAR((c.point - p).norm(), c.distance, 1e-14);
+    EXPECT_LT(c.triangle, mesh.triangles.size());
+    EXPECT_EQ(bvh.closest(p, best * 0.99).triangle, 0xffffffffu);
+    EXPECT_EQ(bvh.closest(p, best * 1.01).triangle, c.triangle);
+  }
+}
+
+TEST(TriangleBvh, SignedDistanceOfABoxIsTheClosedForm) {
+  Rng rng(2);
+  const Vec3 lo(-1, -2, -0.5), hi(2, 1, 1);
+  const TriangleBvh bvh(shapes::refine(shapes::box(lo, hi), 2));
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 p = random_vector(rng, -3, 3);
+    EXPECT_NEAR(bvh.signed_distance(p), box_distance(p, lo, hi), 1e-12);
+  }
+  // On the lattice of the mesh's own vertices and edges, where rays that follow the axes hit edges.
+  for (double x = -1.5; x <= 2.5; x += 0.25)
+    for (double y = -2.5; y <= 1.5; y += 0.25)
+      for (double z = -0.75; z <= 1.25; z += 0.125) {
+        const double d = box_distance({x, y, z}, lo, hi);
+        if (std::abs(d) < 1e-9) continue;
+        EXPECT_EQ(bvh.inside({x, y, z}), d < 0) << x << ' ' << y << ' ' << z;
+      }
+}
+
+TEST(TriangleBvh, ShellsCountAsTheirUnionAndVoidsAsOutside) {
+  Rng rng(3);
+  Mesh mesh = shapes::closed_box({0, 0, 0}, {4, 4, 4}, 1.0);  // hollow from 1 to 3
+  shapes::append(mesh, shapes::box({2, -1, -1}, {6, 2, 5}));  // overlaps wall and hollow
+  shapes::append(mesh, shapes::box({10, 0, 0}, {11, 1, 1}));  // apart
+  const TriangleBvh bvh(mesh);
+  int inside = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p(rng.uniform(-1, 12), rng.uniform(-2, 5), rng.uniform(-2, 6));
+    const bool hollow = box_distance(p, {0, 0, 0}, {4, 4, 4}) < 0 && box_distance(p, {1, 1, 1}, {3, 3, 3}) > 0;
+    const bool expected =
+        hollow || box_distance(p, {2, -1, -1}, {6, 2, 5}) < 0 || box_distance(p, {10, 0, 0}, {11, 1, 1}) < 0;
+    EXPECT_EQ(bvh.inside(p), expected);
+    inside += expected;
+  }
+  EXPECT_GT(inside, 500);
+  EXPECT_EQ(bvh.winding_number({2.5, 1.5, 1.5}), 1);
+  EXPECT_EQ(bvh.winding_number({3.5, 1.5, 1.5}), 2);
+}
+
+TEST(TriangleBvh, RaysThroughEdgesAndCornersAreCountedRight) {
+  // Spheres are full of vertices; shoot from the very directions that the rays use, mirrored.
+  const TriangleBvh bvh(shapes::sphere(Vec3::Zero(), 1, 3));
+  Rng rng(4);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p = random_vector(rng, -1.2, 1.2);
+    if (std::abs(p.norm() - 1) < 0.03) continue;
+    EXPECT_EQ(bvh.winding_number(p), p.norm() < 1 ? 1 : 0);
+  }
+  // A fan whose common corner lies exactly on the first ray from the origin.
+  const Vec3 d = Vec3(0.3716542397, 0.8410289143, 0.3930517461).normalized();
+  Mesh fan;
+  const Vec3 u = d.unitOrthogonal(), v = d.cross(u);
+  fan.vertices = {2 * d, -2 * d};
+  for (int i = 0; i < 7; ++i) fan.vertices.push_back(std::cos(i * 0.8976) * u + std::sin(i * 0.8976) * v);
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    fan.triangles.push_back({0, 2 + i, 2 + (i + 1) % 7});
+    fan.triangles.push_back({1, 2 + (i + 1) % 7, 2 + i});
+  }
+  const TriangleBvh spindle(fan);
+  for (double s : {-1.9, -1.0, -0.5, 0.0, 0.5, 1.0, 1.9}) EXPECT_EQ(spindle.winding_number(s * d), 1) << s;
+  for (double s : {-2.1, -3.0, 2.1, 3.0}) EXPECT_EQ(spindle.winding_number(s * d), 0) << s;
+}
+
+TEST(TriangleBvh, OverlappingFindsEveryTriangleOnce) {
+  Rng rng(5);
+  const Mesh mesh = shapes::sphere(Vec3::Zero(), 2, 3);
+  const TriangleBvh bvh(mesh);
+  for (int i = 0; i < 100; ++i) {
+    Aabb box;
+    box.extend(random_vector(rng, -2, 2));
+    box.extend(random_vector(rng, -2, 2));
+    std::set<std::uint32_t> found, expected;
+    bvh.overlapping(box, [&](std::uint32_t t) { EXPECT_TRUE(found.insert(t).second); });
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      Aabb b;
+      for (int k = 0; k < 3; ++k) b.extend(mesh.vertex(t, k));
+      if (b.overlaps(box)) expected.insert(t);
+    }
+    EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(TriangleBvh, EmptyAndSliverMeshes) {
+  const TriangleBvh none{Mesh{}};
+  EXPECT_EQ(none.closest(Vec3::Zero()).triangle, 0xffffffffu);
+  EXPECT_FALSE(none.inside(Vec3::Zero()));
+  Mesh sliver;
+  sliver.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 0, 0}};
+  sliver.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 3}};
+  EXPECT_NEAR(TriangleBvh(sliver).closest({0.5, 2, 0}).distance, 2, 1e-15);
+  EXPECT_NEAR(TriangleBvh(sliver).closest({3, 0, 0}).distance, 2, 1e-15);
+}
+
+TEST(TriangleBvh, ManyEqualCentresDoNotMakeADeepTree) {
+  Mesh stack;
+  for (int i = 0; i < 3000; ++i) shapes::append(stack, shapes::box(Vec3::Constant(-1 - i), Vec3::Constant(1 + i)));
+  const TriangleBvh bvh(stack);
+  EXPECT_EQ(bvh.winding_number(Vec3::Zero()), 3000);
+  EXPECT_NEAR(bvh.closest(Vec3::Zero()).distance, 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,18 @@
+/// plan.json: writing and reading (docs/plan-format.md).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "dismantle/export.h"
+#include "dismantle/plan.h"
+
+namespace dismantle {
+
+DISMANTLE_API std::string_view to_string(AssemblyStatus status);
+/// Same plan, same bytes. Times are the only fields that vary between runs.
+DISMANTLE_API std::string to_json(const Plan& plan);
+/// @throws InputError naming `source` and the place of what is wrong.
+DISMANTLE_API Plan plan_from_json(const std::string& text, const std::string& source);
+
+}  // namespace dismantle

@@ -1,0 +1,336 @@
+// plan.json -> Plan: strict, every problem named with its place in the file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <unordered_set>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan.h"
+#include "dismantle/plan_io/plan_file.h"
+
+namespace dismantle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A value, and where in which file it stands (a JSON pointer).
+class Place {
+ public:
+  Place(const Json& value, const std::string& source, std::string path)
+      : value_(value), source_(source), path_(std::move(path)) {}
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(source_, fmt::format("{}: {}", path_.empty() ? "/" : path_, problem));
+  }
+
+  const Json& object(std::initializer_list<const char*> required,
+                     std::initializer_list<const char*> optional = {}) const {
+    if (!value_.is_object()) fail("expected an object");
+    for (const char* key : required)
+      if (!value_.contains(key)) fail(fmt::format("'{}' is missing", key));
+    const auto known = [&](const std::string& key) {
+      const auto same = [&](const char* k) { return key == k; };
+      return std::ranges::any_of(required, same) || std::ranges::any_of(optional, same);
+    };
+    for (const auto& item : value_.items())
+      if (!known(item.key())) fail(fmt::format("unknown key '{}'", item.key()));
+    return value_;
+  }
+  bool has(const char* key) const { return value_.contains(key); }
+  bool is_null() const { return value_.is_null(); }
+  Place at(const std::string& key) const { return {value_.at(key), source_, path_ + "/" + key}; }
+
+  std::vector<Place> items() const {
+    if (!value_.is_array()) fail("expected an array");
+    std::vector<Place> out;
+    out.reserve(value_.size());
+    for (std::size_t i = 0; i < value_.size(); ++i)
+      out.emplace_back(value_[i], source_, fmt::format("{}/{}", path_, i));
+    return out;
+  }
+
+  std::string text() const {
+    if (!value_.is_string()) fail("expected a string");
+    return value_.get<std::string>();
+  }
+  std::string name() const {
+    std::string s = text();
+    if (s.empty()) fail("expected a name, found an empty string");
+    return s;
+  }
+  double number() const {
+    if (!value_.is_number()) fail("expected a number");
+    const double x = value_.get<double>();
+    if (!std::isfinite(x)) fail("expected a finite number");
+    return x;
+  }
+  double number_from_zero() const {
+    const double x = number();
+    if (x < 0) fail("expected a number >= 0");
+    return x;
+  }
+  double number_within(double least, double most) const {
+    const double x = number();
+    if (x < least || x > most) fail(fmt::format("expected a number between {:g} and {:g}", least, most));
+    return x;
+  }
+  bool truth() const {
+    if (!value_.is_boolean()) fail("expected true or false");
+    return value_.get<bool>();
+  }
+  double positive() const {
+    const double x = number();
+    if (x <= 0) fail("expected a number > 0");
+    return x;
+  }
+  std::uint64_t count(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const {
+    if (!value_.is_number_unsigned()) fail("expected a whole number >= 0");
+    const auto n = value_.get<std::uint64_t>();
+    if (n > limit) fail(fmt::format("expected a whole number <= {}", limit));
+    return n;
+  }
+  unsigned small_count() const { return static_cast<unsigned>(count(std::numeric_limits<unsigned>::max())); }
+
+  template <std::size_t N>
+  std::array<double, N> numbers() const {
+    std::array<double, N> out{};
+    bool right = value_.is_array() && value_.size() == N;
+    for (std::size_t i = 0; right && i < N; ++i) right = value_[i].is_number();
+    if (!right) fail(fmt::format("expected {} numbers", N));
+    for (std::size_t i = 0; i < N; ++i) {
+      out[i] = value_[i].template get<double>();
+      if (!std::isfinite(out[i])) fail("expected finite numbers");
+    }
+    return out;
+  }
+
+ private:
+  const Json& value_;
+  const std::string& source_;
+  std::string path_;
+};
+
+Eigen::Vector3d read_vector(const Place& place) {
+  const auto n = place.numbers<3>();
+  return {n[0], n[1], n[2]};
+}
+
+Pose read_pose(const Place& place) {
+  const auto n = place.numbers<7>();
+  Pose p{{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
+  const double norm = p.q.norm();
+  // Plans by other programs may be rounded to a few digits; ours are left as they are, bit for bit.
+  if (!(std::abs(norm - 1) <= 1e-3)) place.fail(fmt::format("the quaternion has length {:.6g}, expected 1", norm));
+  if (std::abs(norm - 1) > 1e-12) p.q.normalize();
+  return p;
+}
+
+using Names = std::unordered_set<std::string>;
+
+std::string read_part(const Place& place, const Names& parts) {
+  std::string name = place.name();
+  if (!parts.contains(name)) place.fail(fmt::format("there is no part '{}' in /assembly/parts", name));
+  return name;
+}
+
+/// Part names, none twice.
+std::vector<std::string> read_group(const Place& place, const Names& parts) {
+  std::vector<std::string> out;
+  Names seen;
+  for (const Place& item : place.items()) {
+    out.push_back(read_part(item, parts));
+    if (!seen.insert(out.back()).second) item.fail(fmt::format("part '{}' stands here twice", out.back()));
+  }
+  return out;
+}
+
+PlanAssembly read_assembly(const Place& place, Names& parts) {
+  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"}, {"repair"});
+  PlanAssembly a;
+  a.source = place.at("source").text();
+  a.sha256 = place.at("sha256").text();
+  a.scale = place.at("scale").positive();
+  a.center = read_vector(place.at("center"));
+  if (const Place box = place.at("bbox"); !box.is_null()) {
+    const auto corners = box.items();
+    if (corners.size() != 2) box.fail("expected two corners");
+    a.box.lo = read_vector(corners[0]);
+    a.box.hi = read_vector(corners[1]);
+    if (a.box.empty()) box.fail("the first corner is above the second");
+  }
+  for (const Place& item : place.at("parts").items()) {
+    item.object({"id", "name", "file"});
+    PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
+    if (p.id != a.parts.size())
+      item.at("id").fail(fmt::format("expected {}: parts are numbered in order", a.parts.size()));
+    if (!parts.insert(p.name).second) item.at("name").fail(fmt::format("there are two parts '{}'", p.name));
+    a.parts.push_back(std::move(p));
+  }
+  for (const Place& item : place.at("excluded").items()) {
+    item.object({"name", "reason"});
+    a.excluded.emplace_back(item.at("name").text(), item.at("reason").text());
+  }
+  for (const Place& item : place.at("overlaps").items()) {
+    item.object({"a", "b", "depth"});
+    PlanOverlap o{read_part(item.at("a"), parts), read_part(item.at("b"), parts), item.at("depth").number_from_zero()};
+    if (o.a == o.b) item.fail("a part cannot overlap itself");
+    a.overlaps.push_back(std::move(o));
+  }
+  if (place.has("repair")) {
+    const Place repair = place.at("repair");
+    repair.object({"weld", "repair", "max_hole"});
+    a.repair = {repair.at("weld").number_within(0, 0.01), repair.at("repair").truth(),
+                repair.at("max_hole").number_within(0, 1)};
+  }
+  return a;
+}
+
+std::vector<PlanMove> read_moves(const Place& place, const Names& parts) {
+  std::vector<PlanMove> out;
+  Names seen;
+  for (const Place& item : place.items()) {
+    item.object({"part", "poses"});
+    PlanMove m;
+    m.part = read_part(item.at("part"), parts);
+    if (!seen.insert(m.part).second) item.at("part").fail(fmt::format("part '{}' moves twice in one step", m.part));
+    const Place poses = item.at("poses");
+    const auto list = poses.items();
+    if (list.size() < 2) poses.fail("expected at least two poses");
+    if (!out.empty() && list.size() != out.front().poses.size())
+      poses.fail(fmt::format("{} poses, but {} in the first move of this step", list.size(), out.front().poses.size()));
+    m.poses.reserve(list.size());
+    for (const Place& pose : list) m.poses.push_back(read_pose(pose));
+    out.push_back(std::move(m));
+  }
+  if (out.empty()) place.fail("expected at least one move");
+  return out;
+}
+
+enum class StepKind { disassembly, assembly };
+
+PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Names& parts) {
+  // Assembly steps are judged as the reverse of the disassembly; other programs need not repeat its figures.
+  if (kind == StepKind::disassembly)
+    place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"},
+                 {"after", "layer"});
+  else
+    place.object({"step", "moves"},
+                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
+  PlanStep s;
+  s.step = place.at("step").small_count();
+  if (s.step != number) place.at("step").fail(fmt::format("expected {}: steps are numbered in order", number));
+  s.moves = read_moves(place.at("moves"), parts);
+  if (place.has("transfer")) {
+    s.transfer = place.at("transfer").small_count();
+    if (s.transfer >= s.moves.front().poses.size())
+      place.at("transfer")
+          .fail(fmt::format("expected less than {}, the number of poses", s.moves.front().poses.size()));
+  }
+  if (place.has("separates"))
+    for (const Place& group : place.at("separates").items()) {
+      s.separates.push_back(read_group(group, parts));
+      if (s.separates.back().empty()) group.fail("expected at least one part");
+    }
+  if (place.has("max_penetration")) s.max_penetration = place.at("max_penetration").number_from_zero();
+  if (place.has("seconds")) s.seconds = place.at("seconds").number_from_zero();
+  if (place.has("planner")) s.planner = place.at("planner").text();
+  if (place.has("depth")) s.depth = place.at("depth").small_count();
+  if (place.has("contacts")) s.contacts = read_group(place.at("contacts"), parts);
+  if (place.has("after"))
+    for (const Place& item : place.at("after").items()) {
+      s.after.push_back(item.small_count());
+      if (s.after.back() == 0 || s.after.back() >= number) item.fail("expected the number of an earlier step");
+    }
+  if (place.has("layer")) s.layer = place.at("layer").small_count();
+  return s;
+}
+
+std::vector<PlanStep> read_steps(const Place& place, StepKind kind, const Names& parts) {
+  std::vector<PlanStep> out;
+  for (const Place& item : place.items())
+    out.push_back(read_step(item, static_cast<unsigned>(out.size() + 1), kind, parts));
+  return out;
+}
+
+PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
+  place.object({"part", "outcome", "blocked_by", "best_pose", "message"});
+  PlanUnsolved u;
+  u.part = read_part(place.at("part"), parts);
+  const std::string outcome = place.at("outcome").text();
+  const auto known = outcome_from_string(outcome);
+  if (!known) place.at("outcome").fail(fmt::format("unknown outcome '{}'", outcome));
+  u.outcome = *known;
+  u.blocked_by = read_group(place.at("blocked_by"), parts);
+  u.best_pose = read_pose(place.at("best_pose"));
+  u.message = place.at("message").text();
+  return u;
+}
+
+AssemblyStatus read_assembly_status(const Place& place) {
+  const std::string text = place.text();
+  for (const auto s : {AssemblyStatus::complete, AssemblyStatus::partial, AssemblyStatus::reversed})
+    if (text == to_string(s)) return s;
+  place.fail("expected \"complete\", \"partial\" or \"reversed\"");
+}
+
+/// Parses; a key that stands twice in one object is an error, since the library would keep the last silently.
+Json parse(const std::string& text, const std::string& source) {
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
+      throw InputError(source, fmt::format("the key '{}' stands twice in one object", parsed.get<std::string>()));
+    return true;
+  };
+  try {
+    return Json::parse(text, watch);
+  } catch (const Json::exception& e) {
+    std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
+    if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
+    throw InputError(source, "not valid JSON: " + what);
+  }
+}
+
+}  // namespace
+
+Plan plan_from_json(const std::string& text, const std::string& source) {
+  const Json json = parse(text, source);
+  const Place root(json, source, "");
+  if (!json.is_object()) root.fail("expected an object");
+  if (!json.contains("format") || json["format"] != "dismantle.plan")
+    throw InputError(source, "not a plan: expected \"format\": \"dismantle.plan\"");
+  if (!json.contains("version")) root.fail("'version' is missing");
+  if (const auto version = root.at("version").count(); version != 1)
+    root.at("version").fail(fmt::format("this program reads version 1 of the plan format, not {}", version));
+  root.object({"format", "version", "generator", "assembly", "status", "seed", "verified_max_penetration",
+               "disassembly", "assembly_steps", "remaining", "unsolved"},
+              {"assembly_status", "assembly_message"});
+
+  Plan plan;
+  Names parts;
+  const Place generator = root.at("generator");
+  generator.object({"name", "version"});
+  plan.generator_name = generator.at("name").text();
+  plan.generator_version = generator.at("version").text();
+  plan.assembly = read_assembly(root.at("assembly"), parts);
+  const std::string status = root.at("status").text();
+  if (status != "complete" && status != "partial") root.at("status").fail("expected \"complete\" or \"partial\"");
+  plan.status = status == "complete" ? PlanStatus::complete : PlanStatus::partial;
+  plan.seed = root.at("seed").count();
+  plan.verified_max_penetration = root.at("verified_max_penetration").positive();
+  plan.disassembly = read_steps(root.at("disassembly"), StepKind::disassembly, parts);
+  plan.assembly_steps = read_steps(root.at("assembly_steps"), StepKind::assembly, parts);
+  if (root.has("assembly_status")) plan.assembly_status = read_assembly_status(root.at("assembly_status"));
+  if (root.has("assembly_message")) plan.assembly_message = root.at("assembly_message").text();
+  plan.remaining = read_group(root.at("remaining"), parts);
+  for (const Place& item : root.at("unsolved").items()) plan.unsolved.push_back(read_unsolved(item, parts));
+  return plan;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,120 @@
+// Plan -> plan.json (DESIGN section 7, docs/plan-format.md).
+#include "dismantle/plan.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "json/json_text.h"
+
+namespace dismantle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector_json(const Eigen::Vector3d& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json pose_json(const Pose& p, double sign) {
+  return Json::array({p.t.x(), p.t.y(), p.t.z(), sign * p.q.w(), sign * p.q.x(), sign * p.q.y(), sign * p.q.z()});
+}
+
+/// +1 or -1: makes the first of w, x, y, z that is not zero positive.
+double canonical_sign(const Eigen::Quaterniond& q) {
+  for (const double c : {q.w(), q.x(), q.y(), q.z()})
+    if (c != 0) return c < 0 ? -1 : 1;
+  return 1;
+}
+
+/// q and -q are one rotation. The first pose gets the canonical sign and each of the others that of its
+/// predecessor, so that a reader who interpolates the numbers never turns the long way round.
+Json poses_json(const std::vector<Pose>& poses) {
+  Json out = Json::array();
+  Eigen::Vector4d before = Eigen::Vector4d::Zero();
+  for (const Pose& p : poses) {
+    double sign = canonical_sign(p.q);
+    if (!out.empty() && before.dot(p.q.coeffs()) != 0) sign = before.dot(p.q.coeffs()) < 0 ? -1 : 1;
+    before = sign * p.q.coeffs();
+    out.push_back(pose_json(p, sign));
+  }
+  return out;
+}
+
+Json step_json(const PlanStep& s, bool assembly) {
+  Json moves = Json::array();
+  for (const PlanMove& m : s.moves) moves.push_back({{"part", m.part}, {"poses", poses_json(m.poses)}});
+  Json out = {{"step", s.step}, {"moves", std::move(moves)}};
+  if (assembly) out["transfer"] = s.transfer;
+  out["separates"] = s.separates;
+  out["max_penetration"] = s.max_penetration;
+  out["seconds"] = s.seconds;
+  out["planner"] = s.planner;
+  out["depth"] = s.depth;
+  out["contacts"] = s.contacts;
+  if (!assembly) {
+    out["after"] = s.after;
+    out["layer"] = s.layer;
+  }
+  return out;
+}
+
+Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
+  Json out = Json::array();
+  for (const PlanStep& s : steps) out.push_back(step_json(s, assembly));
+  return out;
+}
+
+Json assembly_json(const PlanAssembly& a) {
+  Json parts = Json::array(), excluded = Json::array(), overlaps = Json::array();
+  for (const PlanPart& p : a.parts) parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
+  for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
+  for (const PlanOverlap& o : a.overlaps) overlaps.push_back({{"a", o.a}, {"b", o.b}, {"depth", o.depth}});
+  Json out;
+  out["source"] = a.source;
+  out["sha256"] = a.sha256;
+  out["scale"] = a.scale;
+  out["center"] = vector_json(a.center);
+  out["bbox"] = a.box.empty() ? Json(nullptr) : Json::array({vector_json(a.box.lo), vector_json(a.box.hi)});
+  out["parts"] = std::move(parts);
+  out["excluded"] = std::move(excluded);
+  out["overlaps"] = std::move(overlaps);
+  if (a.repair != SurfaceRepair{})
+    out["repair"] = {{"weld", a.repair.weld}, {"repair", a.repair.repair}, {"max_hole", a.repair.max_hole}};
+  return out;
+}
+
+}  // namespace
+
+std::string_view to_string(AssemblyStatus status) {
+  switch (status) {
+    case AssemblyStatus::complete:
+      return "complete";
+    case AssemblyStatus::partial:
+      return "partial";
+    case AssemblyStatus::reversed:
+      return "reversed";
+  }
+  return "reversed";
+}
+
+std::string to_json(const Plan& plan) {
+  Json unsolved = Json::array();
+  for (const PlanUnsolved& u : plan.unsolved)
+    unsolved.push_back({{"part", u.part},
+                        {"outcome", std::string(to_string(u.outcome))},
+                        {"blocked_by", u.blocked_by},
+                        {"best_pose", pose_json(u.best_pose, canonical_sign(u.best_pose.q))},
+                        {"message", u.message}});
+  Json out;
+  out["format"] = "dismantle.plan";
+  out["version"] = 1;
+  out["generator"] = {{"name", plan.generator_name}, {"version", plan.generator_version}};
+  out["assembly"] = assembly_json(plan.assembly);
+  out["status"] = plan.status == PlanStatus::complete ? "complete" : "partial";
+  out["seed"] = plan.seed;
+  out["verified_max_penetration"] = plan.verified_max_penetration;
+  out["disassembly"] = steps_json(plan.disassembly, false);
+  out["assembly_steps"] = steps_json(plan.assembly_steps, true);
+  out["assembly_status"] = std::string(to_string(plan.assembly_status));
+  out["assembly_message"] = plan.assembly_message;
+  out["remaining"] = plan.remaining;
+  out["unsolved"] = std::move(unsolved);
+  return json_text(out) + "\n";
+}
+
+}  // namespace dismantle

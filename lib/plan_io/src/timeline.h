@@ -1,0 +1,41 @@
+/// When each part of a plan is where: the plan's steps laid out in time.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dismantle/pose.h"
+#include "dismantle/assembly.h"
+#include "dismantle/plan.h"
+
+namespace dismantle {
+
+struct Key {
+  float time = 0;  ///< s
+  Pose pose;       ///< input units; quaternions of consecutive keys lie on one hemisphere
+};
+
+struct Track {
+  PartId part = 0;
+  std::vector<Key> keys;  ///< times strictly increase
+};
+
+struct StepTime {
+  unsigned step = 0;
+  float begin = 0, end = 0;  ///< s
+  std::vector<PartId> parts;
+};
+
+struct Timeline {
+  std::vector<Track> tracks;
+  std::vector<StepTime> steps;
+};
+
+/// One track per part that moves, in part order. Steps follow each other with short pauses; within a step the
+/// fastest part moves at constant speed, and the longer its way the longer the step (1 to 3 s). Every track
+/// ends at the same time, 1 s after the last motion, so that a looping viewer rests on the result.
+/// A part that moves later is at the first of its keys from the beginning.
+/// @throws InputError when the plan names a part that the assembly does not have.
+Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly);
+
+}  // namespace dismantle

@@ -1,0 +1,66 @@
+/// What is wrong with an assembly before anyone plans.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/export.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+
+enum class FindingKind {
+  unusable,   ///< the part cannot be planned with: not closed, no volume, unreadable numbers
+  repaired,   ///< its surface had to be changed
+  suspect,    ///< its surface is kept as it is, though something is wrong with it
+  duplicate,  ///< same geometry and place as another part
+  overlap,    ///< two parts penetrate each other when assembled
+  enclosed,   ///< a part lies inside the solid material of another
+  isolated,   ///< it touches no other part
+};
+
+enum class Severity {
+  note,     ///< nothing to do
+  warning,  ///< planning works, but its result may mislead
+  error,    ///< a part is missing from the plan, or a pair hides a collision
+};
+
+struct Finding {
+  FindingKind kind = FindingKind::unusable;
+  Severity severity = Severity::error;
+  std::vector<std::string> parts;     ///< one or two names
+  std::string message;                ///< what is wrong, one sentence
+  std::string advice;                 ///< what to do next
+  std::optional<double> depth;        ///< overlap, input units
+  std::optional<Eigen::Vector3d> at;  ///< where, input coordinates
+};
+
+struct AssemblyCheck {
+  std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
+  std::size_t parts = 0;          ///< in the input
+  std::size_t usable = 0;
+  std::size_t count(Severity severity) const;
+};
+
+/// `report`: of the preparation that made `assembly`. An overlap that is deeper than a hundredth of the assembly's size
+/// (0.1 of the 10 assembly units), or through which a part lies wholly inside another, is an error: its allowance would
+/// hide collisions. Depths are exact to `tolerance` (assembly units, > 0). Deterministic on any number of threads.
+/// @throws Error when `context` wants to stop.
+DISMANTLE_API AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& report, double tolerance,
+                                           const RunContext& context);
+/// What the report alone tells: for an input of which no assembly could be made.
+DISMANTLE_API AssemblyCheck check_parts(const PrepareReport& report);
+
+DISMANTLE_API std::string_view to_string(FindingKind kind);
+DISMANTLE_API std::string_view to_string(Severity severity);
+/// For a terminal; UTF-8, ends with a line break.
+DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);
+/// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
+/// "advice", "depth", "at"}]}; the last two only where there is such a thing.
+DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
+
+}  // namespace dismantle

@@ -1,0 +1,54 @@
+/// From raw parts to an assembly (DESIGN section 6, appendix B.1).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/importer.h"
+#include "dismantle/assembly.h"
+#include "dismantle/parameters.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+
+/// The `assembly:` section of a configuration. Each step of appendix B.1 is a parameter.
+struct PrepareOptions {
+  double weld = 1e-6;             ///< relative to the part's box diagonal
+  bool repair = true;             ///< orient, close T-junctions and small holes, drop inner walls
+  double max_hole = 0.1;          ///< largest hole that is closed, share of the part's surface area
+  bool drop_duplicates = true;    ///< step 3
+  double max_overlap = 1.0;       ///< step 4: drop a part that overlaps others by more than this share of its volume; 1 = never
+  double min_thickness = 0.0;     ///< step 5: drop parts thinner than this share of the assembly; 0 = never
+  bool largest_connected = false; ///< step 6
+  bool normalize = true;          ///< step 7
+  double size = 10.0;             ///< step 7: largest edge of the bounding box, assembly units
+  double subdivide = 0.5;         ///< step 9: longest edge, assembly units; 0 = off
+  std::int64_t max_triangles = 5'000'000;  ///< refuse larger assemblies with a clear message
+  DISMANTLE_API static void describe(Schema<PrepareOptions>& s);
+};
+
+/// What was done to one part, in order.
+struct PartReport {
+  std::string name;
+  std::string file;
+  bool kept = true;
+  std::vector<std::string> actions;   ///< plain sentences with figures: "welded 3024 vertices to 506"
+  std::string reason;                 ///< not kept: why
+  std::size_t vertices = 0, triangles = 0, shells = 0;
+  bool watertight = false;
+  double volume = 0;  ///< input units cubed
+};
+
+struct PrepareReport {
+  std::vector<PartReport> parts;           ///< all that came in, in order
+  std::vector<std::string> warnings;       ///< about the assembly as a whole
+};
+
+/// Deterministic on any number of threads. `source` and `sha256` are copied into the assembly (see read_input.h).
+/// @throws InputError when fewer than two usable parts are left, naming what was wrong with each.
+/// @throws Error when `context` wants to stop; then see context.cancel and context.deadline.
+DISMANTLE_API Assembly prepare_assembly(std::vector<RawPart> raw, const std::string& source, const std::string& sha256,
+                                        const PrepareOptions& options, RunContext& context, PrepareReport& report);
+
+}  // namespace dismantle

@@ -1,0 +1,80 @@
+#include "dismantle/preparation/assembly_of_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "dismantle/errors.h"
+#include "dismantle/preparation/prepare.h"
+
+namespace dismantle {
+namespace {
+
+void check_same_files(const Plan& plan, const InputParts& input, const std::string& source) {
+  if (input.sha256 == plan.assembly.sha256) return;
+  throw InputError(
+      source, fmt::format("these are not the files that the plan was made for: their SHA-256 is {}, the plan says {}",
+                          input.sha256, plan.assembly.sha256));
+}
+
+/// Leaves in `parts` those of the plan.
+void keep_parts_of(const Plan& plan, std::vector<RawPart>& parts, const std::string& source) {
+  std::set<std::string> planned, excluded, found;
+  for (const auto& part : plan.assembly.parts) planned.insert(part.name);
+  for (const auto& part : plan.assembly.excluded) excluded.insert(part.first);
+  for (const auto& part : parts) {
+    found.insert(part.name);
+    if (!planned.contains(part.name) && !excluded.contains(part.name))
+      throw InputError(source, fmt::format("the plan neither moves nor leaves out part '{}'", part.name));
+  }
+  for (const auto& name : planned)
+    if (!found.contains(name)) throw InputError(source, fmt::format("has no part '{}', which the plan is about", name));
+  std::erase_if(parts, [&](const RawPart& part) { return !planned.contains(part.name); });
+}
+
+std::shared_ptr<const Mesh> moved(const Mesh& mesh, const Normalization& from, const Normalization& to) {
+  Mesh out = mesh;
+  for (auto& v : out.vertices) v = to.to_internal(from.to_input(v));
+  return std::make_shared<const Mesh>(std::move(out));
+}
+
+/// Same parts in other units.
+void set_normalization(Assembly& assembly, const Normalization& to) {
+  const Normalization from = assembly.normalization;
+  if (from.scale == to.scale && from.center == to.center) return;
+  const double factor = to.scale / from.scale;
+  for (auto& part : assembly.parts) {
+    const bool shared = part.surface == part.mesh;
+    part.mesh = moved(*part.mesh, from, to);
+    if (part.surface) part.surface = shared ? part.mesh : moved(*part.surface, from, to);
+    part.volume *= factor * factor * factor;
+  }
+  for (auto& overlap : assembly.overlaps) overlap.depth *= factor;
+  assembly.normalization = to;
+}
+
+}  // namespace
+
+Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string& source, RunContext& context) {
+  check_same_files(plan, input, source);
+  keep_parts_of(plan, input.parts, source);
+  PrepareOptions options;
+  options.weld = plan.assembly.repair.weld;
+  options.repair = plan.assembly.repair.repair;
+  options.max_hole = plan.assembly.repair.max_hole;
+  options.drop_duplicates = false;  // the plan says which parts stay
+  options.subdivide = 0;
+  options.max_triangles = std::numeric_limits<std::int64_t>::max();
+  PrepareReport report;
+  Assembly assembly = prepare_assembly(std::move(input.parts), source, input.sha256, options, context, report);
+  for (const auto& part : report.parts)
+    if (!part.kept)
+      throw InputError(source,
+                       fmt::format("part '{}', which the plan is about, cannot be used: {}", part.name, part.reason));
+  set_normalization(assembly, {plan.assembly.scale, plan.assembly.center});
+  return assembly;
+}
+
+}  // namespace dismantle

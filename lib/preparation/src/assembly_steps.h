@@ -1,0 +1,40 @@
+/// Steps 3 to 6 of appendix B.1: which parts stay. Input units.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/mesh.h"
+#include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+
+/// A part on its way: repaired surface and where its report is.
+struct Candidate {
+  std::string name;
+  std::string file;
+  std::size_t report = 0;  ///< index in PrepareReport::parts
+  Mesh mesh;
+  Aabb box;
+  double volume = 0;
+};
+
+/// Removes `candidates[i]` from the assembly and writes the reason down.
+using Dropped = std::vector<std::pair<std::size_t, std::string>>;  ///< (index, reason), ascending
+
+Dropped find_duplicates(const std::vector<Candidate>& candidates, const RunContext& context);
+Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_share, const RunContext& context);
+Dropped find_thin(const std::vector<Candidate>& candidates, double min_thickness, const RunContext& context);
+
+/// Groups of parts whose convex hulls are no further apart than `gap`, the largest first (then by first part).
+std::vector<std::vector<std::size_t>> connected_groups(const std::vector<Candidate>& candidates, double gap,
+                                                       const RunContext& context);
+
+Aabb box_of(const std::vector<Candidate>& candidates);
+
+}  // namespace dismantle

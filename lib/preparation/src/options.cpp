@@ -1,0 +1,60 @@
+#include "dismantle/preparation/prepare.h"
+
+namespace dismantle {
+
+void PrepareOptions::describe(Schema<PrepareOptions>& s) {
+  s.add("weld", &PrepareOptions::weld,
+        {.unit = "1",
+         .min = 0.0,
+         .max = 0.01,
+         .doc = "Vertices on open edges closer than this are one, relative to the diagonal of the part's box; equal "
+                "positions always are. Closed surfaces are never touched. (Appendix B.1, step 2.)"});
+  s.add("repair", &PrepareOptions::repair,
+        {.unit = "1",
+         .doc = "Close T-junctions and small flat holes and drop inner walls of parts that are not watertight, before "
+                "giving them up. The paper drops them at once (step 2)."});
+  s.add("max_hole", &PrepareOptions::max_hole,
+        {.unit = "1",
+         .min = 0.0,
+         .max = 1.0,
+         .doc = "Largest hole that repair closes, as a share of the part's surface area."});
+  s.add("drop_duplicates", &PrepareOptions::drop_duplicates,
+        {.unit = "1", .doc = "Drop a part that has the geometry and the place of an earlier one (step 3)."});
+  s.add("max_overlap", &PrepareOptions::max_overlap,
+        {.unit = "1",
+         .min = 0.0,
+         .max = 1.0,
+         .doc = "Drop parts that lie inside others with more than this share of their volume, the worst first (step 4; "
+                "the paper: 0.1). 1 = keep all."});
+  s.add("min_thickness", &PrepareOptions::min_thickness,
+        {.unit = "1",
+         .min = 0.0,
+         .max = 1.0,
+         .max_open = true,
+         .doc = "Drop parts whose oriented box is thinner than this share of the longest edge of the assembly's box "
+                "(step 5; the paper: 0.01). 0 = keep all."});
+  s.add(
+      "largest_connected", &PrepareOptions::largest_connected,
+      {.unit = "1",
+       .doc = "Keep only the largest set of parts whose convex hulls meet (step 6). Off: floating parts are named in a "
+              "warning."});
+  s.add("normalize", &PrepareOptions::normalize,
+        {.unit = "1",
+         .doc = "Scale and centre the assembly (step 7). Off: assembly units are the input's own, and all tolerances "
+                "count in them."});
+  s.add("size", &PrepareOptions::size,
+        {.unit = "unit",
+         .min = 0.0,
+         .min_open = true,
+         .doc = "Longest edge of the assembly's box after scaling (step 7). Other defaults are made for 10."});
+  s.add("subdivide", &PrepareOptions::subdivide,
+        {.unit = "unit",
+         .min = 0.0,
+         .doc = "Longest edge of the surface that contact points are taken from (step 9). 0 = as it is."});
+  s.add("max_triangles", &PrepareOptions::max_triangles,
+        {.unit = "1",
+         .min = 1.0,
+         .doc = "Refuse assemblies with more triangles than this, and subdivisions that would make more."});
+}
+
+}  // namespace dismantle

@@ -1,0 +1,255 @@
+#include "dismantle/preparation/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly_steps.h"
+#include "dismantle/errors.h"
+#include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/mesh_subdivide.h"
+#include "dismantle/preparation/read_input.h"
+#include "dismantle/verification/verifier.h"
+#include "parallel_phase.h"
+#include "repair_part.h"
+
+namespace dismantle {
+namespace {
+
+// Initial overlaps are measured to a hundredth of the smallest tolerance that plans are asked to hold (0.01), and not
+// recorded below twice that: such depths are rounding of coordinates, and the tolerance has room for them.
+constexpr double kOverlapTolerance = 1e-4;
+constexpr double kOverlapRecorded = 2e-4;
+constexpr double kFloatingGap = 0.01;  // share of the assembly: hulls closer than this count as connected in warnings
+
+class Preparation {
+ public:
+  Preparation(const PrepareOptions& options, RunContext& context, PrepareReport& report)
+      : options_(options), context_(context), report_(report) {}
+
+  Assembly run(std::vector<RawPart> raw, const std::string& source, const std::string& sha256) {
+    assembly_.source = source;
+    assembly_.sha256 = sha256;
+    assembly_.repair = {options_.weld, options_.repair, options_.max_hole};
+    check_size(raw);
+    make_names_unique(raw, report_.warnings);
+    clean(raw);
+    if (options_.drop_duplicates) drop(find_duplicates(parts_, context_));
+    if (options_.max_overlap < 1) drop(find_overlapping(parts_, options_.max_overlap, context_));
+    if (options_.min_thickness > 0) drop(find_thin(parts_, options_.min_thickness, context_));
+    connect();
+    if (parts_.size() < 2) refuse();
+    normalize();
+    subdivide_parts();
+    measure_overlaps();
+    for (const auto& part : report_.parts)
+      if (!part.kept) assembly_.excluded.push_back({part.name, part.reason});
+    for (const auto& warning : report_.warnings) context_.log(LogLevel::warning, warning);
+    return std::move(assembly_);
+  }
+
+ private:
+  void check_size(const std::vector<RawPart>& raw) const {
+    std::uint64_t triangles = 0;
+    for (const auto& part : raw) triangles += part.mesh.triangles.size();
+    if (triangles > static_cast<std::uint64_t>(options_.max_triangles))
+      throw InputError(assembly_.source,
+                       fmt::format("{} triangles are more than the limit of {} (assembly.max_triangles): "
+                                   "simplify the meshes or raise the limit",
+                                   triangles, options_.max_triangles));
+  }
+
+  void clean(std::vector<RawPart>& raw) {
+    report_.parts.assign(raw.size(), {});
+    parallel_phase(
+        raw.size(), context_, "prepare",
+        [&](std::size_t i) {
+          report_.parts[i].name = raw[i].name;
+          report_.parts[i].file = raw[i].file;
+          repair_part(raw[i].mesh, options_, report_.parts[i]);
+        },
+        [&](std::size_t i) { return raw[i].name; });
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      PartReport& report = report_.parts[i];
+      for (const auto& action : report.actions)
+        if (action.starts_with("warning: "))
+          report_.warnings.push_back(fmt::format("part '{}': {}", report.name, action.substr(9)));
+      if (!report.kept) {
+        report_.warnings.push_back(fmt::format("part '{}' is left out: {}", report.name, report.reason));
+        continue;
+      }
+      Candidate c;
+      c.name = report.name;
+      c.file = report.file;
+      c.report = i;
+      c.mesh = std::move(raw[i].mesh);
+      c.box = c.mesh.box();
+      c.volume = report.volume;
+      warn_precision(c);
+      parts_.push_back(std::move(c));
+    }
+  }
+
+  /// Far from the origin, neighbouring coordinates are further apart than the part's own detail.
+  void warn_precision(const Candidate& c) {
+    const double size = c.box.size().norm();
+    const double magnitude = std::max(c.box.lo.cwiseAbs().maxCoeff(), c.box.hi.cwiseAbs().maxCoeff());
+    if (magnitude * 2.2e-16 > 1e-8 * size)
+      report_.warnings.push_back(
+          fmt::format("part '{}' of size {:.3g} lies at coordinates around {:.3g}: only {:.0f} digits of its shape are "
+                      "left; move the assembly to the origin",
+                      c.name, size, magnitude, std::max(0.0, std::floor(-std::log10(magnitude * 2.2e-16 / size)))));
+  }
+
+  void drop(const Dropped& dropped) {
+    if (dropped.empty()) return;
+    for (const auto& [i, reason] : dropped) {
+      PartReport& report = report_.parts[parts_[i].report];
+      report.kept = false;
+      report.reason = reason;
+      report_.warnings.push_back(fmt::format("part '{}' is left out: {}", report.name, reason));
+    }
+    std::size_t next = 0, kept = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (next < dropped.size() && dropped[next].first == i)
+        ++next;
+      else if (kept++ != i)
+        parts_[kept - 1] = std::move(parts_[i]);
+    }
+    parts_.resize(kept);
+  }
+
+  void connect() {
+    if (parts_.size() < 2) return;
+    if (options_.largest_connected) {
+      const auto groups = connected_groups(parts_, 0, context_);
+      Dropped dropped;
+      for (std::size_t g = 1; g < groups.size(); ++g)
+        for (const auto i : groups[g])
+          dropped.emplace_back(i, fmt::format("its convex hull meets none of the largest connected set of {} parts "
+                                              "(assembly.largest_connected)",
+                                              groups[0].size()));
+      std::sort(dropped.begin(), dropped.end());
+      drop(dropped);
+      return;
+    }
+    const auto groups = connected_groups(parts_, kFloatingGap * box_of(parts_).size().maxCoeff(), context_);
+    for (std::size_t g = 1; g < groups.size(); ++g) {
+      std::string names;
+      for (std::size_t k = 0; k < std::min<std::size_t>(groups[g].size(), 5); ++k)
+        names += fmt::format("{}'{}'", k ? ", " : "", parts_[groups[g][k]].name);
+      if (groups[g].size() > 5) names += fmt::format(" and {} more", groups[g].size() - 5);
+      report_.warnings.push_back(fmt::format("{} {} apart from the rest, by more than 1 % of the assembly", names,
+                                             groups[g].size() == 1 ? "floats" : "float"));
+    }
+  }
+
+  [[noreturn]] void refuse() const {
+    std::string text = report_.parts.empty()
+                           ? "there are no parts"
+                           : fmt::format("{} of {} part{} can be used; an assembly needs at least two", parts_.size(),
+                                         report_.parts.size(), report_.parts.size() == 1 ? "" : "s");
+    std::size_t listed = 0;
+    for (const auto& part : report_.parts) {
+      if (part.kept) continue;
+      if (++listed > 50) {
+        text += "\n  ...";
+        break;
+      }
+      text += fmt::format("\n  {}: {}", part.name, part.reason);
+    }
+    throw InputError(assembly_.source, text);
+  }
+
+  void normalize() {
+    assembly_.input_box = box_of(parts_);
+    if (options_.normalize) {
+      assembly_.normalization.center = assembly_.input_box.center();
+      assembly_.normalization.scale = options_.size / assembly_.input_box.size().maxCoeff();
+    }
+    std::string small;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      Mesh& mesh = parts_[i].mesh;
+      for (auto& v : mesh.vertices) v = assembly_.normalization.to_internal(v);
+      Part part;
+      part.id = static_cast<PartId>(i);
+      part.name = parts_[i].name;
+      part.file = parts_[i].file;
+      part.volume = signed_volume(mesh);
+      if (mesh.box().size().maxCoeff() < 0.002 * options_.size && count++ < 5)
+        small += fmt::format("{}'{}' ({:.2g})", small.empty() ? "" : ", ", part.name, mesh.box().size().maxCoeff());
+      part.mesh = std::make_shared<const Mesh>(std::move(mesh));
+      assembly_.parts.push_back(std::move(part));
+    }
+    if (count && options_.normalize)
+      report_.warnings.push_back(
+          fmt::format("{} part{} smaller than 0.2 % of the assembly, no larger than the tolerances of planning: {}{}",
+                      count, count == 1 ? " is" : "s are", small, count > 5 ? "..." : ""));
+  }
+
+  void subdivide_parts() {
+    parallel_phase(
+        assembly_.parts.size(), context_, "subdivide",
+        [&](std::size_t i) {
+          Part& part = assembly_.parts[i];
+          part.surface = part.mesh;
+          if (options_.subdivide <= 0 || longest_edge(*part.mesh) <= options_.subdivide) return;
+          part.surface = std::make_shared<const Mesh>(
+              subdivide(*part.mesh, options_.subdivide, static_cast<std::size_t>(options_.max_triangles)));
+        },
+        [&](std::size_t i) { return assembly_.parts[i].name; });
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = assembly_.parts[i];
+      if (part.surface != part.mesh)
+        report_.parts[parts_[i].report].actions.push_back(
+            fmt::format("subdivided {} triangles to {} for contact points, no edge longer than {:g}",
+                        part.mesh->triangles.size(), part.surface->triangles.size(), options_.subdivide));
+    }
+  }
+
+  void measure_overlaps() {
+    std::vector<InitialOverlap> pairs;
+    std::vector<Aabb> boxes;
+    for (const auto& part : assembly_.parts) boxes.push_back(part.mesh->box());
+    for (PartId a = 0; a < boxes.size(); ++a)
+      for (PartId b = a + 1; b < boxes.size(); ++b)
+        if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
+    const auto& parts = assembly_.parts;
+    parallel_phase(
+        pairs.size(), context_, "overlaps",
+        [&](std::size_t i) {
+          pairs[i].depth =
+              penetration_depth(*parts[pairs[i].a].mesh, Pose{}, *parts[pairs[i].b].mesh, Pose{}, kOverlapTolerance);
+        },
+        [&](std::size_t i) { return parts[pairs[i].a].name + " / " + parts[pairs[i].b].name; });
+    const InitialOverlap* deepest = nullptr;
+    for (const auto& pair : pairs) {
+      if (!(pair.depth > kOverlapRecorded)) continue;
+      assembly_.overlaps.push_back(pair);
+      if (!deepest || pair.depth > deepest->depth) deepest = &pair;
+    }
+    if (deepest)
+      report_.warnings.push_back(
+          fmt::format("{} pair{} of parts overlap when assembled, by up to {:.4f} assembly units ('{}' and '{}')",
+                      assembly_.overlaps.size(), assembly_.overlaps.size() == 1 ? "" : "s", deepest->depth,
+                      parts[deepest->a].name, parts[deepest->b].name));
+  }
+
+  const PrepareOptions& options_;
+  RunContext& context_;
+  PrepareReport& report_;
+  std::vector<Candidate> parts_;
+  Assembly assembly_;
+};
+
+}  // namespace
+
+Assembly prepare_assembly(std::vector<RawPart> raw, const std::string& source, const std::string& sha256,
+                          const PrepareOptions& options, RunContext& context, PrepareReport& report) {
+  report = {};
+  return Preparation(options, context, report).run(std::move(raw), source, sha256);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,114 @@
+// Laws of `dismantle check`: what is there is found, at its place and with its depth; what is not is not reported.
+#include "dismantle/preparation/check_assembly.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "dismantle/errors.h"
+#include "dismantle/testing/fake_planning.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kTolerance = 1e-4;
+
+RawPart raw_box(const std::string& name, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
+  return {name, name + ".obj", fake::boxes({{lo, hi}})};
+}
+
+AssemblyCheck checked(std::vector<RawPart> parts, const PrepareOptions& options = {}) {
+  RunContext context;
+  PrepareReport report;
+  const Assembly assembly = prepare_assembly(std::move(parts), "test", "", options, context, report);
+  return check_assembly(assembly, report, kTolerance, context);
+}
+
+std::vector<Finding> of_kind(const AssemblyCheck& check, FindingKind kind) {
+  std::vector<Finding> found;
+  std::copy_if(check.findings.begin(), check.findings.end(), std::back_inserter(found),
+               [kind](const Finding& f) { return f.kind == kind; });
+  return found;
+}
+
+TEST(CheckAssembly, BoxesThatTouchHaveNoFindings) {
+  const AssemblyCheck check = checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10})});
+  EXPECT_TRUE(check.findings.empty()) << findings_text(check, "test");
+  EXPECT_EQ(check.parts, 2u);
+  EXPECT_EQ(check.usable, 2u);
+}
+
+TEST(CheckAssembly, OverlapOfBoxesIsMeasuredAndPlaced) {
+  Rng rng(7);
+  for (int trial = 0; trial < 12; ++trial) {
+    const double depth = rng.uniform(0.05, 2), size = rng.uniform(5, 40);
+    const Eigen::Vector3d shift(rng.uniform(-50, 50), rng.uniform(-50, 50), rng.uniform(-50, 50));
+    const Eigen::Vector3d one = size * Eigen::Vector3d::Ones();
+    const AssemblyCheck check =
+        checked({raw_box("a", shift, shift + one),
+                 raw_box("b", shift + Eigen::Vector3d(size - depth, 0, 0), shift + one + Eigen::Vector3d(size, 0, 0))});
+    const auto overlaps = of_kind(check, FindingKind::overlap);
+    ASSERT_EQ(overlaps.size(), 1u) << "depth " << depth << " size " << size;
+    EXPECT_NEAR(*overlaps[0].depth, depth, 0.01 * depth + 1e-4 * size);
+    const Eigen::Vector3d at = *overlaps[0].at - shift;
+    EXPECT_GE(at.x(), size - depth - 1e-6 * size);
+    EXPECT_LE(at.x(), size + 1e-6 * size);
+    const bool deep = depth > 0.01 * (2 * size);
+    EXPECT_EQ(overlaps[0].severity, deep ? Severity::error : Severity::warning) << "depth " << depth << " size " << size;
+  }
+}
+
+TEST(CheckAssembly, PartInsideSolidIsEnclosed) {
+  const AssemblyCheck check = checked(
+      {raw_box("block", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12}),
+       raw_box("foot", {0, 0, -5}, {20, 20, 0})});
+  const auto enclosed = of_kind(check, FindingKind::enclosed);
+  ASSERT_EQ(enclosed.size(), 1u);
+  EXPECT_EQ(enclosed[0].parts, (std::vector<std::string>{"pin", "block"}));
+  EXPECT_EQ(enclosed[0].severity, Severity::error);
+  EXPECT_TRUE(of_kind(check, FindingKind::overlap).empty());
+}
+
+TEST(CheckAssembly, DuplicatesAndOpenMeshesAreNamed) {
+  RawPart open = raw_box("open", {0, 20, 0}, {10, 30, 10});
+  open.mesh.triangles.resize(open.mesh.triangles.size() - 5);
+  PrepareOptions options;
+  options.repair = false;
+  const AssemblyCheck check =
+      checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10}),
+               raw_box("copy of b", {10, 0, 0}, {20, 10, 10}), open},
+              options);
+  const auto duplicates = of_kind(check, FindingKind::duplicate), unusable = of_kind(check, FindingKind::unusable);
+  ASSERT_EQ(duplicates.size(), 1u);
+  EXPECT_EQ(duplicates[0].parts.front(), "copy of b");
+  ASSERT_EQ(unusable.size(), 1u);
+  EXPECT_EQ(unusable[0].parts.front(), "open");
+  EXPECT_EQ(check.findings.front().severity, Severity::error);
+}
+
+TEST(CheckAssembly, PartAwayFromTheOthersIsIsolatedAndOthersAreNot) {
+  Rng rng(11);
+  for (int trial = 0; trial < 20; ++trial) {
+    const double gap = rng.uniform(0.5, 30);
+    const AssemblyCheck check =
+        checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {2, 2, 10}, {8, 8, 20}),
+                 raw_box("far", {10 + gap, 0, 0}, {20 + gap, 10, 10})});
+    const auto isolated = of_kind(check, FindingKind::isolated);
+    ASSERT_EQ(isolated.size(), 1u) << "gap " << gap;
+    EXPECT_EQ(isolated[0].parts.front(), "far");
+  }
+}
+
+TEST(CheckAssembly, JsonHoldsEveryFinding) {
+  const AssemblyCheck check = checked(
+      {raw_box("block \"x\" </script>", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12})});
+  const auto json = nlohmann::json::parse(findings_json(check));
+  EXPECT_EQ(json["findings"].size(), check.findings.size());
+  EXPECT_EQ(json["errors"], check.count(Severity::error));
+  EXPECT_EQ(json["findings"][0]["parts"][1], "block \"x\" </script>");
+  EXPECT_GT(json["findings"][0]["depth"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace dismantle

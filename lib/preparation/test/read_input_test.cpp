@@ -1,0 +1,175 @@
+#include "dismantle/preparation/read_input.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "dismantle/testing/mesh_damage.h"
+
+namespace dismantle {
+namespace {
+
+using namespace shapes;
+namespace fs = std::filesystem;
+
+/// Reads ".box" files: each line is the name of one part.
+class BoxImporter : public Importer {
+ public:
+  std::vector<std::string> extensions() const override { return {"box", "cube"}; }
+  std::optional<std::uint64_t> count_triangles(const fs::path& file) const override { return fs::file_size(file); }
+  std::vector<RawPart> read(const fs::path& file) override {
+    ++files_read;
+    std::ifstream in(file);
+    std::vector<RawPart> parts;
+    for (std::string line; std::getline(in, line);) parts.push_back({line, "", box({0, 0, 0}, {1, 1, 1})});
+    return parts;
+  }
+  int files_read = 0;
+};
+
+std::vector<std::shared_ptr<Importer>> importers() { return {std::make_shared<BoxImporter>()}; }
+
+std::vector<std::string> names(const InputParts& in) {
+  std::vector<std::string> out;
+  for (const auto& p : in.parts) out.push_back(p.name);
+  return out;
+}
+
+using NameList = std::vector<std::string>;
+
+TEST(NaturalOrder, IsAStrictTotalOrderWithNumbers) {
+  EXPECT_TRUE(natural_less("2", "10"));
+  EXPECT_TRUE(natural_less("a2b", "a10a"));
+  EXPECT_TRUE(natural_less("a", "ab"));
+  EXPECT_TRUE(natural_less("B", "a"));
+  Rng rng(21);
+  std::vector<std::string> words;
+  for (int i = 0; i < 120; ++i) {
+    std::string w;
+    for (auto n = rng.below(6); n-- > 0;) w += "0012ab\xC3"[rng.below(7)];
+    words.push_back(w);
+  }
+  for (const auto& a : words) {
+    EXPECT_FALSE(natural_less(a, a));
+    for (const auto& b : words) {
+      EXPECT_EQ(natural_less(a, b), a != b && !natural_less(b, a)) << a << " " << b;
+      if (!natural_less(a, b)) continue;
+      for (std::size_t k = 0; k < words.size(); k += 7) {
+        EXPECT_TRUE(!natural_less(b, words[k]) || natural_less(a, words[k]));
+      }
+    }
+  }
+}
+
+TEST(ReadInput, FolderGivesOnePartPerFileInNaturalOrder) {
+  const TempFolder folder;
+  folder.write("10.box", "x\n");
+  folder.write("2.box", "y\nz\n");
+  folder.write("Schräge Welle 1.BOX", "x\n");
+  folder.write("truth.json", "{}");
+  folder.write("readme.txt", "hello");
+  folder.write(".hidden.box", "x\n");
+  const auto in = read_input(folder.path(), importers());
+  EXPECT_EQ(names(in), (NameList{"2", "10", "Schräge Welle 1"}));
+  EXPECT_EQ(in.parts[0].mesh.triangles.size(), 24u);
+  EXPECT_EQ(in.parts[0].file, "2.box");
+  EXPECT_TRUE(in.warnings.empty());
+}
+
+TEST(ReadInput, FingerprintIsOfTheBytesInOrder) {
+  const TempFolder folder;
+  folder.write("1.box", "a");
+  folder.write("2.box", "bc");
+  folder.write("note.txt", "not part of it");
+  // printf abc | sha256sum
+  EXPECT_EQ(read_input(folder.path(), importers()).sha256,
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST(ReadInput, FilesOfOneStemGetTheirEndings) {
+  const TempFolder folder;
+  folder.write("a.box", "x");
+  folder.write("a.cube", "x");
+  folder.write("b.box", "x");
+  const auto in = read_input(folder.path(), importers());
+  EXPECT_EQ(names(in), (NameList{"a.box", "a.cube", "b"}));
+  EXPECT_TRUE(any_contains(in.warnings, "several files are called 'a'"));
+}
+
+TEST(ReadInput, NodesOfOneNameAreNumbered) {
+  const TempFolder folder;
+  const auto in = read_input(folder.write("a.box", "nut\nnut\nnut#2\n\nnut\n"), importers());
+  EXPECT_EQ(names(in), (NameList{"nut", "nut#3", "nut#2", "a", "nut#4"}));
+  EXPECT_TRUE(any_contains(in.warnings, "renamed to 'nut#3'"));
+}
+
+TEST(ReadInput, NamesBecomeValidUtf8) {
+  EXPECT_EQ(valid_utf8("Größe 日本"), "Größe 日本");
+  EXPECT_EQ(valid_utf8("a\xFF"
+                       "b\xC3"),
+            "a\xEF\xBF\xBD"
+            "b\xEF\xBF\xBD");
+  EXPECT_EQ(valid_utf8("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+  EXPECT_EQ(valid_utf8("a\nb"), "a_b");
+  const TempFolder folder;
+  const auto in = read_input(folder.write("a.box", "\xFFnut\nbolt\n"), importers());
+  EXPECT_EQ(in.parts[0].name, "\xEF\xBF\xBDnut");
+}
+
+TEST(ReadInput, UnusableInputNamesItself) {
+  const TempFolder folder;
+  const auto error = [&](const fs::path& path) { return input_error([&] { read_input(path, importers()); }); };
+  EXPECT_NE(error(folder.path()).find("no mesh file in this folder (can be read: .box, .cube)"), std::string::npos);
+  EXPECT_NE(error(folder / "missing").find("there is no such file or folder"), std::string::npos);
+  EXPECT_NE(error(folder.write("part.xyz", "x")).find("no importer reads files with the ending '.xyz'"),
+            std::string::npos);
+  EXPECT_NE(error(folder.write("none.box", "")).find("none.box: the file is empty"), std::string::npos);
+  EXPECT_NE(error("").find("no input"), std::string::npos);
+  fs::remove(folder / "none.box");
+  fs::create_symlink(folder / "nowhere", folder / "broken.box");
+  EXPECT_NE(error(folder.path()).find("broken.box"), std::string::npos);
+  fs::remove(folder / "broken.box");
+  if (::geteuid() != 0) {
+    ::chmod(folder.write("secret.box", "x").c_str(), 0);
+    EXPECT_NE(error(folder.path()).find("secret.box"), std::string::npos);
+  }
+}
+
+TEST(ReadInput, PipesSubFoldersAndOtherFormatsAreLeftAside) {
+  const TempFolder folder;
+  folder.write("1.box", "x");
+  folder.write("2.step", "ISO-10303-21;");
+  fs::create_directory(folder / "more.box");
+  fs::create_directory_symlink(folder.path(), folder / "loop");
+  ASSERT_EQ(::mkfifo((folder / "pipe.box").c_str(), 0600), 0);
+  const auto in = read_input(folder.path(), importers());
+  EXPECT_EQ(names(in), (NameList{"1"}));
+  EXPECT_TRUE(any_contains(in.warnings, "sub-folders are not read: 2 of them"));
+  EXPECT_TRUE(any_contains(in.warnings, "'pipe.box' is no regular file"));
+  EXPECT_TRUE(any_contains(in.warnings, "no importer reads '.step'"));
+}
+
+TEST(ReadInput, TooManyTrianglesAreRefusedBeforeReading) {
+  const TempFolder folder;
+  auto importer = std::make_shared<BoxImporter>();
+  ReadOptions options;
+  options.max_triangles = 20;
+  const auto large = folder.write("large.box", std::string(1000, 'x'));  // counts 1000
+  EXPECT_NE(
+      input_error([&] { read_input(large, {importer}, options); }).find("1000 triangles are more than the limit of 20"),
+      std::string::npos);
+  EXPECT_EQ(importer->files_read, 0);
+  const auto two = folder.write("two.box", "a\nb\n");
+  EXPECT_NE(input_error([&] { read_input(two, {importer}, options); }).find("24 triangles"), std::string::npos);
+}
+
+TEST(ReadInput, StopsWhenAsked) {
+  const TempFolder folder;
+  folder.write("1.box", "x");
+  RunContext context;
+  context.cancel.cancel();
+  EXPECT_THROW(read_input(folder.path(), importers(), {}, context), Error);
+}
+
+}  // namespace
+}  // namespace dismantle

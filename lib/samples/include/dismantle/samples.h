@@ -1,0 +1,83 @@
+/// Parametric example assemblies that the project makes itself, each with its known truth.
+///
+/// Lengths are mm, angles rad; the frame is that of the files written. Every part of every sample is
+/// closed, consistently oriented, of positive volume and free of self-crossings, and stands at least
+/// the sample's `clearance` away from every other part.
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/pose.h"
+#include "dismantle/importer.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::samples {
+
+/// What can be said of a sample before it is made.
+struct Sample {
+  std::string name;     ///< [a-z][a-z0-9_]*
+  std::string summary;  ///< one line
+  std::vector<ParamSpec> params;
+  bool solvable = true;          ///< false: no part can ever leave
+  bool translation_only = true;  ///< every part leaves without turning
+  bool one_at_a_time = true;     ///< false: some step needs several parts to move at once
+};
+
+/// Turn by `angle` about the line through `point` along the unit vector `axis`, and slide by `advance` along it.
+struct Screw {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double angle = 0;    ///< rad, right-handed
+  double advance = 0;  ///< mm
+  /// Displacement after the share u in [0, 1] of the motion.
+  DISMANTLE_API Pose at(double u) const;
+};
+
+/// Motion of one part, on top of the motions that it made before.
+struct TruthMotion {
+  std::string part;
+  Screw screw;
+};
+
+/// All motions of a step happen at once, in proportion.
+struct TruthStep {
+  std::vector<TruthMotion> motions;
+  std::string out;  ///< the part whose hull is apart from all that is left after this step; empty: none yet
+};
+
+/// One way to take the sample apart, and what any order must respect in which `base` stays to the end.
+struct Truth {
+  std::string base;                                             ///< the part that all others leave; empty: no such part
+  std::vector<TruthStep> steps;                                 ///< empty when not solvable
+  std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after), necessary, not transitive
+};
+
+struct Model {
+  std::vector<RawPart> parts;  ///< names are file names without ".obj"
+  Truth truth;
+  double clearance = 0;  ///< no two parts are closer than this when assembled, mm
+};
+
+/// All samples, in a fixed order.
+DISMANTLE_API const std::vector<Sample>& list();
+/// The sample of that name, or null.
+DISMANTLE_API const Sample* find(const std::string& name);
+
+/// Makes a sample with its truth; parameters not given have their defaults.
+/// @throws std::invalid_argument for an unknown sample, an unknown parameter or a bad value.
+DISMANTLE_API Model make_model(const std::string& name, const ParamSet& given = {});
+/// The parts of make_model().
+DISMANTLE_API std::vector<RawPart> make(const std::string& name, const ParamSet& given = {});
+
+/// Writes each part as `dir`/NAME.obj; makes `dir` when it is not there. Same parts, same bytes; coordinates
+/// are the shortest decimals that read back as the same double. Returns the files in the order of `parts`.
+/// @throws std::filesystem::filesystem_error when a file cannot be written.
+DISMANTLE_API std::vector<std::filesystem::path> write(const std::vector<RawPart>& parts,
+                                                       const std::filesystem::path& dir);
+
+}  // namespace dismantle::samples

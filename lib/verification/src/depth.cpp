@@ -1,0 +1,191 @@
+// How deep two placed meshes penetrate each other: branch and bound over triangles. A patch is settled when one of
+// the displacement rules (patch.h) or the Lipschitz bound shows it to hold nothing deeper than what was found.
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "dismantle/verification/verifier.h"
+#include "patch.h"
+#include "solid.h"
+#include "starts_off.h"
+
+namespace dismantle {
+
+struct DepthBody::Impl {
+  std::vector<verify::Solid> solids;
+};
+
+DepthBody::DepthBody(const Mesh& mesh) : impl_(std::make_unique<const Impl>(Impl{verify::split_into_solids(mesh)})) {}
+DepthBody::~DepthBody() = default;
+DepthBody::DepthBody(DepthBody&&) noexcept = default;
+DepthBody& DepthBody::operator=(DepthBody&&) noexcept = default;
+
+namespace verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr std::uint64_t kMostPatches = 100'000;  // per pair of solids and direction
+
+/// Surface of A in B; `place` takes A to the frame of B, `frame` takes that frame to the world.
+class Descent {
+ public:
+  Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
+          Penetration& deepest)
+      : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest) {}
+
+  /// True when one shrunken copy of all of A keeps off the surface of B.
+  bool run() {
+    if (first_round()) return true;
+    for (const Patch& patch : open_) {
+      for (const auto& p : patch.p) sample(place_ * p);
+      sample(place_ * patch.center());
+    }
+    std::uint64_t left = kMostPatches;
+    while (!open_.empty() && left-- > 0) {
+      const Patch patch = open_.front();
+      open_.pop_front();
+      std::optional<Ridge> ridge;
+      if (settled(patch, ridge)) continue;
+      if (ridge) {
+        for (const Patch& half : patch.halves(ridge->edge, ridge->t)) open_.push_back(half);
+      } else {
+        for (const Patch& quarter : patch.quarters()) open_.push_back(quarter);
+      }
+    }
+    return false;
+  }
+
+ private:
+  double level() const { return deepest_.depth + tolerance_ * (1 - 1e-9); }
+
+  /// `x` in the frame of B.
+  void found(double depth, const Vec3& x) {
+    if (depth > deepest_.depth) deepest_ = {depth, frame_ * x};
+  }
+
+  double sample(const Vec3& x) {
+    if (b_.box.squared_distance(x) > 0) return 0;
+    const double d = escape_at(x, b_).depth;
+    found(d, x);
+    return d;
+  }
+
+  Sighting look(const Corners& moved) const {
+    const Corners c = placed(place_, moved);
+    return Sweep(c, c, 0).look(b_.bvh);
+  }
+  bool clear_outside(const Corners& moved) const {
+    const Sighting seen = look(moved);
+    if (seen == Sighting::unclear) return false;
+    return seen == Sighting::far || !b_.bvh.inside(place_ * ((moved[0] + moved[1] + moved[2]) / 3));
+  }
+
+  /// The vertex rule for every triangle of A; what it does not settle is left in open_.
+  bool first_round() {
+    const double e = level();
+    std::vector<Patch> clear;
+    collect(0, [&](const Patch& patch) {
+      const Sighting seen = look(moved_by_vertices(patch, e));
+      if (seen == Sighting::unclear)
+        open_.push_back(patch);
+      else if (seen == Sighting::clear)
+        clear.push_back(patch);
+    });
+    if (open_.empty()) {
+      bool all_outside = true;
+      for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
+        const std::uint32_t v = a_.shell_vertices[a_.shell_begin[k]];
+        all_outside = !b_.bvh.inside(place_ * (a_.mesh.vertices[v] + e * a_.inward[v]));
+      }
+      if (all_outside) return true;
+    }
+    for (const Patch& patch : clear) {
+      const Corners m = moved_by_vertices(patch, e);
+      if (b_.bvh.inside(place_ * ((m[0] + m[1] + m[2]) / 3))) open_.push_back(patch);
+    }
+    return false;
+  }
+
+  template <class F>
+  void collect(std::uint32_t id, const F& f) const {
+    if (a_.bvh.nodes().empty()) return;
+    const TriangleBvh::Node& node = a_.bvh.nodes()[id];
+    const Vec3 c = place_ * node.box.center(), h = place_.r.cwiseAbs() * (0.5 * node.box.size());
+    if (!Aabb{c - h, c + h}.overlaps(b_.box)) return;  // what is outside the box of B has no depth
+    if (node.count == 0) {
+      collect(id + 1, f);
+      collect(node.first, f);
+      return;
+    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      const std::uint32_t t = a_.bvh.order()[k];
+      const Triangle& v = a_.mesh.triangles[t];
+      f(Patch{a_.bvh.corners(t), {a_.inward[v[0]], a_.inward[v[1]], a_.inward[v[2]]}, t});
+    }
+  }
+
+  /// Nothing of the patch is deeper than level(); or where it is best divided, if there is a good place.
+  bool settled(const Patch& patch, std::optional<Ridge>& ridge) {
+    if (clear_outside(moved_by_vertices(patch, level()))) return true;
+    if (clear_outside(moved_along(patch, -a_.normals[patch.triangle], level()))) return true;
+    const Probe seen = probe(patch, place_, b_);
+    const auto deepest = static_cast<std::size_t>(seen.deepest);
+    found(seen.depth[deepest], place_ * patch.p[deepest]);
+    if (clear_outside(moved_by_probe(patch, seen, level()))) return true;
+    const Escape center = escape_at(place_ * patch.center(), b_);
+    found(center.depth, place_ * patch.center());
+    if (center.depth + patch.radius() <= level()) return true;
+    if (clear_outside(moved_along(patch, place_.r.transpose() * center.out, level()))) return true;
+    ridge = ridge_on(patch, seen);
+    return false;
+  }
+
+  const Solid& a_;
+  const Solid& b_;
+  const Placement& place_;
+  double tolerance_;
+  const Pose& frame_;
+  Penetration& deepest_;
+  std::deque<Patch> open_;
+};
+
+}  // namespace
+}  // namespace verify
+
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                double tolerance) {
+  if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
+  using verify::Placement;
+  Penetration deepest;
+  for (const auto& x : a.impl().solids)
+    for (const auto& y : b.impl().solids) {
+      const Pose place_x = pose_a * x.frame, place_y = pose_b * y.frame;
+      const Placement a_in_b(place_y.inverse() * place_x), b_in_a(place_x.inverse() * place_y);
+      const Eigen::Vector3d c = a_in_b * x.box.center(), h = a_in_b.r.cwiseAbs() * (0.5 * x.box.size());
+      if (!Aabb{c - h, c + h}.overlaps(y.box)) continue;
+      const bool swap = y.mesh.triangles.size() < x.mesh.triangles.size();
+      const verify::Solid &first = swap ? y : x, &second = swap ? x : y;
+      const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;
+      const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
+      const double before = deepest.depth;
+      const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest).run();
+      // As in pair_check.cpp: then nothing of the second is deeper in the first either.
+      if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
+      verify::Descent(second, first, back, tolerance, first_frame, deepest).run();
+    }
+  return deepest;
+}
+
+double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                         double tolerance) {
+  return deepest_penetration(a, pose_a, b, pose_b, tolerance).depth;
+}
+
+double penetration_depth(const Mesh& a, const Pose& pose_a, const Mesh& b, const Pose& pose_b, double tolerance) {
+  return penetration_depth(DepthBody(a), pose_a, DepthBody(b), pose_b, tolerance);
+}
+
+}  // namespace dismantle

@@ -1,0 +1,320 @@
+#include "directed_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace dismantle::verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr std::uint32_t kNone = 0xffffffffu;
+/// Displacements stay this share below what is allowed, so that rounding cannot carry them beyond.
+constexpr double kShare = 1 - 1e-9;
+/// Below this share of the penetration allowed a patch in a time interval is not divided further.
+constexpr double kResolution = 1.0 / 8;
+/// Patches are asked for in all intervals that are shorter than this part of a segment.
+constexpr double kShortest = 1.0 / 64;
+/// So many cells of an unrolled mesh cost as much as one sweep test.
+constexpr std::uint64_t kCellsOfTest = 256;
+/// Cells of the first look at a winding and of the second (assembly units).
+constexpr double kRoughCell = 5e-3, kFineCell = 1e-3;
+/// Windings are halved down to this turn (rad), as long as few triangles are left or at least half of them are done.
+constexpr double kShortWinding = 1;
+constexpr std::size_t kFew = 64;
+/// What was learnt of a triangle's bends is forgotten at this rate, test by test.
+constexpr double kForget = 1.1;
+
+Aabb box_under(const Placement& m, const Aabb& box) {
+  const Vec3 c = m * box.center(), h = m.r.cwiseAbs() * (0.5 * box.size());
+  return {c - h, c + h};
+}
+
+}  // namespace
+
+DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits,
+                             Budget& budget)
+    : a_(a),
+      b_(b),
+      motion_(motion),
+      limits_(limits),
+      budget_(budget),
+      patch_of_(a.mesh.triangles.size(), kNone),
+      unclear_(
+          std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())) {}
+
+Finding DirectedCheck::run() {
+  std::size_t done = 0;
+  const auto up_to = [&](std::size_t instant) {
+    return instant == done || descend(static_cast<double>(done), static_cast<double>(instant));
+  };
+  bool holds = true;
+  for (const Winding& w : windings(motion_)) {
+    holds = up_to(w.begin) && wind(w);
+    if (!holds) return finding_;
+    done = w.end;
+  }
+  if (up_to(motion_.segments())) sides();
+  return finding_;
+}
+
+DirectedCheck::Interval DirectedCheck::interval(double s0, double s1) const {
+  return {
+      s0, s1, motion_.deviation(s0, s1), Placement(motion_.at(s0)), Placement(motion_.at(s1)), motion_.bend(s0, s1)};
+}
+
+double DirectedCheck::middle(const Interval& i) const {
+  const double m = 0.5 * (i.s0 + i.s1);
+  return i.s1 - i.s0 > 1 ? std::floor(m) : m;
+}
+
+bool DirectedCheck::fail(Answer answer, const Vec3& point, double depth, std::uint32_t triangle, double time) {
+  finding_ = {answer, point, false, depth, a_.thickness[triangle], time};
+  return false;
+}
+
+std::uint32_t DirectedCheck::add(const Patch& patch) {
+  patches_.push_back(patch);
+  return static_cast<std::uint32_t>(patches_.size() - 1);
+}
+
+/// Triangles of A whose box comes near B's in the interval.
+void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
+  const TriangleBvh::Node& node = a_.bvh.nodes()[id];
+  Aabb swept = box_under(i.at0, node.box);
+  swept.extend(box_under(i.at1, node.box));
+  swept.inflate(i.margin + limits_.most());
+  if (!swept.overlaps(b_.box)) return;
+  if (node.count == 0) {
+    collect(i, id + 1, list);
+    collect(i, node.first, list);
+    return;
+  }
+  for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+    const std::uint32_t t = a_.bvh.order()[k];
+    if (patch_of_[t] == kNone) {
+      Patch patch{a_.bvh.corners(t), {}, t};
+      const double most = allowed(patch);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = a_.mesh.triangles[t][c];
+        // One displacement per vertex, whatever triangle it is seen from.
+        patch.inward[c] = (limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
+      }
+      patch_of_[t] = add(patch);
+    }
+    list.push_back(patch_of_[t]);
+  }
+}
+
+/// Cuts winding paths into pieces that are roughly straight before looking at triangles.
+bool DirectedCheck::descend(double s0, double s1) {
+  const Interval i = interval(s0, s1);
+  if (s1 - s0 > 1 && i.margin > 0.05 * a_.box.size().maxCoeff()) {
+    const double m = middle(i);
+    return descend(s0, m) && descend(m, s1);
+  }
+  List list;
+  if (!a_.bvh.nodes().empty()) collect(i, 0, list);
+  return process(i, std::move(list), true);
+}
+
+/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion. Roughly
+/// first: most of a part is not near.
+bool DirectedCheck::wind(const Winding& winding) {
+  List list;
+  if (!a_.bvh.nodes().empty())
+    collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
+  if (!clear_unrolled(unrolled(winding, list, kRoughCell), winding, winding.begin, winding.end, list)) return false;
+  if (list.empty()) return true;
+  const UnrolledMesh finely = unrolled(winding, list, kFineCell);  // before the list is given away
+  return wind(finely, winding, winding.begin, winding.end, std::move(list));
+}
+
+/// B, where the patches listed come near it.
+UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, double cell) const {
+  const Placement start(motion_.at(static_cast<double>(winding.begin)));
+  Ring ring;
+  for (const std::uint32_t id : list)
+    ring.add(winding, placed(start, moved_by_vertices(patches_[id], allowed(patches_[id]) * kShare)));
+  return {b_.bvh, winding, ring, cell};
+}
+
+DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Placement& start, std::size_t from,
+                                            std::size_t to, std::uint32_t patch) const {
+  const Patch& p = patches_[patch];
+  Glance seen{true, false, 0};
+  seen.clear = other.clear_of(placed(start, moved_by_vertices(p, allowed(p) * kShare)), from, to, seen.cells);
+  return seen;
+}
+
+/// Takes what is certified off the list. False: the check failed.
+bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                                   List& list) {
+  const Placement start(motion_.at(static_cast<double>(winding.begin)));
+  const std::vector<Glance> known = glances(other, winding, from, to, list);
+  List rest;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Patch& patch = patches_[list[k]];
+    const Glance seen = k < known.size() && known[k].done ? known[k] : glance(other, start, from, to, list[k]);
+    if (!budget_.spend_tests(1 + seen.cells / kCellsOfTest))
+      return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
+    if (seen.clear)
+      pieces_.push_back({list[k], static_cast<double>(from), static_cast<double>(to)});
+    else
+      rest.push_back(list[k]);
+  }
+  list = std::move(rest);
+  return true;
+}
+
+bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                         List list) {
+  const std::size_t all = list.size();
+  if (!clear_unrolled(other, winding, from, to, list)) return false;
+  if (list.empty()) return true;
+  const bool few = list.size() < kFew || 2 * list.size() < all;
+  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < kShortWinding)
+    return process(interval(static_cast<double>(from), static_cast<double>(to)), std::move(list), true);
+  const std::size_t middle = from + (to - from) / 2;
+  return wind(other, winding, from, middle, list) && wind(other, winding, middle, to, std::move(list));
+}
+
+bool DirectedCheck::process(const Interval& i, List list, bool vertex_rule) {
+  List later;
+  if (!settle_all(i, std::move(list), vertex_rule, later)) return false;
+  if (later.empty()) return true;
+  const double m = middle(i);
+  return process(interval(i.s0, m), later, vertex_rule) && process(interval(m, i.s1), std::move(later), vertex_rule);
+}
+
+bool DirectedCheck::settle_all(const Interval& i, List list, bool vertex_rule, List& later) {
+  return has_help() ? settle_shared(i, list, vertex_rule, later)
+                    : settle_in_turn(i, std::move(list), vertex_rule, later);
+}
+
+bool DirectedCheck::settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later) {
+  while (!list.empty()) {
+    const std::uint32_t id = list.back();
+    list.pop_back();
+    if (!settle(i, id, vertex_rule, list, later)) return false;
+  }
+  return true;
+}
+
+bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved, bool& far) {
+  const Sighting seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), margin).look(b_.bvh);
+  far = seen == Sighting::far;
+  return seen != Sighting::unclear;
+}
+
+/// Along a close fit a triangle fails at the same bend again and again: do not ask where it did shortly before.
+bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
+  return i.s1 - i.s0 <= kShortest || margin < (*unclear_)[triangle];
+}
+
+bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
+  return !b_.bvh.inside(place * ((moved[0] + moved[1] + moved[2]) / 3));
+}
+
+/// Certifies one patch for one interval, or puts it (or its quarters) on one of the lists. False: the check failed.
+bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
+  const Patch patch = patches_[id];
+  const double most = allowed(patch), e = most * kShare, leeway = most - limits_.overlap;
+  const double margin = i.bend.at(patch.center(), patch.radius() + most);
+  const bool bent = margin > 0.5 * leeway;
+  bool far = false;
+  if (!bent || (vertex_rule && worth_a_test(i, margin, patch.triangle))) {
+    if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
+    if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
+      if (!far) pieces_.push_back({id, i.s0, i.s1});
+      (*unclear_)[patch.triangle] *= kForget;
+      return true;
+    }
+    if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
+  }
+  if (bent) {  // too bent to be judged as straight
+    later.push_back(id);
+    return true;
+  }
+  const double s = 0.5 * (i.s0 + i.s1);
+  const Placement mid(motion_.at(s));
+  const Corners begin = placed(i.at0, patch.p), end = placed(i.at1, patch.p);
+  double travel = 0;
+  for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
+  const Escape center = escape_at(mid * patch.center(), b_);
+  const double depth = center.depth;
+  if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
+  const double reach = patch.radius() + 0.5 * travel + 2 * margin;
+  if (depth + reach <= most) {  // depth changes no faster than the point moves
+    by_shrunken_copy_ = false;
+    return true;
+  }
+  const auto leaves = [&](const Corners& moved) {
+    if (!clear(i, margin, moved, far) || !(far || outside(i.at0, moved))) return false;
+    by_shrunken_copy_ = false;
+    return true;
+  };
+  if (leaves(moved_along(patch, -a_.normals[patch.triangle], e))) return true;
+  // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
+  Probe seen = probe(patch, mid, b_);
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto deepest = static_cast<std::size_t>(seen.deepest);
+    if (seen.depth[deepest] > most)
+      return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
+    if (leaves(moved_by_probe(patch, seen, e))) return true;
+    if (attempt > 0) break;
+    for (const auto& [place, time] : {std::pair(i.at0, i.s0), std::pair(i.at1, i.s1)}) {
+      const Probe at_end = probe(patch, place, b_);
+      const auto corner = static_cast<std::size_t>(at_end.deepest);
+      if (at_end.depth[corner] > most)
+        return fail(Answer::violated, patch.p[corner], at_end.depth[corner], patch.triangle, time);
+      seen.deepen(at_end);
+    }
+  }
+  if (depth > 0 && leaves(moved_along(patch, mid.r.transpose() * center.out, e))) return true;
+  // What lies on one side of a ridge leaves together, the way its deepest corner does.
+  const auto deepest = static_cast<std::size_t>(seen.deepest);
+  if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
+  if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
+  // A ridge often lies along the motion: cut there before the interval is.
+  const auto ridge = ridge_on(patch, seen);
+  if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
+    later.push_back(id);
+    return true;
+  }
+  if (budget_.patches_left < 4) return fail(Answer::exhausted, patch.center(), depth, patch.triangle, s);
+  budget_.patches_left -= 4;
+  if (ridge) {
+    for (const Patch& half : patch.halves(ridge->edge, ridge->t)) same.push_back(add(half));
+  } else {
+    for (const Patch& quarter : patch.quarters()) same.push_back(add(quarter));
+  }
+  return true;
+}
+
+/// What the vertex rule certified stays off the surface of B; here it is shown to be on the outer side of it.
+bool DirectedCheck::sides() {
+  if (by_shrunken_copy_) {
+    // Each shell of the shrunken copy moves off the surface at all times: one corner at one time tells its side.
+    const Placement start(motion_.at(0));
+    bool all_outside = true;
+    for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
+      const std::uint32_t v = a_.shell_vertices[a_.shell_begin[k]];
+      const Vec3 x = a_.mesh.vertices[v] + limits_.at(a_.vertex_thickness[v]) * kShare * a_.inward[v];
+      all_outside = !b_.bvh.inside(start * x);
+    }
+    if (all_outside) return true;
+  }
+  by_shrunken_copy_ = false;
+  const std::vector<Piece> pieces = std::move(pieces_);
+  pieces_.clear();
+  for (const Piece& piece : pieces) {
+    const Patch& patch = patches_[piece.patch];
+    if (outside(Placement(motion_.at(piece.s0)), moved_by_vertices(patch, allowed(patch) * kShare))) continue;
+    if (!process(interval(piece.s0, piece.s1), {piece.patch}, false)) return false;
+  }
+  return true;
+}
+
+}  // namespace dismantle::verify

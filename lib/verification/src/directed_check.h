@@ -1,0 +1,137 @@
+/// Certified continuous check of the surface of one solid against another solid that it moves past.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "dismantle/run_context.h"
+#include "patch.h"
+#include "relative_motion.h"
+#include "solid.h"
+#include "winding.h"
+
+namespace dismantle::verify {
+
+/// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
+struct Limits {
+  double overlap = 0;      ///< >= 0, the pair's when assembled
+  double penetration = 0;  ///< > 0
+  double at(double thickness) const { return overlap + std::min(penetration, 0.25 * thickness); }
+  double most() const { return overlap + penetration; }
+};
+
+enum class Answer {
+  certified,
+  violated,   ///< a point beyond its limit was found
+  uncertain,  ///< neither, down to the resolution limit
+  exhausted,  ///< neither, within the budget
+};
+
+struct Finding {
+  Answer answer = Answer::certified;
+  // Unless certified:
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();             ///< frame of its part
+  bool of_second = false;                                      ///< `point` belongs to the second part of the pair
+  double depth = 0;                                            ///< measured at `point`; negative outside
+  double thickness = std::numeric_limits<double>::infinity();  ///< of the triangle that it lies on
+  double time = 0;
+};
+
+/// Work allowed and done, in elementary sweep tests and patches. Counts, so that answers do not depend on the machine.
+struct Budget {
+  std::uint64_t tests_left = 0;
+  std::uint64_t patches_left = 0;
+  std::uint64_t tests_done = 0;
+  const RunContext* context = nullptr;  ///< may be null; when it says stop, nothing is left
+  bool spend_test() {
+    if (context != nullptr && tests_done % 256 == 0 && context->should_stop()) tests_left = 0;
+    if (tests_left == 0) return false;
+    --tests_left;
+    ++tests_done;
+    return true;
+  }
+  bool spend_tests(std::uint64_t count) {
+    if (context != nullptr && context->should_stop()) tests_left = 0;
+    const std::uint64_t spent = std::min(count, tests_left);
+    tests_left -= spent;
+    tests_done += spent;
+    return spent == count;
+  }
+};
+
+/// The surface of `a` against `b`. One object per question. Idle threads of the executor in the budget's context help;
+/// what is found, and what that takes, does not depend on them.
+class DirectedCheck {
+ public:
+  DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
+  Finding run();
+  /// After a certified run: all of it by the vertex rule. Then one and the same shrunken copy of A stayed off the
+  /// surface of B at all times.
+  bool by_shrunken_copy() const { return by_shrunken_copy_; }
+
+ private:
+  struct Interval {
+    double s0, s1, margin;  // margin: of the whole box
+    Placement at0, at1;
+    RelativeMotion::Bend bend;
+  };
+  struct Piece {  // certified by the vertex rule except for which side it is on
+    std::uint32_t patch;
+    double s0, s1;
+  };
+  using List = std::vector<std::uint32_t>;
+
+  Interval interval(double s0, double s1) const;
+  double middle(const Interval& i) const;
+  std::uint32_t add(const Patch& patch);
+  void collect(const Interval& i, std::uint32_t node, List& list);
+  bool descend(double s0, double s1);
+  bool wind(const Winding& winding);
+  bool wind(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List list);
+  bool clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to, List& list);
+  UnrolledMesh unrolled(const Winding& winding, const List& list, double cell) const;
+  bool process(const Interval& i, List list, bool vertex_rule);
+  bool settle_all(const Interval& i, List list, bool vertex_rule, List& later);
+  bool settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later);
+  // directed_share.cpp: with idle threads
+  struct Share;
+  DirectedCheck(const DirectedCheck& whole, const List& list, Budget& budget);
+  bool has_help() const;
+  std::vector<List> cut(const List& list) const;
+  bool settle_shared(const Interval& i, const List& list, bool vertex_rule, List& later);
+  bool take_over(Share& share, List& later);
+  struct Glance {
+    bool done = false, clear = false;
+    std::uint64_t cells = 0;
+  };
+  std::vector<Glance> glances(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
+                              const List& list) const;
+  Glance glance(const UnrolledMesh& other, const Placement& start, std::size_t from, std::size_t to,
+                std::uint32_t patch) const;
+  bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
+  bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
+  bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
+  bool outside(const Placement& place, const Corners& moved) const;
+  bool sides();
+  bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
+  double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }
+
+  const Solid& a_;
+  const Solid& b_;
+  const RelativeMotion& motion_;
+  Limits limits_;
+  Budget& budget_;
+  std::vector<Patch> patches_;
+  std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
+  /// By triangle of A: margins from there on were in vain lately. Of all shares; no two have patches of one triangle.
+  std::shared_ptr<std::vector<double>> unclear_;
+  std::vector<Piece> pieces_;
+  bool by_shrunken_copy_ = true;
+  Finding finding_;
+};
+
+}  // namespace dismantle::verify

@@ -1,0 +1,45 @@
+/// Rule (c): when the convex hulls of two groups of parts are apart.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dismantle/aabb.h"
+#include "dismantle/mesh.h"
+#include "dismantle/pose.h"
+
+namespace dismantle::verify {
+
+/// A part where it stands. What is pointed to must outlive who uses it.
+struct PlacedHull {
+  const Mesh* mesh = nullptr;
+  const Aabb* box = nullptr;                              ///< of the mesh
+  const std::vector<Eigen::Vector3d>* corners = nullptr;  ///< of its convex hull
+  Pose pose;
+};
+
+/// For one question, or several of which only the shift differs. Not safe to call from several threads.
+class HullsApart {
+ public:
+  HullsApart(std::vector<PlacedHull> group, std::vector<PlacedHull> rest);
+  /// With all of the group moved by `shift`. True is certain on all vertices. True when there is nothing to be apart.
+  bool after(const Eigen::Vector3d& shift);
+
+ private:
+  using Vec3 = Eigen::Vector3d;
+  struct Side {
+    std::vector<PlacedHull> parts;
+    std::vector<Vec3> begin;    // of the parts: where they were put
+    std::vector<Vec3> corners;  // where they are
+
+    explicit Side(std::vector<PlacedHull> placed);
+    void move_to(const Vec3& shift);
+    double top(const Vec3& normal) const;
+    double top_along(Eigen::Index axis, double sign) const;
+  };
+
+  Side group_, rest_;
+  Aabb theirs_;  // around the corners of rest_
+};
+
+}  // namespace dismantle::verify

@@ -1,0 +1,77 @@
+#include "pair_check.h"
+
+#include <optional>
+
+#include "dismantle/executor.h"
+#include "starts_off.h"
+
+namespace dismantle::verify {
+namespace {
+
+constexpr std::size_t kMany = 1000;  // triangles of both, for the work to be worth a thread's coming
+
+Finding second_of_pair(Finding f) {
+  f.of_second = true;
+  return f;
+}
+
+/// The second direction, begun by an idle thread while the first is looked at, with the budget that both have.
+class Ahead {
+ public:
+  Ahead(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, const Budget& budget)
+      : budget_(budget) {
+    if (budget.context == nullptr || !budget.context->executor) return;
+    if (a.mesh.triangles.size() + b.mesh.triangles.size() < kMany) return;
+    own_.deadline = budget.context->deadline;
+    own_.executor = budget.context->executor;
+    budget_.context = &own_;
+    task_ = own_.executor->submit([&, limits] { found_ = DirectedCheck(a, b, motion, limits, budget_).run(); },
+                                  Executor::Priority::fork_join);
+  }
+  ~Ahead() { own_.cancel.cancel(); }
+  Ahead(const Ahead&) = delete;
+  Ahead& operator=(const Ahead&) = delete;
+
+  /// What is found with the budget that the first direction has left, if it was begun and took no more than that.
+  std::optional<Finding> found(Budget& left) {
+    if (!task_ || task_.withdraw()) return std::nullopt;
+    task_.wait(*left.context, own_.cancel);
+    const std::uint64_t patches = before_.patches_left - budget_.patches_left,
+                        tests = budget_.tests_done - before_.tests_done;
+    if (found_.answer == Answer::exhausted || tests > left.tests_left || patches > left.patches_left)
+      return std::nullopt;
+    left.tests_left -= tests;
+    left.tests_done += tests;
+    left.patches_left -= patches;
+    return found_;
+  }
+
+ private:
+  RunContext own_;
+  Budget budget_;
+  const Budget before_ = budget_;
+  Finding found_;
+  Executor::TaskHandle task_;  // last: its destructor waits for the thread, which uses the above
+};
+
+}  // namespace
+
+Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
+                   const Limits& limits, Budget& budget) {
+  const bool swap = b.mesh.triangles.size() < a.mesh.triangles.size();
+  const Solid &first = swap ? b : a, &second = swap ? a : b;
+  const RelativeMotion &there = swap ? backward : forward, &back = swap ? forward : backward;
+
+  Ahead ahead(second, first, back, limits, budget);
+  DirectedCheck check(first, second, there, limits, budget);
+  const Finding one = check.run();
+  if (one.answer != Answer::certified) return swap ? second_of_pair(one) : one;
+  // If one shrunken copy of `first` never touched the surface of `second`, and `second` is not within it, then the
+  // points of `second` in `first` are all in the layer that was taken off: no deeper than the limit either.
+  if (check.by_shrunken_copy() && starts_off(second, first, Placement(back.at(0)), limits.most())) return one;
+  const std::optional<Finding> known = ahead.found(budget);
+  const Finding two = known ? *known : DirectedCheck(second, first, back, limits, budget).run();
+  return swap ? two : second_of_pair(two);
+}
+
+}  // namespace dismantle::verify

@@ -1,0 +1,48 @@
+/// What has become of an assembly in the course of a plan that is being checked.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/plan.h"
+
+namespace dismantle {
+
+/// A step in terms of the assembly: assembly units, parts by id.
+struct StepMotion {
+  std::vector<PartId> moving;
+  Path path;
+};
+
+/// Reads the steps of a plan and keeps the rules that need no geometry beyond boxes. Problems come as plain text.
+class PlanState {
+ public:
+  explicit PlanState(const Assembly& assembly);
+
+  std::optional<PartId> find(const std::string& name) const;
+  const std::string& name(PartId id) const { return assembly_->parts[id].name; }
+  /// Poses to assembly units; checks names, counts, that poses are finite and rotations of unit length, and that no
+  /// point travels too far from pose to pose. Empty when unusable.
+  std::optional<StepMotion> read(const std::vector<PlanMove>& moves, std::vector<std::string>& problems) const;
+  /// Rule (a): what is wrong with the place where `id` starts, or nothing.
+  std::optional<std::string> wrong_start(PartId id, const Pose& start) const;
+  /// Largest distance between where the corners of the part's box are under the two poses, assembly units.
+  double offset(PartId id, const Pose& a, const Pose& b) const;
+
+  std::vector<Pose> place;                  ///< by part, assembly units
+  std::vector<std::vector<PartId>> groups;  ///< what still hangs together
+  double tolerance() const { return 1e-6 * size_; }
+
+ private:
+  bool travels_too_far(PartId id, const Pose& a, const Pose& b) const;
+
+  const Assembly* assembly_;
+  std::map<std::string, PartId> ids_;
+  double size_ = 0;  // largest edge of the assembly's box, assembly units
+};
+
+}  // namespace dismantle

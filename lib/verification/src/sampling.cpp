@@ -1,0 +1,64 @@
+#include "sampling.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace dismantle::verify {
+namespace {
+
+constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
+
+/// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
+/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample) for those within
+/// `b`, until it says that this is enough: then true.
+template <class Take>
+bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
+            bool of_second, const Take& take) {
+  const std::size_t segments = motion.segments();
+  const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
+  const bool all = times == kLeastTimes;
+  std::vector<std::uint32_t> near;
+  if (!all) {
+    a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
+    std::sort(near.begin(), near.end());
+  }
+  const std::size_t triangles = all ? a.mesh.triangles.size() : near.size();
+  for (std::size_t i = 0; i < times; ++i) {
+    const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
+    const Placement place(motion.at(time));
+    // Another selection each time, so that together they cover more.
+    const std::size_t count = std::min(kVertices, triangles);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t chosen = (k * triangles / count + i * 7919) % triangles, t = all ? chosen : near[chosen];
+      const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));
+      const Eigen::Vector3d x = place * p;
+      if (!b.box.contains(x) || !b.bvh.inside(x)) continue;
+      const double depth = b.bvh.closest(x).distance;
+      if (take(Finding{Answer::violated, p, of_second, depth, a.thickness[t], time})) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward) {
+  Finding best;
+  best.answer = Answer::violated;
+  const auto take = [&](const Finding& f) {
+    if (f.depth > best.depth) best = f;
+    return false;
+  };
+  sample(a, b, forward, backward, false, take);
+  sample(b, a, backward, forward, true, take);
+  return best;
+}
+
+bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
+                   const Limits& limits) {
+  const auto beyond = [&](const Finding& f) { return f.depth > limits.at(f.thickness); };
+  return sample(a, b, forward, backward, false, beyond) || sample(b, a, backward, forward, true, beyond);
+}
+
+}  // namespace dismantle::verify

@@ -1,0 +1,15 @@
+/// A quick look for penetrations, which proves nothing but spares proofs that must fail.
+#pragma once
+
+#include "directed_check.h"
+
+namespace dismantle::verify {
+
+/// The deepest of some vertices of both solids at some times: `violated`, with its depth (0: none lies inside).
+Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward);
+
+/// Is a sample deeper than the limits allow? Then the motion certainly violates them. Looks at as few as that takes.
+bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
+                   const Limits& limits);
+
+}  // namespace dismantle::verify

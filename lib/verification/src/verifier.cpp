@@ -1,0 +1,330 @@
+#include "dismantle/verification/verifier.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "dismantle/executor.h"
+#include "dismantle/geometry/hull.h"
+#include "pair_check.h"
+#include "sampling.h"
+#include "verifier_impl.h"
+
+namespace dismantle {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+using verify::Answer;
+using verify::Finding;
+
+/// Relative motion below this is none (assembly units).
+constexpr double kStill = 1e-9;
+/// Bounds that max_penetration is reported by, and the one that gets full effort although a wider one will do.
+constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
+constexpr double kWorthwhile = 1e-3;
+/// A rung is tried if the deepest point known takes no more than this share of it.
+constexpr double kRoom = 0.8;
+constexpr std::size_t kManySegments = 16;  // of a way that is looked at in samples first
+/// Budgets per pair of solids, in sweep tests: for passes(), for a rung that need not hold, and for one that decides.
+constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
+constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
+constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
+/// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
+/// more patches, where it matters.
+constexpr std::uint64_t kForBuried = 5;
+
+std::vector<double> rungs_up_to(double most) {
+  std::vector<double> rungs;
+  for (const double r : kLadder)
+    if (r < most * (1 - 1e-12)) rungs.push_back(r);
+  rungs.push_back(most);
+  return rungs;
+}
+
+std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
+  std::vector<Pose> result;
+  result.reserve(poses.size());
+  for (const auto& p : poses) result.push_back(p * frame);
+  return result;
+}
+
+Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
+  const verify::RelativeMotion motion(poses, {Pose{}}, box);
+  return motion.swept_box();
+}
+
+}  // namespace
+
+Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
+    : assembly_overlaps(a.overlaps),
+      options(o),
+      rungs(rungs_up_to(o.max_penetration)),
+      bodies(a.parts.size()),
+      middles(a.parts.size()),
+      balls(a.parts.size()) {
+  const auto never = [] { return false; };
+  for (const auto& part : a.parts) meshes.push_back(part.mesh);
+  parallel_for(
+      bodies.size(), executor,
+      [&](std::size_t i) {
+        const Mesh& mesh = *meshes[i];
+        Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
+        for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
+        bodies[i] = std::move(body);
+      },
+      never);
+  std::vector<std::optional<Lock>> found(assembly_overlaps.size());
+  parallel_for(
+      found.size(), executor, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
+  for (const auto& lock : found)
+    if (lock) locks.push_back(*lock);
+}
+
+double Verifier::Impl::overlap(PartId a, PartId b) const {
+  if (a > b) std::swap(a, b);
+  for (const auto& o : assembly_overlaps)
+    if (o.a == a && o.b == b) return o.depth;
+  return 0;
+}
+
+bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
+  Aabb around = a.swept;
+  around.inflate(kStill);
+  return around.overlaps(b.swept);
+}
+
+/// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
+/// would see of later ones, from a rung that is still to be raised, takes longer than it saves. Straight ways are over
+/// soon, and mostly keep to the lowest rung.
+void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
+  const auto straight = [](const Actor& actor) { return actor.poses.size() <= 2; };
+  std::vector<Look> looks(pairs.size());
+  if (std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return straight(*p.first) && straight(*p.second); }))
+    looks = looks_ahead(pairs, context);
+  std::size_t rung = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    Look& look = looks[k];
+    if (!look.done || look.from != rung) look = look_at(pairs[k], rung, context);
+    rung = look.rung;
+    result.tests += look.found.tests;
+    if (look.passed) continue;
+    result.violation = look.found.violation;
+    result.interrupted = look.found.interrupted;
+    return;
+  }
+  result.valid = true;
+  result.max_penetration = rungs[rung];
+}
+
+auto Verifier::Impl::look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const -> Look {
+  Look look{true, false, rung, rung, {}};
+  look.passed = check(*pair.first, *pair.second, context, look.rung, look.found);
+  return look;
+}
+
+/// All pairs, until one fails, each from the rung that is known when its turn comes.
+auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) const -> std::vector<Look> {
+  std::vector<Look> looks(pairs.size());
+  std::atomic<std::size_t> known{0};
+  std::atomic<bool> failed{false};
+  parallel_for(
+      pairs.size(), context,
+      [&](std::size_t k) {
+        looks[k] = look_at(pairs[k], known, context);
+        if (!looks[k].passed) failed = true;
+        for (std::size_t r = known; r < looks[k].rung && !known.compare_exchange_weak(r, looks[k].rung);) {
+        }
+      },
+      [&] { return failed.load(); });
+  return looks;
+}
+
+/// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.
+bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung,
+                           MotionCheck& result) const {
+  const double allowed = overlap(a.part, b.part);
+  if (verify::RelativeMotion(a.poses, b.poses, bodies[a.part].box).constant(kStill)) return true;
+  for (const auto& x : bodies[a.part].solids)
+    for (const auto& y : bodies[b.part].solids)
+      if (!check(a, b, x, y, allowed, context, rung, result)) return false;
+  return true;
+}
+
+bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                           double allowed, const RunContext& context, std::size_t& rung, MotionCheck& result) const {
+  const auto grown = [&](Aabb box) {  // displaced corners may leave the box by as much as they are displaced
+    box.inflate(allowed + options.max_penetration);
+    return box;
+  };
+  const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
+  const verify::RelativeMotion forward(poses_a, poses_b, grown(x.box));
+  if (!forward.swept_box().overlaps(y.box)) return true;
+  const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
+
+  const std::size_t last = rungs.size() - 1;
+  // Ways out of many segments are close fits, of which low rungs are tried in vain: samples first.
+  bool sampled = forward.segments() >= kManySegments &&
+                 box_along(x.box, {poses_b.front().inverse() * poses_a.front()}).overlaps(y.box);
+  bool sample_tells = false;
+  Finding seen;
+  if (sampled) {
+    seen = verify::deepest_sample(x, y, forward, backward);
+    sample_tells = seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness);
+  }
+  for (;;) {
+    const bool decides = rung == last || rungs[rung] == kWorthwhile;
+    const std::uint64_t patches = decides ? kFullPatches : kTryPatches;
+    verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
+                          decides && allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
+    Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    sample_tells = false;
+    result.tests += budget.tests_done;
+    if (f.answer == Answer::certified) return true;
+    if (f.answer == Answer::exhausted && context.should_stop()) {
+      result.interrupted = true;
+      return false;
+    }
+    if (!sampled) {  // before more effort: how deep is it at least?
+      seen = verify::deepest_sample(x, y, forward, backward);
+      sampled = true;
+      if (seen.depth > f.depth || f.answer != Answer::violated)
+        if (seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness)) f = seen;
+    }
+
+    const bool beyond_all =
+        f.answer == Answer::violated && f.depth > verify::Limits{allowed, options.max_penetration}.at(f.thickness);
+    if (rung == last || beyond_all) {
+      Violation v;
+      v.part = f.of_second ? b.part : a.part;
+      v.other = f.of_second ? a.part : b.part;
+      v.point = (f.of_second ? y.frame : x.frame) * f.point;
+      v.depth = std::max(0.0, f.depth);
+      v.allowed = allowed;
+      const double end = static_cast<double>(forward.segments());
+      v.segment = static_cast<std::size_t>(std::min(std::floor(f.time), end - 1));
+      v.u = f.time - static_cast<double>(v.segment);
+      v.uncertain = f.answer != Answer::violated;
+      result.violation = v;
+      return false;
+    }
+    ++rung;
+    if (f.answer == Answer::violated)  // a rung that is just wide enough takes long to prove
+      while (rung < last &&
+             f.depth > allowed + kRoom * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
+        ++rung;
+    if (f.answer == Answer::exhausted && rungs[rung] < kWorthwhile)
+      while (rung < last && rungs[rung] != kWorthwhile) ++rung;
+  }
+}
+
+Verifier::Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor) {
+  if (!(options.max_penetration > 0) || !std::isfinite(options.max_penetration))
+    throw std::invalid_argument("Verifier: max_penetration must be finite and > 0");
+  impl_ = std::make_unique<Impl>(assembly, options, executor);
+}
+
+Verifier::~Verifier() = default;
+
+const VerifyOptions& Verifier::options() const { return impl_->options; }
+
+std::size_t Verifier::parts() const { return impl_->bodies.size(); }
+
+const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodies.at(part).corners; }
+
+const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
+
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+                                   const Path& path) const {
+  return check_motion(moving, still, path, RunContext{});
+}
+
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+                                   const Path& path, const RunContext& context) const {
+  if (path.size() < 2) throw std::invalid_argument("Verifier: a path needs two instants at least");
+  for (const auto& row : path) {
+    if (row.size() != moving.size()) throw std::invalid_argument("Verifier: path has the wrong number of columns");
+    for (const auto& pose : row)
+      if (!pose.t.allFinite() || !pose.q.coeffs().allFinite() || std::abs(pose.q.norm() - 1) > 1e-6)
+        throw std::invalid_argument("Verifier: path has a pose that is not finite or not a unit quaternion");
+  }
+  std::vector<Impl::Actor> movers, others;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Impl::Actor actor{moving[i], {}, {}};
+    for (const auto& row : path) actor.poses.push_back({row[i].t, row[i].q.normalized()});
+    actor.swept = box_along(impl_->bodies.at(moving[i]).box, actor.poses);
+    movers.push_back(std::move(actor));
+  }
+  for (const auto& s : still) {
+    Impl::Actor actor{s.part, {{s.pose.t, s.pose.q.normalized()}}, {}};
+    actor.swept = box_along(impl_->bodies.at(s.part).box, actor.poses);
+    others.push_back(std::move(actor));
+  }
+  Impl::Pairs pairs;
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    for (const auto& other : others)
+      if (impl_->near(movers[i], other)) pairs.emplace_back(&movers[i], &other);
+    for (std::size_t k = i + 1; k < movers.size(); ++k)
+      if (impl_->near(movers[i], movers[k])) pairs.emplace_back(&movers[i], &movers[k]);
+  }
+  MotionCheck result;
+  impl_->check(pairs, context, result);
+  return result;
+}
+
+bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const {
+  Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
+  Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
+  if (!a.swept.overlaps(b.swept)) return true;
+  for (const Lock& lock : impl_->locks)
+    if (std::minmax(lock.inside, lock.other) == std::minmax(moving, still)) return false;
+  const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
+  for (const auto& x : impl_->bodies[moving].solids)
+    for (const auto& y : impl_->bodies[still].solids) {
+      const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
+      Aabb grown = x.box;
+      grown.inflate(limits.most());
+      const verify::RelativeMotion forward(poses_a, poses_b, grown);
+      if (!forward.swept_box().overlaps(y.box)) continue;
+      grown = y.box;
+      grown.inflate(limits.most());
+      const verify::RelativeMotion backward(poses_b, poses_a, grown);
+      // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
+      if (verify::sample_beyond(x, y, forward, backward, limits)) return false;
+      verify::Budget budget{kQuickTests, kQuickPatches};
+      if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
+    }
+  return true;
+}
+
+verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,
+                                            const std::vector<PlacedPart>& rest) const {
+  const auto placed = [&](const std::vector<PlacedPart>& parts) {
+    std::vector<verify::PlacedHull> hulls;
+    for (const auto& p : parts) {
+      const Body& body = bodies.at(p.part);
+      hulls.push_back({meshes[p.part].get(), &body.box, &body.corners, p.pose});
+    }
+    return hulls;
+  };
+  return {placed(group), placed(rest)};
+}
+
+bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {
+  return impl_->hulls_of(group, rest).after(Vec3::Zero());
+}
+
+double Verifier::way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
+                           const Vec3& direction, double most, int halvings) const {
+  verify::HullsApart hulls = impl_->hulls_of(group, rest);
+  double within = 0, out = most;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (within + out);
+    (hulls.after(middle * direction) ? out : within) = middle;
+  }
+  return out;
+}
+
+}  // namespace dismantle

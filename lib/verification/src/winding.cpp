@@ -1,0 +1,360 @@
+#include "winding.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dismantle::verify {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+/// Windings that turn less than this (rad) are as quickly looked at as they are.
+constexpr double kLeastTurn = 1;
+/// Segments that turn more or less than this (rad) are left alone: their axes or their ways are not known as well.
+constexpr double kLeastStep = 1e-3, kMostStep = 1;
+/// The most that a winding may be off the screw (assembly units), and what covers rounding.
+constexpr double kMostOff = 1e-5, kRounding = 1e-9;
+/// Cells are as much wider as it takes to have no more of them than that.
+constexpr long kMostCells = 1'500'000;
+/// Without a lead worth that much (assembly units) turns are not told apart.
+constexpr double kLeastLead = 0.02;
+/// Triangles are divided until they are as good as straight within a cell, or so often.
+constexpr int kDepth = 5;
+constexpr int kBits = 128;
+
+/// The screw motion from one pose to another by the shorter turn, as a velocity field v + w x x: one unit of time.
+struct Field {
+  Vec3 w = Vec3::Zero(), v = Vec3::Zero();
+  Vec3 operator()(const Vec3& x) const { return v + w.cross(x); }
+};
+
+/// Axis, pitch and a point of the axis of the motion that takes `from` to `to`. False: it turns too little or too much.
+bool axis_of(const Pose& from, const Pose& to, Winding& winding, double& angle) {
+  const Pose d = to * from.inverse();
+  const Vec3 turn = rotation_vector(d.q);
+  angle = turn.norm();
+  if (angle < kLeastStep || angle > kMostStep) return false;
+  winding.axis = turn / angle;
+  const double along = winding.axis.dot(d.t);
+  const Vec3 across = d.t - along * winding.axis;
+  winding.origin = 0.5 * (across + winding.axis.cross(across) / std::tan(0.5 * angle));
+  winding.side = winding.axis.unitOrthogonal();
+  winding.pitch = along / angle;
+  return true;
+}
+
+Field field_of(const Winding& w, double angle) {
+  Field f;
+  f.w = angle * w.axis;
+  f.v = angle * w.pitch * w.axis - f.w.cross(w.origin);
+  return f;
+}
+
+/// Where the screw takes `pose` while it turns by `angle`.
+Pose screwed(const Winding& w, const Pose& pose, double angle) {
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, w.axis));
+  return {q * (pose.t - w.origin) + w.origin + angle * w.pitch * w.axis, (q * pose.q).normalized()};
+}
+
+/// The longest winding that begins at instant k. One segment has told the screw; the others have to agree.
+bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
+  double angle = 0;
+  const Pose start = motion.at(static_cast<double>(k));
+  if (!motion.is_screw(k) || !axis_of(start, motion.at(static_cast<double>(k + 1)), w, angle)) return false;
+  w.begin = w.end = k;
+  w.turned = {0};
+  w.off = 0;
+  double off_here = 0;
+  for (std::size_t j = k; j < motion.segments() && motion.is_screw(j); ++j) {
+    const Pose from = motion.at(static_cast<double>(j)), to = motion.at(static_cast<double>(j + 1));
+    Winding own;
+    double step = 0;
+    if (!axis_of(from, to, own, step)) break;
+    const double turned = step * own.axis.dot(w.axis);
+    if (turned < 0.5 * step) break;
+    // Both ways are screw motions. Between two instants they part by no more than at these, and an eighth of what
+    // their accelerations (w x velocity) differ by.
+    const Field is = field_of(own, step), wanted = field_of(w, turned);
+    const Pose ideal = screwed(w, start, w.turned.back() + turned);
+    double off_next = 0, speed = 0, apart = 0;
+    for (const Vec3& c : motion.corners()) {
+      off_next = std::max(off_next, (to * c - ideal * c).norm());
+      const Vec3 x = from * c;
+      speed = std::max(speed, is(x).norm());
+      apart = std::max(apart, (is(x) - wanted(x)).norm());
+    }
+    const double axes = (is.w - wanted.w).norm();
+    apart += axes * speed;
+    const double off = (std::max(off_here, off_next) + (axes * speed + turned * apart) / 8) / (1 - turned * turned / 8);
+    if (off > kMostOff) break;
+    w.off = std::max(w.off, off);
+    w.end = j + 1;
+    w.turned.push_back(w.turned.back() + turned);
+    off_here = off_next;
+  }
+  w.off += kRounding;
+  return w.end > k && w.turned.back() >= kLeastTurn;
+}
+
+std::array<Corners, 4> quarters(const Corners& t) {
+  const Vec3 a = 0.5 * (t[0] + t[1]), b = 0.5 * (t[1] + t[2]), c = 0.5 * (t[2] + t[0]);
+  return {Corners{t[0], a, c}, Corners{a, t[1], b}, Corners{c, b, t[2]}, Corners{a, b, c}};
+}
+
+}  // namespace
+
+std::vector<Winding> windings(const RelativeMotion& motion) {
+  std::vector<Winding> all;
+  Winding w;
+  for (std::size_t k = 0; k < motion.segments();) {
+    if (winding_from(motion, k, w)) {
+      all.push_back(w);
+      k = w.end;
+    } else {
+      ++k;
+    }
+  }
+  return all;
+}
+
+namespace {
+
+/// `off`: the triangle may be anywhere within that distance of `t`.
+Unrolled unroll(const Winding& w, const Corners& t, double off) {
+  Unrolled u;
+  const Vec3 across = w.axis.cross(w.side);
+  // A left-hand screw is a right-hand one upside down.
+  const double up = w.pitch < 0 ? -1 : 1, pitch = std::abs(w.pitch);
+  std::array<Vec2, 3> flat;
+  std::array<double, 3> z;
+  Vec2 center = Vec2::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 x = t[i] - w.origin;
+    flat[i] = {x.dot(w.side), x.dot(across)};
+    z[i] = up * x.dot(w.axis);
+    center += flat[i] / 3;
+  }
+  double radius = 0, most_r = 0;
+  for (const Vec2& x : flat) {
+    radius = std::max(radius, (x - center).norm());
+    most_r = std::max(most_r, x.norm());
+  }
+  const double least_r = center.norm() - radius;
+  u.r_lo = std::max(0.0, least_r - off) - kRounding;
+  u.r_hi = most_r + off + kRounding;
+  const auto [z_least, z_most] = std::minmax({z[0], z[1], z[2]});
+  u.z_lo = z_least - off - kRounding;
+  u.z_hi = z_most + off + kRounding;
+  u.bent = least_r < 0.5 * radius || least_r < 8 * off;
+  if (u.bent) return u;
+  // r and phi are not linear, but nearly: at a mean of the corners they differ from the mean of their values there by
+  // at most half the mean squared distance of the corners times the second derivative, 1 / r and 1 / r^2. As the
+  // length of a vector r is convex: never more than the mean.
+  const double sag = 0.5 * radius * radius / least_r, turn = sag / least_r + 2 * off / (least_r - off) + kRounding;
+  const double about = std::atan2(center.y(), center.x());
+  u.phi_lo = std::numeric_limits<double>::infinity();
+  u.phi_hi = -u.phi_lo;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double cross = center.x() * flat[i].y() - center.y() * flat[i].x();
+    const double phi = about + std::atan2(cross, center.dot(flat[i]));
+    u.phi_lo = std::min(u.phi_lo, phi - turn);
+    u.phi_hi = std::max(u.phi_hi, phi + turn);
+    u.p[i] = {flat[i].norm(), z[i] - pitch * phi};
+  }
+  u.below = sag + off + kRounding;
+  u.above = off + kRounding;
+  u.beside = pitch * turn + off + kRounding;
+  return u;
+}
+
+}  // namespace
+
+void Ring::add(const Winding& winding, const Corners& t) {
+  const Unrolled u = unroll(winding, t, winding.off);
+  r_lo = std::min(r_lo, u.r_lo);
+  r_hi = std::max(r_hi, u.r_hi);
+  z_lo = std::min(z_lo, u.z_lo);
+  z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + kRounding);
+}
+
+UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell)
+    : winding_(winding),
+      ring_(asked),
+      lead_(2 * kPi * std::abs(winding.pitch)),
+      phi_lo_(std::numeric_limits<double>::infinity()),
+      phi_hi_(-phi_lo_) {
+  if (lead_ < kLeastLead || !(ring_.r_hi > ring_.r_lo)) return;
+  double least = ring_.r_hi, most = ring_.r_lo;
+  std::vector<std::uint32_t> there;
+  for (const std::uint32_t t : bvh.order()) {
+    const Unrolled u = unroll(winding_, bvh.corners(t), 0);
+    if (!near(u)) continue;
+    there.push_back(t);
+    least = std::min(least, u.r_lo);
+    most = std::max(most, u.r_hi);
+    extend(bvh.corners(t), kDepth);
+  }
+  if (there.empty()) return;
+  ring_.r_lo = std::max(ring_.r_lo, least);
+  ring_.r_hi = std::min(ring_.r_hi, most);
+  for (cell_ = cell;; cell_ *= 1.25) {
+    rows_ = static_cast<long>(std::ceil((ring_.r_hi - ring_.r_lo) / cell_)) + 1;
+    columns_ = static_cast<long>(std::ceil(lead_ / cell_));
+    if (rows_ * columns_ <= kMostCells) break;
+  }
+  taken_.assign(static_cast<std::size_t>(rows_ * columns_), Bits{});
+  by_bent_.assign(static_cast<std::size_t>(rows_), Bits{});
+  in_row_ = by_bent_;
+  for (const std::uint32_t t : there) enter(bvh.corners(t), kDepth);
+}
+
+/// Takes the range of phi of a triangle into that of the mesh.
+void UnrolledMesh::extend(const Corners& t, int depth) {
+  const Unrolled u = unroll(winding_, t, 0);
+  if (!near(u)) return;
+  if (u.bent) {
+    for (const Corners& q : quarters(t))
+      if (depth > 0) extend(q, depth - 1);
+    return;
+  }
+  for (const Vec2& p : u.p)
+    for (const double beside : {-u.beside - cell_, u.beside + cell_}) {
+      const double turns = 2 * kPi * std::floor((p.y() + beside) / lead_);
+      phi_lo_ = std::min(phi_lo_, u.phi_lo + turns);
+      phi_hi_ = std::max(phi_hi_, u.phi_hi + turns);
+    }
+}
+
+/// The pieces of the range of phi that [lo, hi] has a share in; what lies beyond the range counts with its ends.
+UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
+  const double piece = std::max(1e-9, phi_hi_ - phi_lo_) / kBits;
+  const auto index = [&](double phi) {
+    return static_cast<int>(std::clamp(std::floor((phi - phi_lo_) / piece), 0.0, kBits - 1.0));
+  };
+  Bits b{};
+  for (int i = index(lo), last = index(hi); i <= last; ++i) b[static_cast<std::size_t>(i / 64)] |= 1ULL << (i % 64);
+  return b;
+}
+
+/// Of what may be at any angle: psi is brought into [0, lead), so that phi tells the height.
+UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, double to) const {
+  const double pitch = lead_ / (2 * kPi);
+  return bits(u.z_lo / pitch - 2 * kPi + from - kLeastStep, u.z_hi / pitch + to + kLeastStep);
+}
+
+std::pair<long, long> UnrolledMesh::rows_of(double lo, double hi) const {
+  return {std::max(0L, static_cast<long>(std::floor((lo - ring_.r_lo) / cell_))),
+          std::min(rows_ - 1, static_cast<long>(std::floor((hi - ring_.r_lo) / cell_)))};
+}
+
+/// Calls f(cell, turns) for all cells that the triangle may have a share in, `turns` those by which it is wound back to
+/// get there. Ends with false as soon as f does. Rows for which in_row(row) is false are left out.
+template <class Row, class Cell>
+bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f) const {
+  const auto [first, last] = std::minmax({u.p[0].x(), u.p[1].x(), u.p[2].x()});
+  const auto [row0, row1] = rows_of(first - u.below, last + u.above);
+  const double column = lead_ / static_cast<double>(columns_);
+  for (long row = row0; row <= row1; ++row) {
+    if (!in_row(row)) continue;
+    // psi of what has its r, without slack, in [r0, r1].
+    const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - kRounding;
+    const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + kRounding;
+    double lo = std::numeric_limits<double>::infinity(), hi = -lo;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 &a = u.p[i], &b = u.p[(i + 1) % 3];
+      if (a.x() >= r0 && a.x() <= r1) lo = std::min(lo, a.y()), hi = std::max(hi, a.y());
+      for (const double r : {r0, r1})
+        if ((a.x() < r) != (b.x() < r)) {
+          const double share = (r - a.x()) / (b.x() - a.x()), psi = a.y() + share * (b.y() - a.y());
+          lo = std::min(lo, psi);
+          hi = std::max(hi, psi);
+        }
+    }
+    if (lo > hi) continue;
+    const long c0 = static_cast<long>(std::floor((lo - u.beside - kRounding) / column));
+    const long c1 = static_cast<long>(std::floor((hi + u.beside + kRounding) / column));
+    for (long c = c0; c <= c1; ++c) {
+      const long turns = c >= 0 ? c / columns_ : -((-c + columns_ - 1) / columns_);
+      if (!f(static_cast<std::size_t>(row * columns_ + (c - turns * columns_)), turns)) return false;
+    }
+  }
+  return true;
+}
+
+void UnrolledMesh::enter(const Corners& t, int depth) {
+  const Unrolled u = unroll(winding_, t, 0);
+  if (!near(u)) return;
+  if (depth > 0 && (u.bent || u.below > cell_)) {
+    for (const Corners& q : quarters(t)) enter(q, depth - 1);
+    return;
+  }
+  const auto add = [](Bits& to, const Bits& b) { to[0] |= b[0], to[1] |= b[1]; };
+  if (u.bent) {
+    const Bits b = bits_of_bent(u, 0, 0);
+    const auto [row0, row1] = rows_of(u.r_lo, u.r_hi);
+    for (long row = row0; row <= row1; ++row) {
+      add(in_row_[static_cast<std::size_t>(row)], b);
+      add(by_bent_[static_cast<std::size_t>(row)], b);
+    }
+    return;
+  }
+  long known = std::numeric_limits<long>::max();
+  Bits b{};
+  cells_of(
+      u, [](long) { return true; },
+      [&](std::size_t cell, long turns) {
+        if (turns != known) {
+          known = turns;
+          const double by = 2 * kPi * static_cast<double>(turns);
+          b = bits(u.phi_lo + by, u.phi_hi + by);
+        }
+        add(taken_[cell], b);
+        add(in_row_[cell / static_cast<std::size_t>(columns_)], b);
+        return true;
+      });
+}
+
+bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std::uint64_t& cells) const {
+  const Unrolled u = unroll(winding_, t, winding_.off);
+  ++cells;
+  if (!near(u)) return true;
+  const auto none = [](const Bits& x, const Bits& y) { return (x[0] & y[0]) == 0 && (x[1] & y[1]) == 0; };
+  // Whatever its psi: does anything reach so near the axis at these heights?
+  const Bits any = bits_of_bent(u, from, to);
+  const auto [row0, row1] = rows_of(u.r_lo, u.r_hi);
+  bool alone = true;
+  for (long row = row0; row <= row1 && alone; ++row) alone = none(in_row_[static_cast<std::size_t>(row)], any);
+  cells += static_cast<std::uint64_t>(std::max(0L, row1 - row0)) / 4;
+  if (alone) return true;
+  if (depth > 0 && (u.bent || u.below > cell_)) {
+    for (const Corners& q : quarters(t))
+      if (!free(q, from, to, depth - 1, cells)) return false;
+    return true;
+  }
+  if (u.bent) return false;
+  long known = std::numeric_limits<long>::max();
+  Bits b{};
+  return cells_of(
+      u, [&](long row) { return !none(in_row_[static_cast<std::size_t>(row)], any); },
+      [&](std::size_t cell, long turns) {
+        ++cells;
+        if (turns != known) {
+          known = turns;
+          const double by = 2 * kPi * static_cast<double>(turns);
+          b = bits(u.phi_lo + by + from, u.phi_hi + by + to);
+        }
+        return none(taken_[cell], b) && none(by_bent_[cell / static_cast<std::size_t>(columns_)], b);
+      });
+}
+
+bool UnrolledMesh::clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const {
+  if (lead_ < kLeastLead) return false;
+  if (taken_.empty()) return true;
+  return free(moved, winding_.turned_at(from), winding_.turned_at(to), kDepth, cells);
+}
+
+}  // namespace dismantle::verify

@@ -1,0 +1,45 @@
+// Samples that show that a motion cuts in.
+#include "sampling.h"
+
+#include <gtest/gtest.h>
+
+#include "dismantle/testing/shapes.h"
+#include "pair_check.h"
+
+namespace dismantle::verify {
+namespace {
+
+using shapes::Vec3;
+
+/// A peg that is moved some way in its sleeve, and about as deep into its wall as is allowed: what a look that stops at
+/// the first finds says the same as one at all samples, and never disagrees with the proof.
+TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
+  Rng rng(17);
+  int beyond = 0, within = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const Limits limits{rng.below(2) * rng.uniform(0, 0.01), rng.uniform(0.002, 0.01)};
+    const Solid a(shapes::tube(0.3, 1, -1, 1, 40, 6)), b(shapes::tube(1, 1.4, -1.2, 1.2, 40, 3));
+    const Vec3 aside(rng.uniform(0, 2.2) * limits.most(), 0, rng.uniform(0, 1));
+    std::vector<Pose> there{Pose{}, Pose{aside, Eigen::Quaterniond::Identity()}};
+    if (trial % 2 == 0)  // so long a way that only what is near is sampled
+      for (int k = 0; k < 18; ++k) there.push_back({aside + k * Vec3(0, 0, 0.01), there.back().q});
+    std::vector<Pose> poses;
+    for (const Pose& p : there) poses.push_back(p * a.frame);
+    Aabb around_a = a.box, around_b = b.box;
+    around_a.inflate(limits.most());
+    around_b.inflate(limits.most());
+    const RelativeMotion forward(poses, {b.frame}, around_a), backward({b.frame}, poses, around_b);
+    const Finding deepest = deepest_sample(a, b, forward, backward);
+    const bool stopped = sample_beyond(a, b, forward, backward, limits);
+    EXPECT_EQ(stopped, deepest.depth > limits.at(deepest.thickness)) << trial;  // the walls are equally thick here
+    ++(stopped ? beyond : within);
+    if (!stopped) continue;
+    Budget budget{1'000'000, 80'000};
+    EXPECT_NE(check_pair(a, b, forward, backward, limits, budget).answer, Answer::certified) << trial;
+  }
+  EXPECT_GT(beyond, 15);
+  EXPECT_GT(within, 15);
+}
+
+}  // namespace
+}  // namespace dismantle::verify

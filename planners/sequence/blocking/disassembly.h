@@ -1,0 +1,39 @@
+/// One run of the `blocking` planner: the state, what the strategies share, and the list of strategies.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "blocking/blocking.h"
+#include "blocking/path_searcher.h"
+#include "blocking/report.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class Disassembly {
+ public:
+  Disassembly(const BlockingParams& params, const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+              RunContext& context);
+  SequenceResult run();
+  /// In the order in which they are tried.
+  const std::vector<std::unique_ptr<Strategy>>& strategies() const { return strategies_; }
+
+ private:
+  void take_apart(GroupState group);
+  void add(std::unique_ptr<Strategy> strategy);
+  void make_strategies();
+
+  const BlockingParams& params_;
+  PathOracle& oracle_;
+  DisassemblyState state_;
+  SearchHistory history_;
+  std::unique_ptr<StraightMotion> straight_;  // null when switched off, or without geometry
+  std::unique_ptr<Immobility> immobility_;    // null when switched off, or without geometry
+  std::unique_ptr<Lookahead> lookahead_;
+  std::unique_ptr<PathSearcher> searcher_;
+  std::vector<std::unique_ptr<Strategy>> strategies_;
+  Report report_;
+};
+
+}  // namespace dismantle::blocking

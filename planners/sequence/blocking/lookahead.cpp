@@ -1,0 +1,195 @@
+#include "blocking/lookahead.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr std::size_t kPerThread = 4;            // attempts that are hinted
+constexpr unsigned kDepthForProofInAdvance = 2;  // of an unsuccessful search
+
+}  // namespace
+
+Lookahead::Lookahead(const DisassemblyState& state, const SearchHistory& history, PathOracle& oracle,
+                     Immobility* immobility, const StraightMotion* straight)
+    : state_(state), history_(history), oracle_(oracle), immobility_(immobility), straight_(straight) {}
+
+bool Lookahead::is_active() const { return state_.context().threads > 1; }
+
+std::size_t Lookahead::most() const { return kPerThread * state_.context().threads; }
+
+/// What other groups wait for does not depend on the outcome of `now`. What follows in this group does: the likelier
+/// case comes first.
+void Lookahead::before_search(const GroupState& group, const Attempt& now, const Subassemblies& next) const {
+  if (!is_active()) return;
+  Attempts ahead{now};
+  const Attempts success = after_success_of(group, now), failure = after_failure_of(group, now, next);
+  if (is_likely_to_leave(group, now)) {
+    add_other_groups(ahead);
+    for (std::size_t k = 0; k < std::max(success.size(), failure.size()); ++k)
+      for (const auto* list : {&success, &failure})
+        if (k < list->size()) ahead.push_back((*list)[k]);
+  } else {
+    ahead.insert(ahead.end(), failure.begin(), failure.end());
+    add_other_groups(ahead);
+    ahead.insert(ahead.end(), success.begin(), success.end());
+  }
+  if (ahead.size() > 1 + most()) ahead.resize(1 + most());
+  // Proofs come first: whether they are needed may change, but not their answers.
+  if (immobility_ != nullptr) immobility_->begin(likely_proofs(group));
+  oracle_.prefetch(ahead, state_.context());
+}
+
+void Lookahead::after_success(const GroupState& group, const Attempt& now) const {
+  if (!is_active()) return;
+  Attempts ahead = after_success_of(group, now);
+  add_other_groups(ahead);
+  oracle_.prefetch(ahead, state_.context());
+}
+
+void Lookahead::before_attempts(const Attempt& now, Attempts next) const {
+  if (!is_active()) return;
+  if (next.size() > most()) next.resize(most());
+  next.insert(next.begin(), now);
+  oracle_.prefetch(next, state_.context());
+}
+
+void Lookahead::before_translations(const GroupState& group) const {
+  if (!is_active() || immobility_ == nullptr) return;
+  std::vector<HoldQuestion> questions = immobility_->cage_questions(group);
+  std::erase_if(questions, [&](const HoldQuestion& q) {
+    return immobility_->was_asked(q) || straight_->passes_any_known(q.a, q.b) || straight_->passes_any_known(q.b, q.a);
+  });
+  immobility_->begin(questions);
+}
+
+std::vector<HoldQuestion> Lookahead::before_proof(const GroupState& group, const HoldQuestion& question) const {
+  if (!is_active()) return {};
+  // Quick proofs are over before a search is.
+  if (question.kind != HoldQuestion::Kind::cage) oracle_.prefetch(next_searches(group), state_.context());
+  return likely_proofs(group);
+}
+
+/// Little is found to depth 1, or where a search went as deep before.
+bool Lookahead::is_likely_to_leave(const GroupState& group, const Attempt& now) const {
+  if (group.members.size() < 3 || now.max_depth < 2) return false;
+  const PastSearch* search = history_.last(state_.subassembly_of(now.moving.front().part));
+  return search == nullptr || search->depth < now.max_depth;
+}
+
+/// Those that follow in its round, and in the next one.
+Lookahead::Attempts Lookahead::after_failure_of(const GroupState& group, const Attempt& now,
+                                                const Subassemblies& next) const {
+  Attempts ahead;
+  add_searches(group, now.max_depth, next, ahead);
+  if (group.searches_exhausted) return ahead;
+  if (group.is_pair())
+    add_waiting(group, history_.next_depth_of_pair(group, other_pairs_wait()), group.members, ahead);
+  else if (now.max_depth == group.search_depth && group.search_depth < history_.max_depth(group))
+    add_next_round(group, ahead);
+  return ahead;
+}
+
+/// What is left to search of its round, without the part that is searched now, and of the next round.
+Lookahead::Attempts Lookahead::after_success_of(const GroupState& group, const Attempt& now) const {
+  Attempts ahead;
+  if (group.members.size() < 3 || group.searches_exhausted || now.max_depth != group.search_depth) return ahead;
+  GroupState left = group;
+  std::erase(left.members, state_.subassembly_of(now.moving.front().part));
+  add_round(left, ahead);
+  if (left.search_depth < history_.max_depth(left)) add_next_round(left, ahead);
+  return ahead;
+}
+
+/// What is searched next as things are.
+Lookahead::Attempts Lookahead::next_searches(const GroupState& group) const {
+  Attempts ahead;
+  if (!group.searches_exhausted)
+    add_round(group, ahead);
+  else if (group.is_pair() && !group.pair_finished)
+    add_waiting(group, history_.next_depth_of_pair(group, other_pairs_wait()), group.waiting, ahead);
+  add_other_groups(ahead);
+  if (ahead.size() > most()) ahead.resize(most());
+  return ahead;
+}
+
+void Lookahead::add_round(const GroupState& group, Attempts& attempts) const {
+  Subassemblies list;
+  for (const SubassemblyId s : group.members)
+    if (state_.is_single(s) && state_.may_leave(group, {s}) && history_.is_worthwhile(group, s, group.search_depth))
+      list.push_back(s);
+  history_.sort_by_cost(list, group.search_depth);
+  add_searches(group, group.search_depth, list, attempts);
+}
+
+bool Lookahead::other_pairs_wait() const {
+  const auto& waiting = state_.waiting();
+  return std::any_of(waiting.begin(), waiting.end(),
+                     [](const GroupState& g) { return g.is_pair() && !g.pair_finished; });
+}
+
+void Lookahead::add_next_round(const GroupState& group, Attempts& attempts) const {
+  Subassemblies again;
+  for (const SubassemblyId s : group.members)
+    if (history_.reached_depth_limit(s) && history_.last(s)->depth == group.search_depth) again.push_back(s);
+  history_.sort_by_cost(again, group.search_depth + 1);
+  add_waiting(group, group.search_depth + 1, again, attempts);
+}
+
+/// No more than idle threads may come to.
+void Lookahead::add_searches(const GroupState& group, unsigned depth, const Subassemblies& ids,
+                             Attempts& attempts) const {
+  for (std::size_t k = 0; k < std::min(ids.size(), most()); ++k)
+    attempts.push_back(history_.attempt_for(group, ids[k], depth));
+}
+
+/// The next searches of the groups that wait.
+void Lookahead::add_other_groups(Attempts& attempts) const {
+  for (const GroupState& g : state_.waiting())
+    if (g.is_pair() && g.searches_exhausted && !g.pair_finished)
+      add_waiting(g, history_.next_depth_of_pair(g, true), g.waiting, attempts);
+    else if (g.members.size() > 1 && !g.searches_exhausted)
+      add_waiting(g, g.search_depth, g.waiting, attempts);
+}
+
+void Lookahead::add_waiting(const GroupState& group, unsigned depth, const Subassemblies& ids,
+                            Attempts& attempts) const {
+  for (const SubassemblyId s : ids) {
+    if (!group.contains(s) || !history_.reached_depth_limit(s) || !state_.may_leave(group, {s})) continue;
+    attempts.push_back(history_.attempt_for(group, s, depth));
+  }
+}
+
+/// Proofs about pairs, the likeliest to be sought first: flat pieces of this group; pairs that only wait for proofs;
+/// parts that were searched to some depth and have one other in their way; other groups of two.
+std::vector<HoldQuestion> Lookahead::likely_proofs(const GroupState& now) const {
+  using Kind = HoldQuestion::Kind;
+  std::vector<HoldQuestion> all;
+  if (immobility_ == nullptr) return all;
+  for (const HoldQuestion& q : immobility_->flat_questions(now))
+    if (straight_->blocks_all_known(q.a, q.b)) all.push_back(q);
+  std::vector<const GroupState*> groups{&now};
+  for (const GroupState& g : state_.waiting()) groups.push_back(&g);
+  const auto add_pairs = [&](bool searched) {
+    for (const GroupState* g : groups) {
+      if (!g->is_pair() || g->searches_finished != searched) continue;
+      const SubassemblyId a = g->members[0], b = g->members[1];
+      if (searched || history_.reached_depth_limit(a) || history_.reached_depth_limit(b))
+        immobility_->add_questions(Kind::confined_at_last, a, b, all);
+    }
+  };
+  add_pairs(true);
+  for (const GroupState* g : groups)
+    for (const SubassemblyId s : g->members) {
+      if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth < kDepthForProofInAdvance)
+        continue;
+      if (const auto blocker = immobility_->only_blocker(*g, s))
+        immobility_->add_questions(Kind::confined_for_sure, s, *blocker, all);
+    }
+  add_pairs(false);
+  std::erase_if(all, [&](const HoldQuestion& q) { return immobility_->was_asked(q); });
+  return all;
+}
+
+}  // namespace dismantle::blocking

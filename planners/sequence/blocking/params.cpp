@@ -1,0 +1,164 @@
+#include "blocking/params.h"
+
+namespace dismantle {
+namespace blocking {
+
+using S = Schema<BlockingParams>;
+
+void StraightParams::describe(S& s) {
+  s.add<bool>("straight", &StraightParams::straight,
+              {.doc = "Remove parts in straight lines wherever nothing is in the way (strategies target_first, "
+                      "free_part), and use what is known of that (groups, cages, turns, at_once). Off: every path is "
+                      "searched for by the path planner."});
+}
+
+void FreeGroupParams::describe(S& s) {
+  s.add<bool>("groups", &FreeGroupParams::groups,
+              {.doc = "Strategy free_group: when no single part is free, take out the smallest group that is, and take "
+                      "it apart by itself."});
+  s.add<unsigned>("group_proposals", &FreeGroupParams::group_proposals,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. Groups that are proposed to the verifier before other strategies are tried."});
+}
+
+void PartialTranslationParams::describe(S& s) {
+  s.add<std::int64_t>(
+      "slide_states", &PartialTranslationParams::slide_states,
+      {.unit = "1",
+       .min = 0,
+       .max = 1e8,
+       .doc = "Strategy partial_translation: when neither parts nor groups are free, largest number of states in the "
+              "search for translations that leave parts part-way (puzzles). 0 = no such search."});
+  s.add<unsigned>("slide_refusals", &PartialTranslationParams::slide_refusals,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. The search is given up after this number of translations that the verifier "
+                          "refused."});
+  s.add<double>("slide_work", &PartialTranslationParams::slide_work,
+                {.unit = "1",
+                 .min = 0,
+                 .doc = "Advanced. Pairs of edges that the first search for partial translations may compare."});
+  s.add<double>("slide_work_growth", &PartialTranslationParams::slide_work_growth,
+                {.unit = "1", .min = 1, .doc = "Advanced. Factor by which each later search may compare more."});
+}
+
+void ImmobilityParams::describe(S& s) {
+  s.add<bool>("cages", &ImmobilityParams::cages,
+              {.doc = "Strategies merge_immobile, merge_immobile_late: prove that parts cannot be separated (a ring in "
+                      "a groove, a bent bar in a hole), and move those as one. Expensive proofs wait for unsuccessful "
+                      "searches."});
+  s.add<unsigned>(
+      "cage_proofs", &ImmobilityParams::cage_proofs,
+      {.unit = "1", .doc = "Advanced. Quick proofs about pairs, at most, in a run; up to two seconds each."});
+  s.add<unsigned>("flat_proofs", &ImmobilityParams::flat_proofs,
+                  {.unit = "1",
+                   .doc = "Advanced. Proofs about flat pieces of searched parts, at most, in a run; up to ten seconds "
+                          "each."});
+  s.add<unsigned>("early_confinement_proofs", &ImmobilityParams::early_confinement_proofs,
+                  {.unit = "1",
+                   .doc = "Advanced. Proofs of confinement for the full tolerance, at most, in a run; up to half a "
+                          "minute each."});
+  s.add<unsigned>(
+      "late_confinement_proofs", &ImmobilityParams::late_confinement_proofs,
+      {.unit = "1",
+       .doc = "Advanced. Proofs of confinement for half of the tolerance, after all searches, at most, in a "
+              "run; up to half a minute each."});
+  s.add<unsigned>("proof_depth", &ImmobilityParams::proof_depth,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. Depth of an unsuccessful path search after which confinement is proved."});
+  s.add<unsigned>("interlocked_parts", &ImmobilityParams::interlocked_parts,
+                  {.unit = "1",
+                   .doc = "Advanced. Largest group that is proved immobile as a whole; the effort grows with the cube "
+                          "of the number of parts."});
+}
+
+void RotationParams::describe(S& s) {
+  s.add<bool>("turns", &RotationParams::turns,
+              {.doc = "Strategy rotation_in_place: rotate parts about the axes of their round surfaces, and leave them "
+                      "there where that frees another part (latches)."});
+  s.add<unsigned>("turn_axes", &RotationParams::turn_axes,
+                  {.unit = "1", .min = 1, .doc = "Advanced. Axes of one part, at most."});
+  s.add<unsigned>(
+      "turn_stops", &RotationParams::turn_stops,
+      {.unit = "1", .min = 4, .doc = "Advanced. Orientations in a full turn at which the other parts are examined."});
+  s.add<unsigned>("turn_halvings", &RotationParams::turn_halvings,
+                  {.unit = "1", .max = 30, .doc = "Advanced. Bisections to find where a rotating part meets another."});
+  s.add<unsigned>("turn_sweeps", &RotationParams::turn_sweeps,
+                  {.unit = "1", .doc = "Advanced. Sweeps of pairs for one group as it is, at most."});
+}
+
+void SimultaneousMotionParams::describe(S& s) {
+  s.add<bool>("at_once", &SimultaneousMotionParams::at_once,
+              {.doc = "Strategy simultaneous_motion: move two or three parts, each in its own way, where nothing else "
+                      "is in the way of one of them (interlocks). Needs a path planner that can (bfs, guided)."});
+  s.add<unsigned>("simultaneous_parts", &SimultaneousMotionParams::simultaneous_parts,
+                  {.unit = "1", .min = 2, .doc = "Advanced. Parts that move simultaneously, at most."});
+  s.add<unsigned>("simultaneous_sets", &SimultaneousMotionParams::simultaneous_sets,
+                  {.unit = "1", .doc = "Advanced. Sets that are moved to depth 1, for one group as it is."});
+  s.add<unsigned>("simultaneous_deep_sets", &SimultaneousMotionParams::simultaneous_deep_sets,
+                  {.unit = "1", .doc = "Advanced. Those of them that are moved deeper: several parts moved."});
+  s.add<unsigned>("simultaneous_depth", &SimultaneousMotionParams::simultaneous_depth,
+                  {.unit = "1", .min = 1, .doc = "Advanced. Depth of these."});
+}
+
+void PathSearchParams::describe(S& s) {
+  s.add<bool>(
+      "path_searches", &PathSearchParams::path_searches,
+      {.doc = "Strategy path_search: rounds of searches by the path planner, one action deeper whenever no part "
+              "left."});
+  s.add<bool>("pair_searches", &PathSearchParams::pair_searches,
+              {.doc = "Strategy pair_search: search for the paths of the last two parts of a group, in the end without "
+                      "limit."});
+  s.add<bool>("postponed_searches", &PathSearchParams::postponed_searches,
+              {.doc = "Strategy postponed_search: before a group is given up, make the searches that were put off "
+                      "because what they had touched was still there."});
+  s.add<unsigned>(
+      "max_depth", &PathSearchParams::max_depth,
+      {.unit = "1", .min = 1, .max = 1e6, .doc = "Largest depth of the path searches, except those of pair_search."});
+  s.add<unsigned>("depth_without_translations", &PathSearchParams::depth_without_translations,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. Largest depth where all arrangements that translations reach were visited, and "
+                          "none frees anything."});
+  s.add<unsigned>("touched_parts", &PathSearchParams::touched_parts,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. A search is repeated to the same depth when one of this number of parts that it "
+                          "touched most has left."});
+  s.add<double>("cost_octaves", &PathSearchParams::cost_octaves,
+                {.unit = "1",
+                 .min = 0,
+                 .min_open = true,
+                 .doc = "Advanced. Searches whose costs differ by less (as a power of two) come in the order of their "
+                        "use."});
+  s.add<unsigned>("pair_depth", &PathSearchParams::pair_depth,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. Depth of the searches for one pair while other pairs wait, doubled up to this."});
+  s.add<unsigned>(
+      "pair_proof_depth", &PathSearchParams::pair_proof_depth,
+      {.unit = "1",
+       .doc = "Advanced. Depth of an unsuccessful search of a pair after which confinement is proved before "
+              "a search without limit."});
+}
+
+}  // namespace blocking
+
+void BlockingParams::describe(Schema<BlockingParams>& schema) {
+  schema.add_choice("order", &BlockingParams::order,
+                    {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+                     {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+                     {"large_first", PartOrder::large_first, "descending volume"}},
+                    "Order in which parts are taken when several are free.");
+  StraightParams::describe(schema);
+  FreeGroupParams::describe(schema);
+  PartialTranslationParams::describe(schema);
+  ImmobilityParams::describe(schema);
+  RotationParams::describe(schema);
+  SimultaneousMotionParams::describe(schema);
+  PathSearchParams::describe(schema);
+}
+
+}  // namespace dismantle

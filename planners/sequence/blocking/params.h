@@ -1,0 +1,92 @@
+/// Parameters of the planner, each declared by the strategy that uses it. Those whose doc begins with "Advanced" change
+/// which plan is found and need no tuning as a rule.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/parameters.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+struct BlockingParams;
+
+namespace blocking {
+
+/// Straight removals: free_part, target_first, and what the strategies that need pairwise relations are built on.
+struct StraightParams {
+  bool straight = true;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+struct FreeGroupParams {
+  bool groups = true;
+  unsigned group_proposals = 8;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+struct PartialTranslationParams {
+  std::int64_t slide_states = 60'000;
+  unsigned slide_refusals = 12;
+  double slide_work = 5e8;
+  double slide_work_growth = 4;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+struct ImmobilityParams {
+  bool cages = true;
+  unsigned cage_proofs = 120;
+  unsigned flat_proofs = 30;
+  unsigned early_confinement_proofs = 6;
+  unsigned late_confinement_proofs = 8;
+  unsigned proof_depth = 4;
+  unsigned interlocked_parts = 8;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+struct RotationParams {
+  bool turns = true;
+  unsigned turn_axes = 2;
+  unsigned turn_stops = 24;
+  unsigned turn_halvings = 4;
+  unsigned turn_sweeps = 300;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+struct SimultaneousMotionParams {
+  bool at_once = true;
+  unsigned simultaneous_parts = 3;
+  unsigned simultaneous_sets = 12;
+  unsigned simultaneous_deep_sets = 2;
+  unsigned simultaneous_depth = 4;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+/// path_search, pair_search and postponed_search.
+struct PathSearchParams {
+  bool path_searches = true;
+  bool pair_searches = true;
+  bool postponed_searches = true;
+  unsigned max_depth = 8;
+  unsigned depth_without_translations = 4;
+  unsigned touched_parts = 3;
+  double cost_octaves = 0.5;
+  unsigned pair_depth = 64;
+  unsigned pair_proof_depth = 4;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+}  // namespace blocking
+
+struct BlockingParams : blocking::StraightParams,
+                        blocking::FreeGroupParams,
+                        blocking::PartialTranslationParams,
+                        blocking::ImmobilityParams,
+                        blocking::RotationParams,
+                        blocking::SimultaneousMotionParams,
+                        blocking::PathSearchParams {
+  PartOrder order = PartOrder::small_first;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
+}  // namespace dismantle

@@ -1,0 +1,90 @@
+#include "blocking/report.h"
+
+#include <algorithm>
+
+namespace dismantle::blocking {
+
+void Report::add_left(const GroupState& group, const std::string& notes) {
+  const std::vector<PartId> parts = state_.parts_of(group.members);
+  if (group.initial || group.members.size() > 1) remaining_.insert(remaining_.end(), parts.begin(), parts.end());
+  if (group.members.size() <= 1 || state_.target_removed()) return;
+  for (const PartId part : parts) {
+    if (state_.is_inseparable(state_.subassembly_of(part))) continue;  // add_inseparable() reports it
+    Unsolved reason = reason_for(group, part);
+    if (!notes.empty()) reason.message += (reason.message.empty() ? "" : "; ") + notes;
+    unsolved_.push_back(std::move(reason));
+  }
+}
+
+Unsolved Report::reason_for(const GroupState& group, PartId part) const {
+  if (const Unsolved* failure = state_.failure_of(part)) {
+    Unsolved reason = *failure;
+    std::erase_if(reason.blocked_by, [&](PartId b) { return !group.contains(state_.subassembly_of(b)); });
+    return reason;
+  }
+  Unsolved reason;
+  reason.part = part;
+  if (state_.interrupted()) {
+    reason.outcome = state_.context().cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+    reason.message = "not tried: stopped before its turn";
+  } else {
+    reason.message = state_.may_leave(group, {state_.subassembly_of(part)}) ? "no straight path, and no search was made"
+                                                                            : "the constraints hold it back";
+  }
+  return reason;
+}
+
+void Report::add_inseparable() {
+  for (SubassemblyId s = 0; s < state_.subassemblies(); ++s) {
+    if (!state_.is_inseparable(s)) continue;
+    for (const PartId part : state_.parts_of(s)) {
+      unsolved_.push_back(proof_for(s, part));
+      if (std::find(remaining_.begin(), remaining_.end(), part) == remaining_.end()) remaining_.push_back(part);
+    }
+  }
+}
+
+/// The oracle proves at once that a part cannot leave which is inseparable from the beginning.
+Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
+  if (const Unsolved* proof = state_.proof_of(part)) return *proof;
+  Unsolved reason;
+  reason.part = part;
+  if (!state_.is_inseparable(part)) {
+    reason.message = "kept together with one that is locked";
+    return reason;
+  }
+  Attempt attempt;
+  for (const PartId other : state_.parts_of(id))
+    (other == part ? attempt.moving : attempt.still).push_back({other, state_.pose(other)});
+  const PathResult& result = oracle_.attempt(attempt, state_.context()).result;
+  reason.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
+  reason.blocked_by = result.blocked_by;
+  reason.message = result.message;
+  return reason;
+}
+
+Outcome Report::outcome() const {
+  if (unsolved_.empty()) return Outcome::solved;
+  const auto is = [](Outcome o) { return [o](const Unsolved& u) { return u.outcome == o; }; };
+  const auto any = [&](Outcome o) { return std::any_of(unsolved_.begin(), unsolved_.end(), is(o)); };
+  const auto all = [&](Outcome o) { return std::all_of(unsolved_.begin(), unsolved_.end(), is(o)); };
+  if (any(Outcome::crashed)) return Outcome::crashed;
+  if (state_.interrupted()) return state_.context().cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+  for (const Outcome o : {Outcome::unsupported, Outcome::invalid_start})
+    if (all(o)) return o;
+  for (const Outcome o : {Outcome::timeout, Outcome::depth_limit})
+    if (any(o)) return o;
+  return Outcome::exhausted;
+}
+
+SequenceResult Report::finish() const {
+  SequenceResult result;
+  result.outcome = outcome();
+  result.removals = state_.removals();
+  result.remaining = remaining_;
+  result.unsolved = unsolved_;
+  result.counts = state_.counts();
+  return result;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,102 @@
+#include "blocking/search_history.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dismantle::blocking {
+
+const PastSearch* SearchHistory::last(SubassemblyId id) const {
+  const auto known = last_.find(state_.part_of(id));
+  return known == last_.end() ? nullptr : &known->second;
+}
+
+void SearchHistory::add(SubassemblyId id, PastSearch search, const PathResult& result) {
+  const PartId part = state_.part_of(id);
+  last_[part] = std::move(search);
+  cost_[part] = cost_of(part, result);
+}
+
+Attempt SearchHistory::attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const {
+  Attempt attempt = state_.attempt_for(group, {id});
+  attempt.max_depth = depth;
+  attempt.keep_reached = true;
+  const PastSearch* search = last(id);
+  const auto same = [](const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); };
+  if (search == nullptr || !same(search->pose, state_.pose(state_.part_of(id)))) return attempt;
+  const bool again = search->depth == depth && search->group_size == group.members.size();
+  attempt.after = again ? search->after : search->answer;  // the same question has the same answer
+  return attempt;
+}
+
+bool SearchHistory::reached_depth_limit(SubassemblyId id) const {
+  const PastSearch* search = last(id);
+  return search != nullptr && search->outcome == Outcome::depth_limit;
+}
+
+bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, unsigned depth) const {
+  const PastSearch* search = last(id);
+  if (search == nullptr) return true;
+  const auto& touched = search->blocked_by;
+  const std::size_t count =
+      search->depth > 1 ? std::min<std::size_t>(touched.size(), params_.touched_parts) : touched.size();
+  const bool room = std::any_of(touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(count),
+                                [&](PartId part) { return !group.contains(state_.subassembly_of(part)); });
+  return room || (search->outcome == Outcome::depth_limit && search->depth < depth);
+}
+
+unsigned SearchHistory::max_depth(const GroupState& group) const {
+  return group.translations_exhausted ? std::min(params_.depth_without_translations, params_.max_depth)
+                                      : params_.max_depth;
+}
+
+unsigned SearchHistory::depth_reached(const GroupState& group) const {
+  unsigned depth = 0;
+  for (const SubassemblyId s : group.members)
+    if (const PastSearch* search = last(s)) depth = std::max(depth, search->depth);
+  return depth;
+}
+
+unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_wait) const {
+  return others_wait && group.pair_depth < params_.pair_depth ? 2 * group.pair_depth : 0;
+}
+
+/// Simulated steps and state checks take the longer the more triangles the part has. Counts, not seconds: these are the
+/// same on every machine.
+int SearchHistory::cost_of(PartId part, const PathResult& result) const {
+  double work = 1;
+  for (const auto& [name, count] : result.counts)
+    if (name.ends_with("steps") || name.ends_with("looks")) work += count;
+  work *= static_cast<double>(state_.assembly().parts[part].mesh->triangles.size());
+  return static_cast<int>(std::log2(std::max(1.0, work)) / params_.cost_octaves);
+}
+
+void SearchHistory::sort_by_cost(Subassemblies& ids, unsigned depth) const {
+  const auto cost = [&](SubassemblyId s) {
+    const auto known = cost_.find(state_.part_of(s));
+    return known == cost_.end() ? 0 : known->second;
+  };
+  const auto again = [&](SubassemblyId s) {
+    const PastSearch* search = last(s);
+    return search != nullptr && search->depth >= depth;
+  };
+  std::stable_sort(ids.begin(), ids.end(), [&](SubassemblyId a, SubassemblyId b) {
+    return again(a) != again(b) ? again(b) : cost(a) < cost(b);
+  });
+}
+
+Subassemblies SearchHistory::waiting_of(const Subassemblies& ids) const {
+  Subassemblies waiting;
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(waiting),
+               [&](SubassemblyId s) { return reached_depth_limit(s); });
+  return waiting;
+}
+
+/// Where parts that stay were moved, what was known of the group does not hold any more.
+void SearchHistory::on_group_changed(GroupState& group, const GroupChange& change) {
+  if (!change.moves_remaining()) return;
+  for (const SubassemblyId s : group.members)
+    for (const PartId id : state_.parts_of(s)) last_.erase(id);
+}
+
+}  // namespace dismantle::blocking

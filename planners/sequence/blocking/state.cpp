@@ -1,0 +1,205 @@
+#include "blocking/state.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr SubassemblyId kNone = static_cast<SubassemblyId>(-1);
+
+bool holds(const Subassemblies& ids, SubassemblyId id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
+
+/// By part: a part that stands for the set that constraints keep together; lists that share a part are one set.
+std::vector<PartId> sets_kept_together(const Assembly& assembly, const Constraints& constraints) {
+  std::vector<PartId> set(assembly.parts.size());
+  std::iota(set.begin(), set.end(), PartId{0});
+  for (const auto& list : constraints.together)
+    for (const PartId id : list) {
+      const PartId from = set[id], to = set[list.front()];
+      std::replace(set.begin(), set.end(), from, to);
+    }
+  return set;
+}
+
+}  // namespace
+
+bool GroupState::contains(SubassemblyId member) const { return holds(members, member); }
+
+DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& constraints,
+                                   const InseparablePairs& inseparable, PartOrder order, SequenceObserver& observer,
+                                   RunContext& context)
+    : assembly_(assembly),
+      constraints_(constraints),
+      observer_(observer),
+      context_(context),
+      of_part_(assembly.parts.size(), kNone),
+      inseparable_(assembly.parts.size()),
+      poses_(assembly.parts.size()),
+      orientation_(assembly.parts.size(), 0) {
+  // Parts that a constraint keeps together anyway need no proof in the report.
+  std::vector<PartId> merged = sets_kept_together(assembly, constraints);
+  for (const auto& [a, b] : inseparable) {
+    if (merged[a] != merged[b]) inseparable_[a] = inseparable_[b] = true;
+    const PartId from = merged[a], to = merged[b];
+    std::replace(merged.begin(), merged.end(), from, to);
+  }
+  // The last of its parts in the order says when a subassembly is tried.
+  const std::vector<PartId> by_order = ordered_parts(assembly, order);
+  Subassemblies of_root(assembly.parts.size(), kNone);
+  for (auto id = by_order.rbegin(); id != by_order.rend(); ++id) {
+    SubassemblyId& subassembly = of_root[merged[*id]];
+    if (subassembly == kNone) {
+      subassembly = parts_.size();
+      parts_.emplace_back();
+    }
+    parts_[subassembly].push_back(*id);
+  }
+  std::reverse(parts_.begin(), parts_.end());
+  // Others leave the inseparable ones, not these them.
+  std::stable_partition(parts_.begin(), parts_.end(), [&](const auto& parts) {
+    return std::none_of(parts.begin(), parts.end(), [&](PartId id) { return inseparable_[id]; });
+  });
+  GroupState all;
+  for (SubassemblyId s = 0; s < parts_.size(); ++s) {
+    all.members.push_back(s);
+    for (const PartId id : parts_[s]) of_part_[id] = s;
+    std::sort(parts_[s].begin(), parts_[s].end());
+  }
+  all.initial = true;
+  all.id = groups_++;
+  waiting_.push_back(std::move(all));
+}
+
+std::vector<PartId> DisassemblyState::parts_of(const Subassemblies& ids) const {
+  std::vector<PartId> parts;
+  for (const SubassemblyId s : ids) parts.insert(parts.end(), parts_[s].begin(), parts_[s].end());
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+bool DisassemblyState::is_base(PartId part) const {
+  return std::find(constraints_.base.begin(), constraints_.base.end(), part) != constraints_.base.end();
+}
+
+bool DisassemblyState::is_inseparable(SubassemblyId id) const {
+  return std::any_of(parts_[id].begin(), parts_[id].end(), [&](PartId part) { return inseparable_[part]; });
+}
+
+const Unsolved* DisassemblyState::proof_of(PartId part) const {
+  const auto known = proofs_.find(part);
+  return known == proofs_.end() ? nullptr : &known->second;
+}
+
+SubassemblyId DisassemblyState::housing_of(const GroupState& group) const {
+  double largest = 0;
+  SubassemblyId housing = group.members.front();
+  for (const SubassemblyId s : group.members) {
+    Aabb box;
+    for (const PartId id : parts_[s]) box.extend(assembly_.parts[id].mesh->box());
+    if (box.empty() || box.size().prod() <= largest) continue;
+    largest = box.size().prod();
+    housing = s;
+  }
+  return housing;
+}
+
+void DisassemblyState::set_pose(PartId part, const Pose& pose) {
+  poses_[part] = pose;
+  orientation_[part] = orientations_.number_of(pose.q);
+}
+
+bool DisassemblyState::may_leave(const GroupState& group, const Subassemblies& ids) const {
+  const auto leaves = [&](PartId id) { return holds(ids, of_part_[id]); };
+  const auto stays = [&](PartId id) { return !leaves(id) && group.contains(of_part_[id]); };
+  if (std::any_of(constraints_.base.begin(), constraints_.base.end(), leaves)) return false;
+  return std::none_of(constraints_.before.begin(), constraints_.before.end(),
+                      [&](const auto& pair) { return leaves(pair.second) && stays(pair.first); });
+}
+
+Subassemblies DisassemblyState::others(const GroupState& group, const Subassemblies& ids) const {
+  Subassemblies rest;
+  for (const SubassemblyId s : group.members)
+    if (!holds(ids, s)) rest.push_back(s);
+  return rest;
+}
+
+Attempt DisassemblyState::attempt_for(const GroupState& group, const Subassemblies& ids) const {
+  Attempt attempt;
+  for (const PartId id : parts_of(ids)) attempt.moving.push_back({id, poses_[id]});
+  for (const PartId id : parts_of(others(group, ids))) attempt.still.push_back({id, poses_[id]});
+  return attempt;
+}
+
+void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt,
+                              const AttemptResult& answer, GroupChange::Kind kind) {
+  Removal removal;
+  for (std::size_t i = 0; i < attempt.moving.size(); ++i) {
+    removal.parts.push_back(attempt.moving[i].part);
+    set_pose(attempt.moving[i].part, answer.result.path.back()[i]);
+  }
+  removal.attempt = &answer;
+  removal.part_way = attempt.part_way;
+  removals_.push_back(removal);
+  for (GroupListener* listener : listeners_) listener->on_group_changed(group, {kind, ids});
+  const std::size_t parts = assembly_.parts.size();
+  if (attempt.part_way) {
+    observer_.removed(removals_.back(), parts - separations_);
+    return;
+  }
+  const Subassemblies out = answer.out ? Subassemblies{of_part_[*answer.out]} : ids;
+  group.members = others(group, out);
+  ++separations_;
+  if (out.size() > 1) {
+    GroupState own;
+    own.id = groups_++;
+    own.members = out;
+    std::sort(own.members.begin(), own.members.end());
+    waiting_.push_back(std::move(own));
+  }
+  if (constraints_.target) {
+    const SubassemblyId target = of_part_[*constraints_.target];
+    target_removed_ = target_removed_ ||
+                      (out.size() == 1 ? target == out[0] : group.members.size() == 1 && group.members[0] == target);
+  }
+  observer_.removed(removals_.back(), parts - separations_);
+  show_progress(removal.parts.front());
+}
+
+void DisassemblyState::merge(GroupState& group, const std::vector<PartId>& parts, const std::string& why) {
+  context_.log(LogLevel::info, why);
+  for (const PartId part : parts) {
+    std::vector<PartId> rest = parts;
+    std::erase(rest, part);
+    inseparable_[part] = true;
+    proofs_.try_emplace(part, Unsolved{part, Outcome::exhausted, rest, {}, why});
+  }
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (of_part_[parts[i]] != of_part_[parts[0]]) merge_two(group, of_part_[parts[0]], of_part_[parts[i]]);
+}
+
+void DisassemblyState::merge_two(GroupState& group, SubassemblyId a, SubassemblyId b) {
+  for (const PartId id : parts_[b]) of_part_[id] = a;
+  parts_[a].insert(parts_[a].end(), parts_[b].begin(), parts_[b].end());
+  std::sort(parts_[a].begin(), parts_[a].end());
+  parts_[b].clear();
+  std::erase(group.members, b);
+  for (GroupListener* listener : listeners_) listener->on_group_changed(group, {GroupChange::Kind::merged, {a, b}});
+  count("held");
+}
+
+bool DisassemblyState::stop() {
+  interrupted_ = interrupted_ || context_.should_stop();
+  return interrupted_ || target_removed_;
+}
+
+void DisassemblyState::show_progress(PartId part) const {
+  context_.progress("sequence", separations_, parts_.size() - 1, assembly_.parts[part].name);
+}
+
+const Unsolved* DisassemblyState::failure_of(PartId part) const {
+  const auto known = failures_.find(part);
+  return known == failures_.end() ? nullptr : &known->second;
+}
+
+}  // namespace dismantle::blocking

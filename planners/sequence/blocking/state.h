@@ -1,0 +1,179 @@
+/// What a run of `blocking` knows: the subassemblies and where they stand, the groups that still hang together, and the
+/// removals made so far.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "blocking/orientations.h"
+#include "dismantle/sequence_planner.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle::blocking {
+
+/// A subassembly is moved as one: a single part, or parts that a constraint keeps together or that are proved
+/// inseparable. Subassemblies are numbered in the order in which they are tried.
+using SubassemblyId = std::size_t;
+using Subassemblies = std::vector<SubassemblyId>;
+
+/// Subassemblies that have not been separated from each other. A run begins with one group of all of them; each removal
+/// splits a group in two. `members`, `id` and `initial` say what the group is; the rest is how far the searches for it
+/// have got, as far as more than one strategy needs it. What one strategy alone needs it keeps for itself (PerGroup).
+struct GroupState {
+  std::size_t id = 0;     ///< different for every group of a run
+  Subassemblies members;  ///< in the order in which they are tried
+  bool initial = false;   ///< the group of the beginning, without what has left it
+
+  unsigned search_depth = 1;        ///< of the next round of path searches; grows by one with every unsuccessful round
+  bool searches_exhausted = false;  ///< deeper rounds would find nothing more, or are not allowed
+  bool searches_finished = false;   ///< so are unlimited searches for pairs, and the postponed ones
+  Subassemblies waiting;            ///< those whose last search reached its depth limit, in the order of the next round
+
+  unsigned pair_depth = 1;     ///< groups of two: depth of the last search of the pair, doubled each time
+  bool pair_finished = false;  ///< groups of two: searched without limit, or deeper searches would find nothing more
+
+  bool translations_limited = false;    ///< the last search for partial translations ran out of its effort
+  bool translations_exhausted = false;  ///< it visited all arrangements, and none frees anything
+
+  bool contains(SubassemblyId member) const;
+  bool is_pair() const { return members.size() == 2; }
+};
+
+/// What has happened to a group.
+struct GroupChange {
+  enum class Kind {
+    removed,      ///< the moved ones have left the group together
+    translated,   ///< they were translated, and stay in the group
+    rotated,      ///< they were rotated where they are, and stay in the group
+    one_removed,  ///< several moved, each in its own way: one has left, the others stay where they came to
+    merged,       ///< they are one subassembly from now on, under the number of the first
+  };
+  Kind kind = Kind::removed;
+  Subassemblies moved;
+
+  /// Have some of those that stay in the group been moved?
+  bool moves_remaining() const {
+    return kind == Kind::translated || kind == Kind::rotated || kind == Kind::one_removed;
+  }
+};
+
+/// Told of every change.
+class GroupListener {
+ public:
+  virtual ~GroupListener() = default;
+  /// Poses are those after the change; `group.members` still has those that leave.
+  virtual void on_group_changed(GroupState& group, const GroupChange& change) = 0;
+};
+
+/// Data of one strategy for each group that it has dealt with.
+template <class T>
+class PerGroup {
+ public:
+  T& operator[](const GroupState& group) { return data_[group.id]; }
+  const T* find(const GroupState& group) const {
+    const auto known = data_.find(group.id);
+    return known == data_.end() ? nullptr : &known->second;
+  }
+
+ private:
+  std::map<std::size_t, T> data_;
+};
+
+/// Parts that are inseparable before anything is tried.
+using InseparablePairs = std::vector<std::pair<PartId, PartId>>;
+
+class DisassemblyState {
+ public:
+  /// All references must outlive this.
+  DisassemblyState(const Assembly& assembly, const Constraints& constraints, const InseparablePairs& inseparable,
+                   PartOrder order, SequenceObserver& observer, RunContext& context);
+
+  const Assembly& assembly() const { return assembly_; }
+  const Constraints& constraints() const { return constraints_; }
+  RunContext& context() const { return context_; }
+
+  // Subassemblies.
+  std::size_t subassemblies() const { return parts_.size(); }
+  /// Ascending. None: it was merged into another.
+  const std::vector<PartId>& parts_of(SubassemblyId id) const { return parts_[id]; }
+  std::vector<PartId> parts_of(const Subassemblies& ids) const;
+  bool is_single(SubassemblyId id) const { return parts_[id].size() == 1; }
+  /// The part of a single one, or the first.
+  PartId part_of(SubassemblyId id) const { return parts_[id].front(); }
+  SubassemblyId subassembly_of(PartId part) const { return of_part_[part]; }
+  bool is_base(PartId part) const;
+  /// Is a part of it proved inseparable from another?
+  bool is_inseparable(SubassemblyId id) const;
+  bool is_inseparable(PartId part) const { return inseparable_[part]; }
+  /// Why, where that was proved in the course of the run; else null.
+  const Unsolved* proof_of(PartId part) const;
+  /// The one with the largest box.
+  SubassemblyId housing_of(const GroupState& group) const;
+
+  // Poses.
+  const Pose& pose(PartId part) const { return poses_[part]; }
+  /// Number of the part's rotation in orientations().
+  std::size_t orientation(PartId part) const { return orientation_[part]; }
+  const Orientations& orientations() const { return orientations_; }
+  void set_pose(PartId part, const Pose& pose);
+
+  // Groups.
+  std::deque<GroupState>& waiting() { return waiting_; }
+  const std::deque<GroupState>& waiting() const { return waiting_; }
+  /// Do the constraints let `ids` leave the others of the group?
+  bool may_leave(const GroupState& group, const Subassemblies& ids) const;
+  /// Those of the group that are not among `ids`, in its order.
+  Subassemblies others(const GroupState& group, const Subassemblies& ids) const;
+  /// `ids` leave the others of the group.
+  Attempt attempt_for(const GroupState& group, const Subassemblies& ids) const;
+
+  // Changes. Listeners are told of each.
+  void add_listener(GroupListener& listener) { listeners_.push_back(&listener); }
+  /// Records a successful answer: notes where the parts are now, and which of them left the group.
+  void commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt, const AttemptResult& answer,
+              GroupChange::Kind kind);
+  /// Makes one subassembly of all that have one of `parts`, which are proved inseparable.
+  void merge(GroupState& group, const std::vector<PartId>& parts, const std::string& why);
+
+  // Progress and result.
+  /// The run is to end: it was interrupted, or the target is out.
+  bool stop();
+  bool interrupted() const { return interrupted_; }
+  bool target_removed() const { return target_removed_; }
+  void show_progress(PartId part) const;
+  void count(const std::string& name, double amount = 1) { counts_[name] += amount; }
+  const std::map<std::string, double>& counts() const { return counts_; }
+  const std::vector<Removal>& removals() const { return removals_; }
+  /// The last failure that is known of a part, for the report.
+  void set_failure(Unsolved failure) { failures_[failure.part] = std::move(failure); }
+  const Unsolved* failure_of(PartId part) const;
+
+ private:
+  void merge_two(GroupState& group, SubassemblyId a, SubassemblyId b);
+
+  const Assembly& assembly_;
+  const Constraints& constraints_;
+  SequenceObserver& observer_;
+  RunContext& context_;
+  std::vector<std::vector<PartId>> parts_;  // by subassembly
+  Subassemblies of_part_;                   // by part
+  std::vector<bool> inseparable_;           // by part
+  std::map<PartId, Unsolved> proofs_;
+  std::vector<Pose> poses_;               // by part
+  std::vector<std::size_t> orientation_;  // by part
+  Orientations orientations_;
+  std::deque<GroupState> waiting_;
+  std::size_t groups_ = 0;  // made so far
+  std::vector<GroupListener*> listeners_;
+  std::vector<Removal> removals_;
+  std::size_t separations_ = 0;  // removals that split a group; one less than subassemblies when all are apart
+  std::map<PartId, Unsolved> failures_;
+  std::map<std::string, double> counts_;
+  bool interrupted_ = false, target_removed_ = false;
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,329 @@
+#include "blocking/straight_motion.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr std::size_t kWave = 4;    // directions of one part that are examined together, shortest path first
+constexpr std::size_t kHints = 12;  // directions about which other threads are told in advance
+constexpr double kBeyond = 1e-3;    // assembly units: how far past the last part a path leads at most
+constexpr int kHalvings = 12;       // of the path, to find where the hulls come apart
+constexpr double kClear = 0.01;     // assembly units: further than that, so that rounding when written does no harm
+
+}  // namespace
+
+StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const Verifier& verifier)
+    : state_(state),
+      oracle_(oracle),
+      verifier_(verifier),
+      directions_(blocking::directions_of(state.assembly())),
+      relations_(verifier, directions_, state.orientations(), state.context().executor),
+      blocker_(state.subassemblies()) {}
+
+void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
+  refused_.clear();
+  if (change.moves_remaining())  // what was in the way may not be any more
+    for (auto& known : blocker_) known.clear();
+  else
+    for (const SubassemblyId s : change.moved) blocker_[s].clear();
+}
+
+Pair StraightMotion::pair_of(PartId moving, PartId fixed, std::size_t direction) const {
+  return {moving,
+          fixed,
+          direction,
+          state_.pose(moving).t - state_.pose(fixed).t,
+          state_.orientation(moving),
+          state_.orientation(fixed)};
+}
+
+/// Questions about parts that together say whether `moving` can pass `fixed`.
+std::vector<Pair> StraightMotion::pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const {
+  std::vector<Pair> pairs;
+  for (const PartId a : state_.parts_of(moving))
+    for (const PartId b : state_.parts_of(fixed)) {
+      const Pair pair = pair_of(a, b, direction);
+      if (!relations_.far(pair)) pairs.push_back(pair);
+    }
+  return pairs;
+}
+
+Subassemblies StraightMotion::blockers(const GroupState& group, SubassemblyId id, std::size_t direction) {
+  std::vector<Pair> pairs;
+  for (const SubassemblyId other : group.members)
+    if (other != id)
+      for (const Pair& pair : pairs_of(id, other, direction)) pairs.push_back(pair);
+  relations_.compute(pairs);
+  Subassemblies found;
+  for (const Pair& pair : pairs)
+    if (relations_.blocks(pair) && (found.empty() || found.back() != state_.subassembly_of(pair.still)))
+      found.push_back(state_.subassembly_of(pair.still));
+  return found;
+}
+
+std::vector<std::vector<std::size_t>> StraightMotion::blocking_graph(const GroupState& group, std::size_t direction) {
+  const std::size_t n = group.members.size();
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (i != j)
+        for (const Pair& pair : pairs_of(group.members[i], group.members[j], direction)) pairs.push_back(pair);
+  relations_.compute(pairs);
+  std::vector<std::vector<std::size_t>> blocked_by(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      if (i == j) continue;
+      const auto between = pairs_of(group.members[i], group.members[j], direction);
+      if (std::any_of(between.begin(), between.end(), [&](const Pair& p) { return relations_.blocks(p); }))
+        blocked_by[i].push_back(j);
+    }
+  return blocked_by;
+}
+
+Subassemblies StraightMotion::fewest_blockers(const GroupState& group, SubassemblyId id,
+                                              std::span<const std::size_t> directions) {
+  Subassemblies fewest;
+  bool found = false;
+  for (const std::size_t d : directions) {
+    const Subassemblies blocked_by = blockers(group, id, d);
+    if (state_.stop()) return {};
+    if (!found || blocked_by.size() < fewest.size()) fewest = blocked_by;
+    found = true;
+  }
+  return fewest;
+}
+
+bool StraightMotion::passes_any(PartId a, PartId b) {
+  std::vector<std::size_t> list = directions_.of_part[a];
+  list.insert(list.end(), directions_.of_part[b].begin(), directions_.of_part[b].end());
+  return std::any_of(list.begin(), list.end(), [&](std::size_t d) { return !relations_.blocks(pair_of(a, b, d)); });
+}
+
+bool StraightMotion::blocks_all_known(PartId a, PartId b) const {
+  const auto blocked = [&](std::size_t d) {
+    const Pair pair = pair_of(a, b, d);
+    return relations_.known(pair) && relations_.known_to_block(pair);
+  };
+  return std::all_of(directions_.of_part[a].begin(), directions_.of_part[a].end(), blocked) &&
+         std::all_of(directions_.of_part[b].begin(), directions_.of_part[b].end(), blocked);
+}
+
+bool StraightMotion::passes_any_known(PartId a, PartId b) const {
+  const auto& list = directions_.of_part[a];
+  return std::any_of(list.begin(), list.end(), [&](std::size_t d) {
+    const Pair pair = pair_of(a, b, d);
+    return relations_.known(pair) && !relations_.known_to_block(pair);
+  });
+}
+
+bool StraightMotion::forget_blocker(SubassemblyId id, std::size_t direction, SubassemblyId blocker) {
+  const auto known = blocker_[id].find(direction);
+  if (known == blocker_[id].end() || known->second != blocker) return false;
+  blocker_[id].erase(known);
+  return true;
+}
+
+bool StraightMotion::was_refused(const Subassemblies& ids, std::size_t direction) const {
+  return refused_.contains({state_.parts_of(ids), direction});
+}
+
+double StraightMotion::path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction) const {
+  const Eigen::Vector3d& d = directions_.all[direction];
+  double ours = std::numeric_limits<double>::infinity(), theirs = -ours;
+  for (const SubassemblyId u : group.members) {
+    const bool leaves = std::find(ids.begin(), ids.end(), u) != ids.end();
+    for (const PartId id : state_.parts_of(u)) {
+      const auto [lo, hi] = relations_.extent(id, direction, state_.orientation(id));
+      const double shift = state_.pose(id).t.dot(d);
+      if (leaves)
+        ours = std::min(ours, lo + shift);
+      else
+        theirs = std::max(theirs, hi + shift);
+    }
+  }
+  return std::max(0.0, theirs - ours);
+}
+
+std::vector<std::size_t> StraightMotion::own_directions(SubassemblyId unit) const {
+  std::vector<std::size_t> list;
+  for (const PartId id : state_.parts_of(unit)) {
+    const auto& of_part = directions_.of_part[id];
+    list.insert(list.end(), of_part.begin(), of_part.end());
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+std::vector<std::size_t> StraightMotion::directions_of(const GroupState& group, SubassemblyId unit) const {
+  std::vector<std::size_t> list = own_directions(unit);
+  std::vector<std::pair<double, std::size_t>> lengths;
+  for (const std::size_t d : list) lengths.emplace_back(path_length(group, {unit}, d), d);
+  std::stable_sort(lengths.begin(), lengths.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first - 1e-9; });
+  list.clear();
+  for (const auto& [length, d] : lengths) list.push_back(d);
+  return list;
+}
+
+std::vector<Pair> StraightMotion::open_pairs(const GroupState& group, SubassemblyId unit, std::size_t direction) {
+  const auto known = blocker_[unit].find(direction);
+  if (known != blocker_[unit].end()) {
+    if (group.contains(known->second)) return {};  // as long as that one is there
+    blocker_[unit].erase(known);
+  }
+  const auto [blocker, pairs] = examine(group, unit, direction);
+  if (blocker) blocker_[unit][direction] = *blocker;
+  return pairs;
+}
+
+/// One that is known to be in the way; else the pairs that are not known.
+std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::examine(const GroupState& group,
+                                                                                   SubassemblyId unit,
+                                                                                   std::size_t direction) const {
+  std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest is the likeliest
+  for (const SubassemblyId other : group.members) {
+    if (other == unit) continue;
+    for (const Pair& pair : pairs_of(unit, other, direction)) {
+      if (relations_.known(pair)) {
+        if (!relations_.known_to_block(pair)) continue;
+        return {other, {}};
+      }
+      unknown.emplace_back(relations_.extent(pair.still, direction, pair.turn_still).first -
+                               relations_.extent(pair.moving, direction, pair.turn_moving).second -
+                               pair.offset.dot(directions_.all[direction]),
+                           pair);
+    }
+  }
+  std::stable_sort(unknown.begin(), unknown.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Pair> pairs;
+  for (const auto& [gap, pair] : unknown) pairs.push_back(pair);
+  return {std::nullopt, std::move(pairs)};
+}
+
+/// Decides the directions of `unit` wave by wave, until it has a free one.
+void StraightMotion::resolve(const GroupState& group, SubassemblyId unit, std::span<const SubassemblyId> next) {
+  const std::vector<std::size_t> directions = directions_of(group, unit);
+  for (std::size_t first = 0; first < directions.size() && !state_.stop();) {
+    const std::size_t last = std::min(first + kWave, directions.size());
+    std::vector<Pair> questions;
+    bool free = false;
+    for (std::size_t k = first; k < last; ++k) {
+      if (const auto open = open_pairs(group, unit, directions[k]); !open.empty())
+        questions.push_back(open.front());
+      else
+        free = free || !blocker_[unit].contains(directions[k]);
+    }
+    if (!questions.empty()) {
+      if (relations_.wants_hints()) hint(group, std::span(directions).subspan(first), unit, next);
+      relations_.compute(questions);
+    } else {
+      if (free) return;
+      first = last;
+    }
+  }
+}
+
+/// Tells idle threads what will probably be asked: about `unit` in these directions, then about the first that are open
+/// of those after it.
+void StraightMotion::hint(const GroupState& group, std::span<const std::size_t> directions, SubassemblyId unit,
+                          std::span<const SubassemblyId> next) {
+  std::vector<std::vector<Pair>> lists;
+  const auto add = [&](SubassemblyId u, std::size_t direction) {
+    auto list = open_pairs(group, u, direction);
+    if (list.empty()) return false;
+    lists.push_back(std::move(list));
+    return true;
+  };
+  for (const std::size_t d : directions)
+    if (lists.size() < kHints) add(unit, d);
+  for (const SubassemblyId u : next) {
+    if (lists.size() >= kHints) break;
+    std::size_t open = 0;
+    for (const std::size_t d : directions_of(group, u)) {
+      if (open == kWave || lists.size() >= kHints) break;
+      if (add(u, d))
+        ++open;
+      else if (!blocker_[u].contains(d))
+        break;  // free
+    }
+  }
+  relations_.hint(lists);
+}
+
+/// Tells idle threads what will be asked when `ids` are out: about directions that only these are known to block, and
+/// what was not asked before.
+void StraightMotion::hint_after_removal(const GroupState& group, const Subassemblies& ids) {
+  GroupState left = group;
+  std::erase_if(left.members, [&](SubassemblyId u) { return std::find(ids.begin(), ids.end(), u) != ids.end(); });
+  std::vector<std::vector<Pair>> lists;
+  for (const SubassemblyId u : left.members) {
+    const auto blocked = [&](std::size_t d) {
+      const auto known = blocker_[u].find(d);
+      return known != blocker_[u].end() && left.contains(known->second);
+    };
+    const std::vector<std::size_t> own = own_directions(u);
+    if (std::all_of(own.begin(), own.end(), blocked) || !state_.may_leave(left, {u})) continue;
+    std::size_t open = 0;
+    for (const std::size_t d : directions_of(left, u)) {
+      if (open == kWave || lists.size() == kHints) break;
+      if (blocked(d)) continue;
+      auto [blocker, pairs] = examine(left, u, d);
+      if (blocker) continue;
+      if (pairs.empty()) break;  // free
+      lists.push_back(std::move(pairs));
+      ++open;
+    }
+    if (lists.size() == kHints) break;
+  }
+  relations_.hint(lists);
+}
+
+std::optional<std::size_t> StraightMotion::free_direction(const GroupState& group, SubassemblyId unit,
+                                                          std::span<const SubassemblyId> next) {
+  resolve(group, unit, next);
+  if (state_.stop()) return std::nullopt;
+  for (const std::size_t d : directions_of(group, unit)) {
+    if (blocker_[unit].contains(d) || was_refused({unit}, d)) continue;
+    if (!open_pairs(group, unit, d).empty()) continue;  // not examined: a nearer wave had a free one, which was refused
+    if (!blocker_[unit].contains(d)) return d;
+  }
+  return std::nullopt;
+}
+
+bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {
+  const Attempt attempt = state_.attempt_for(group, ids);
+  const Eigen::Vector3d& d = directions_.all[direction];
+  const double length =
+      verifier_.way_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
+      kClear;
+  Path path(2);
+  for (const auto& p : attempt.moving) {
+    path[0].push_back(p.pose);
+    path[1].push_back({p.pose.t + length * d, p.pose.q});
+  }
+  const PartId first = attempt.moving.front().part;
+  state_.show_progress(first);
+  if (relations_.works_ahead()) hint_after_removal(group, ids);
+  RunContext& context = state_.context();
+  const AttemptResult& answer = oracle_.propose(attempt, path, context);
+  context.log(LogLevel::debug, "straight path of '" + state_.assembly().parts[first].name + "' and " +
+                                   std::to_string(attempt.moving.size() - 1) +
+                                   " more: " + std::string(to_string(answer.result.outcome)) + ", " +
+                                   std::to_string(answer.seconds) + " s " + answer.result.message);
+  if (!is_success(answer.result.outcome)) {
+    const std::vector<PartId> parts = state_.parts_of(ids);
+    refused_.insert({parts, direction});
+    for (const PartId id : parts)
+      state_.set_failure({id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message});
+    return false;
+  }
+  state_.commit(group, ids, attempt, answer, GroupChange::Kind::removed);
+  state_.count(ids.size() == 1 ? "straight" : "groups");
+  return true;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,54 @@
+#include "blocking/strategies/free_group.h"
+
+#include <algorithm>
+
+#include "blocking/graph.h"
+
+namespace dismantle::blocking {
+
+Result FreeGroup::apply(GroupState& group) {
+  if (done_[group]) return Result::unchanged;
+  unsigned proposed = 0;
+  for (const Candidate& c : candidates(group)) {
+    if (state_.stop() || proposed == params_.group_proposals) break;
+    if (straight_.was_refused(c.ids, c.direction)) continue;
+    ++proposed;
+    if (straight_.leave(group, c.ids, c.direction)) return Result::restart;
+  }
+  done_[group] = true;
+  return Result::unchanged;
+}
+
+/// Fewest parts first. What is left of a group could move the other way just as well: the smaller side moves.
+std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group) {
+  std::vector<Candidate> found;
+  const auto candidate = [&](Subassemblies ids, std::size_t direction) {
+    const std::size_t parts = state_.parts_of(ids).size();
+    return Candidate{std::move(ids), parts, direction};
+  };
+  for (const std::size_t d : straight_.directions().common) {
+    if (state_.stop()) return {};
+    for (const auto& indices : free_groups(straight_.blocking_graph(group, d))) {
+      Subassemblies ids;
+      for (const std::size_t i : indices) ids.push_back(group.members[i]);
+      const Candidate rest = candidate(state_.others(group, ids), Directions::opposite(d));
+      const Candidate own = candidate(std::move(ids), d);
+      const bool own_first = own.parts <= rest.parts;
+      for (const Candidate& c : {own_first ? own : rest, own_first ? rest : own})
+        if (state_.may_leave(group, c.ids)) {
+          found.push_back(c);
+          break;
+        }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.parts < b.parts; });
+  return found;
+}
+
+/// The search for partial translations ends where a group is free, and names it, so these need no second examination.
+void FreeGroup::on_group_changed(GroupState& group, const GroupChange& change) {
+  if (change.kind != GroupChange::Kind::translated) done_[group] = false;
+}
+
+}  // namespace dismantle::blocking

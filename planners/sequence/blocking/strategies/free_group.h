@@ -1,0 +1,34 @@
+/// Removes the smallest group of subassemblies that can move together in a straight line (Wilson and Latombe 1994: the
+/// strongly connected components of the directional blocking graph). It is taken apart by itself later.
+#pragma once
+
+#include "blocking/params.h"
+#include "blocking/straight_motion.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class FreeGroup final : public Strategy {
+ public:
+  FreeGroup(DisassemblyState& state, StraightMotion& straight, const FreeGroupParams& params)
+      : state_(state), straight_(straight), params_(params) {}
+  std::string_view name() const noexcept override { return "free_group"; }
+  Cost cost() const noexcept override { return Cost::pair_sweeps; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange& change) override;
+
+ private:
+  struct Candidate {
+    Subassemblies ids;
+    std::size_t parts = 0;
+    std::size_t direction = 0;
+  };
+  std::vector<Candidate> candidates(const GroupState& group);
+
+  DisassemblyState& state_;
+  StraightMotion& straight_;
+  const FreeGroupParams& params_;
+  PerGroup<bool> done_;
+};
+
+}  // namespace dismantle::blocking

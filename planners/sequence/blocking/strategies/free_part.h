@@ -1,0 +1,21 @@
+/// Removes a subassembly that nothing blocks along some direction.
+#pragma once
+
+#include "blocking/straight_motion.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class FreePart final : public Strategy {
+ public:
+  FreePart(DisassemblyState& state, StraightMotion& straight) : state_(state), straight_(straight) {}
+  std::string_view name() const noexcept override { return "free_part"; }
+  Cost cost() const noexcept override { return Cost::pair_sweeps; }
+  Result apply(GroupState& group) override;
+
+ private:
+  DisassemblyState& state_;
+  StraightMotion& straight_;
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,38 @@
+#include "blocking/strategies/pair_search.h"
+
+#include <algorithm>
+
+namespace dismantle::blocking {
+
+/// Rounds of other groups are cheaper. Of several pairs none takes all the time, so each gets a limited search in turn.
+Result PairSearch::apply(GroupState& group) {
+  if (!params_.pair_searches || !group.is_pair() || group.pair_finished) return Result::unchanged;
+  const auto& waiting = state_.waiting();
+  if (std::any_of(waiting.begin(), waiting.end(),
+                  [](const GroupState& g) { return g.members.size() > 1 && !g.searches_exhausted; }))
+    return Result::defer;
+  if (search(group) || group.pair_finished || state_.stop()) return Result::restart;
+  return Result::defer;
+}
+
+/// True: they came apart, or are merged. After deep searches that found nothing one without limit most likely takes all
+/// the time that it may, and a proof that the two are inseparable takes seconds: it comes first.
+bool PairSearch::search(GroupState& group) {
+  const unsigned depth = history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
+  const bool unlimited = depth == 0;
+  if (unlimited && immobility_ != nullptr && history_.depth_reached(group) >= params_.pair_proof_depth &&
+      immobility_->merge_confined_late(group))
+    return true;
+  if (!unlimited) group.pair_depth = depth;
+  const Subassemblies candidates = searcher_.candidates(group);
+  Subassemblies open;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(open),
+               [&](SubassemblyId s) { return history_.last(s) == nullptr || history_.reached_depth_limit(s); });
+  if (searcher_.search_each(group, open, depth)) return true;
+  if (state_.stop()) return false;
+  group.waiting = history_.waiting_of(candidates);
+  group.pair_finished = unlimited || history_.waiting_of(group.members).empty();
+  return false;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,35 @@
+/// Searches for the paths of the last two of a group: deeper each time, and in the end without limit.
+#pragma once
+
+#include "blocking/path_searcher.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class PairSearch final : public Strategy {
+ public:
+  /// `immobility`: null when proofs are switched off.
+  PairSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const Lookahead& lookahead,
+             Immobility* immobility, const PathSearchParams& params)
+      : state_(state),
+        history_(history),
+        searcher_(searcher),
+        lookahead_(lookahead),
+        immobility_(immobility),
+        params_(params) {}
+  std::string_view name() const noexcept override { return "pair_search"; }
+  Cost cost() const noexcept override { return Cost::unlimited_search; }
+  Result apply(GroupState& group) override;
+
+ private:
+  bool search(GroupState& group);
+
+  DisassemblyState& state_;
+  SearchHistory& history_;
+  PathSearcher& searcher_;
+  const Lookahead& lookahead_;
+  Immobility* immobility_;
+  const PathSearchParams& params_;
+};
+
+}  // namespace dismantle::blocking

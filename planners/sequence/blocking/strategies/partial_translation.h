@@ -1,0 +1,48 @@
+/// Straight translations that leave parts part-way, found by a search over the arrangements of all parts of a group.
+#pragma once
+
+#include <cstdint>
+
+#include "blocking/lookahead.h"
+#include "blocking/params.h"
+#include "blocking/slides.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class PartialTranslation final : public Strategy {
+ public:
+  /// `straight`: null when straight removals are switched off; then only translations within the group are made.
+  PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const Lookahead& lookahead,
+                     const PartialTranslationParams& params);
+  std::string_view name() const noexcept override { return "partial_translation"; }
+  Cost cost() const noexcept override { return Cost::arrangements; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange& change) override;
+  std::string failure_note(const GroupState& group) const override;
+
+ private:
+  struct Progress {
+    bool done = false;
+    unsigned depth = 0;  ///< GroupState::search_depth at the last search
+    std::string note;
+  };
+  /// What becomes of one slide that was found.
+  enum class Made { yes, refused, removed, impossible };
+  bool search(GroupState& group);
+  SlideSearch::Answer find(GroupState& group);
+  Made make(GroupState& group, const Slide& slide);
+  bool translate(GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& by, const AttemptResult*& answer);
+  void forbid(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction,
+              const AttemptResult* refusal);
+
+  DisassemblyState& state_;
+  PathOracle& oracle_;
+  StraightMotion* straight_;
+  const Lookahead& lookahead_;
+  const PartialTranslationParams& params_;
+  SlideSearch slides_;
+  PerGroup<Progress> progress_;
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,52 @@
+#include "blocking/strategies/path_search.h"
+
+#include <algorithm>
+
+namespace dismantle::blocking {
+
+/// A group that needs a deeper search waits until the others have had theirs.
+Result PathSearch::apply(GroupState& group) {
+  const auto& waiting = state_.waiting();
+  const bool last_group =
+      std::none_of(waiting.begin(), waiting.end(), [](const GroupState& g) { return g.members.size() > 1; });
+  // The last pair is left to PairSearch, unless one more search triggers a proof about it.
+  if (!params_.path_searches || (group.is_pair() && last_group && !close_to_proof(group)))
+    group.searches_exhausted = true;
+  if (group.searches_exhausted) return Result::unchanged;
+  if (round(group)) return Result::restart;
+  return group.searches_exhausted || waiting.empty() || state_.stop() ? Result::restart : Result::defer;
+}
+
+bool PathSearch::close_to_proof(const GroupState& group) const {
+  return immobility_ != nullptr && immobility_->is_close_to_proof(group);
+}
+
+/// True: a part left, or was merged.
+bool PathSearch::round(GroupState& group) {
+  const Subassemblies candidates = searcher_.candidates(group);
+  Subassemblies list;
+  for (const SubassemblyId s : candidates) {
+    if (history_.is_worthwhile(group, s, group.search_depth))
+      list.push_back(s);
+    else
+      state_.count("postponed");
+  }
+  history_.sort_by_cost(list, group.search_depth);
+  if (searcher_.search_each(group, list, group.search_depth)) return true;
+  group.waiting = history_.waiting_of(candidates);
+  const bool more_translations =
+      group.translations_limited && group.members.size() > 2 && group.search_depth < params_.max_depth;
+  const bool deeper = !group.waiting.empty() && group.search_depth < history_.max_depth(group) &&
+                      (!group.is_pair() || close_to_proof(group));
+  if (more_translations || deeper)
+    ++group.search_depth;
+  else
+    group.searches_exhausted = true;
+  return false;
+}
+
+void PathSearch::on_group_changed(GroupState& group, const GroupChange&) {
+  group.searches_exhausted = group.searches_finished = group.pair_finished = false;
+}
+
+}  // namespace dismantle::blocking

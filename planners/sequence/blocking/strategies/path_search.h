@@ -1,0 +1,31 @@
+/// Rounds of searches by the path planner: every part to a small depth, then deeper (Tian et al. 2022, Algorithm 2).
+#pragma once
+
+#include "blocking/path_searcher.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class PathSearch final : public Strategy {
+ public:
+  /// `immobility`: null when proofs are switched off.
+  PathSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const Immobility* immobility,
+             const PathSearchParams& params)
+      : state_(state), history_(history), searcher_(searcher), immobility_(immobility), params_(params) {}
+  std::string_view name() const noexcept override { return "path_search"; }
+  Cost cost() const noexcept override { return Cost::limited_search; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange& change) override;
+
+ private:
+  bool round(GroupState& group);
+  bool close_to_proof(const GroupState& group) const;
+
+  DisassemblyState& state_;
+  SearchHistory& history_;
+  PathSearcher& searcher_;
+  const Immobility* immobility_;
+  const PathSearchParams& params_;
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,26 @@
+/// Makes the searches that were put off because what they had touched was still there: nothing is given up without a
+/// search of every part in the group as it is. Proofs that follow are expensive, so they wait for this of all groups.
+#pragma once
+
+#include "blocking/path_searcher.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+class PostponedSearch final : public Strategy {
+ public:
+  PostponedSearch(DisassemblyState& state, const SearchHistory& history, PathSearcher& searcher,
+                  const PathSearchParams& params)
+      : state_(state), history_(history), searcher_(searcher), params_(params) {}
+  std::string_view name() const noexcept override { return "postponed_search"; }
+  Cost cost() const noexcept override { return Cost::unlimited_search; }
+  Result apply(GroupState& group) override;
+
+ private:
+  DisassemblyState& state_;
+  const SearchHistory& history_;
+  PathSearcher& searcher_;
+  const PathSearchParams& params_;
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,63 @@
+/// Rotates a part about the axis of one of its round surfaces and leaves it there, where that frees another part: a
+/// latch, a bayonet, a disc under a slider.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "blocking/params.h"
+#include "blocking/straight_motion.h"
+#include "blocking/strategy.h"
+#include "blocking/turns.h"
+
+namespace dismantle::blocking {
+
+class RotationInPlace final : public Strategy {
+ public:
+  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Verifier& verifier,
+                  const RotationParams& params)
+      : state_(state), oracle_(oracle), straight_(straight), verifier_(verifier), params_(params) {}
+  std::string_view name() const noexcept override { return "rotation_in_place"; }
+  Cost cost() const noexcept override { return Cost::arc_sweeps; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange&) override { done_[group] = false; }
+
+ private:
+  /// A part on its way about an axis.
+  struct Rotation {
+    SubassemblyId id = 0;
+    TurningAxis axis;
+    Pose start;
+    int sense = 1;  ///< of the rotation about the axis, 1 or -1
+
+    Pose at(double angle) const;  ///< rad
+  };
+  bool rotate_any(GroupState& group);
+  bool rotate(GroupState& group, SubassemblyId id, const TurningAxis& axis);
+  bool step(const GroupState& group, const Rotation& rotation, unsigned stop, Path& path);
+  double arc() const;  ///< rad, from one stop to the next
+  bool sweeps_clear(const GroupState& group, SubassemblyId id, const Pose& from, const Pose& to);
+  bool arc_passes(PartId part, const Pose& from, const Pose& to, PartId fixed);
+  std::optional<std::pair<SubassemblyId, std::size_t>> freed_at(const GroupState& group, SubassemblyId id,
+                                                                const Pose& pose);
+  std::optional<std::pair<SubassemblyId, std::size_t>> freed_by(const GroupState& group, SubassemblyId id);
+  bool commit(GroupState& group, SubassemblyId id, const Path& path);
+  bool limit_reached() const { return sweeps_ > params_.turn_sweeps; }
+
+  DisassemblyState& state_;
+  PathOracle& oracle_;
+  StraightMotion& straight_;
+  const Verifier& verifier_;
+  const RotationParams& params_;
+  PerGroup<bool> done_;
+  std::map<PartId, std::vector<TurningAxis>> axes_;
+  /// Rotations that freed another part once: members of the group, part, orientation.
+  std::set<std::pair<Subassemblies, std::pair<SubassemblyId, std::size_t>>> tried_;
+  std::map<std::vector<double>, bool> arcs_;  // by two parts and three poses
+  unsigned sweeps_ = 0;                       // for the group as it is
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,155 @@
+#include "blocking/strategies/simultaneous_motion.h"
+
+#include <algorithm>
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr unsigned kRounds = 3;
+constexpr double kMoved = 0.1;  // assembly units; less is play
+
+/// How far the part has come from where it was, rotation included, as seen on its box.
+double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
+  const Aabb box = mesh.box();
+  return box.empty() ? (to.t - from.t).norm() : screw_travel(from, to, box.center(), 0.5 * box.size().norm());
+}
+
+}  // namespace
+
+SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
+                                       const Lookahead& lookahead, const SimultaneousMotionParams& params,
+                                       unsigned max_depth)
+    : state_(state),
+      oracle_(oracle),
+      straight_(straight),
+      lookahead_(lookahead),
+      params_(params),
+      max_depth_(max_depth) {}
+
+/// One round after the first round of path searches, the next after the second, and so on.
+Result SimultaneousMotion::apply(GroupState& group) {
+  if (group.members.size() < 3) return Result::unchanged;
+  const unsigned allowed = group.searches_exhausted || group.search_depth > 2 ? kRounds : group.search_depth - 1;
+  Progress& progress = progress_[group];
+  if (unsupported_ || progress.rounds >= allowed) return Result::unchanged;
+  const std::vector<Subassemblies> sets = candidate_sets(group);
+  while (progress.rounds < allowed) {
+    const unsigned round = ++progress.rounds;
+    std::vector<Subassemblies> list;
+    for (const Subassemblies& set : sets)
+      if (is_worthwhile(group, set, round) && (round > 1 || set.size() == 2) &&
+          (round < kRounds || list.size() < params_.simultaneous_deep_sets))
+        list.push_back(set);
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      if (state_.stop() || unsupported_) return Result::unchanged;
+      if (move(group, list, k, round)) return Result::restart;
+    }
+  }
+  if (!sets.empty())
+    progress.note =
+        std::to_string(sets.size()) + " sets of parts were moved at once, each part in its own way, in vain";
+  return Result::unchanged;
+}
+
+/// Sets of which one member would be free if it were not for the others: the edges of the blocking graphs where they
+/// are fewest. Small sets first, then those with most directions in which it is so. The housing stays where it is.
+std::vector<Subassemblies> SimultaneousMotion::candidate_sets(const GroupState& group) {
+  const SubassemblyId housing = state_.housing_of(group);
+  const auto moves = [&](SubassemblyId s) {
+    return s != housing && state_.is_single(s) && !state_.is_base(state_.part_of(s));
+  };
+  std::vector<Subassemblies> sets;
+  std::map<Subassemblies, std::size_t> directions;
+  for (const SubassemblyId s : group.members) {
+    if (!moves(s) || !state_.may_leave(group, {s})) continue;
+    for (const std::size_t d : straight_.directions().common) {
+      Subassemblies set = straight_.blockers(group, s, d);
+      if (state_.stop()) return {};
+      if (set.empty() || set.size() + 1 > params_.simultaneous_parts || !std::all_of(set.begin(), set.end(), moves))
+        continue;
+      set.push_back(s);
+      std::sort(set.begin(), set.end());
+      if (++directions[set] == 1) sets.push_back(std::move(set));
+    }
+  }
+  std::stable_sort(sets.begin(), sets.end(), [&](const auto& a, const auto& b) {
+    return a.size() != b.size() ? a.size() < b.size() : directions[a] > directions[b];
+  });
+  if (sets.size() > params_.simultaneous_sets) sets.resize(params_.simultaneous_sets);
+  return sets;
+}
+
+unsigned SimultaneousMotion::depth_of(unsigned round) const { return round < kRounds ? 1 : params_.simultaneous_depth; }
+
+/// Nothing when none of them may leave.
+std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, const Subassemblies& ids,
+                                                       unsigned round) const {
+  Attempt attempt = state_.attempt_for(group, ids);
+  for (const SubassemblyId s : ids)
+    if (state_.may_leave(group, {s})) attempt.leaving.push_back(state_.part_of(s));
+  if (attempt.leaving.empty()) return std::nullopt;
+  attempt.max_depth = std::min(depth_of(round), max_depth_);
+  return attempt;
+}
+
+/// As for searches of single parts: not again while all that was touched is there. Deeper only where several moved.
+bool SimultaneousMotion::is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const {
+  const auto known = last_.find(ids);
+  if (known == last_.end()) return true;
+  const PastMotion& last = known->second;
+  if (std::any_of(last.blocked_by.begin(), last.blocked_by.end(),
+                  [&](PartId part) { return !group.contains(state_.subassembly_of(part)); }))
+    return true;
+  return last.outcome == Outcome::depth_limit && last.depth < depth_of(round) && last.several_moved;
+}
+
+/// Searches for a motion of the k-th set.
+bool SimultaneousMotion::move(GroupState& group, const std::vector<Subassemblies>& sets, std::size_t k,
+                              unsigned round) {
+  const Subassemblies& ids = sets[k];
+  const std::optional<Attempt> attempt = attempt_for(group, ids, round);
+  if (!attempt) return false;
+  RunContext& context = state_.context();
+  state_.show_progress(attempt->moving.front().part);
+  std::vector<Attempt> next;
+  for (std::size_t n = k + 1; n < sets.size(); ++n)
+    if (auto later = attempt_for(group, sets[n], round)) next.push_back(std::move(*later));
+  lookahead_.before_attempts(*attempt, std::move(next));
+  const AttemptResult& answer = oracle_.attempt(*attempt, context);
+  const PathResult& result = answer.result;
+  std::string names;
+  for (const SubassemblyId s : ids)
+    names += (names.empty() ? "'" : "', '") + state_.assembly().parts[state_.part_of(s)].name;
+  context.log(LogLevel::debug, "simultaneous motion of " + names + "' to depth " + std::to_string(attempt->max_depth) +
+                                   ": " + std::string(to_string(result.outcome)) + ", " +
+                                   std::to_string(answer.seconds) + " s " + result.message);
+  if (is_success(result.outcome)) {
+    state_.commit(group, ids, *attempt, answer, GroupChange::Kind::one_removed);
+    state_.count("at_once");
+    return true;
+  }
+  unsupported_ = unsupported_ || result.outcome == Outcome::unsupported;
+  last_[ids] = {attempt->max_depth, result.outcome, result.blocked_by, several_moved(*attempt, result.best_pose)};
+  return false;
+}
+
+bool SimultaneousMotion::several_moved(const Attempt& attempt, const std::vector<Pose>& reached) const {
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    const PlacedPart& p = attempt.moving[i];
+    if (travel(*state_.assembly().parts[p.part].mesh, p.pose, reached[i]) > kMoved) ++moved;
+  }
+  return moved > 1;
+}
+
+void SimultaneousMotion::on_group_changed(GroupState& group, const GroupChange& change) {
+  if (change.kind != GroupChange::Kind::merged) progress_[group].rounds = 0;
+  if (change.moves_remaining()) last_.clear();
+}
+
+std::string SimultaneousMotion::failure_note(const GroupState& group) const {
+  const Progress* progress = progress_.find(group);
+  return progress == nullptr ? std::string() : progress->note;
+}
+
+}  // namespace dismantle::blocking

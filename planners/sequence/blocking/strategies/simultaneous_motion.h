@@ -1,0 +1,57 @@
+/// Moves two or three parts, each in its own way, until one of them is out: what an interlock of parts asks for, of
+/// which none moves alone.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "blocking/lookahead.h"
+#include "blocking/params.h"
+#include "blocking/strategy.h"
+
+namespace dismantle::blocking {
+
+/// Three rounds. Pairs to depth 1, before single parts are searched deeper; then larger sets, which are expensive; then
+/// those sets deeper in which more than one part moved.
+class SimultaneousMotion final : public Strategy {
+ public:
+  SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
+                     const SimultaneousMotionParams& params, unsigned max_depth);
+  std::string_view name() const noexcept override { return "simultaneous_motion"; }
+  Cost cost() const noexcept override { return Cost::limited_search; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange& change) override;
+  std::string failure_note(const GroupState& group) const override;
+
+ private:
+  struct Progress {
+    unsigned rounds = 0;  ///< that are over, or under way
+    std::string note;
+  };
+  struct PastMotion {
+    unsigned depth = 0;
+    Outcome outcome = Outcome::exhausted;
+    std::vector<PartId> blocked_by;
+    bool several_moved = false;
+  };
+  std::vector<Subassemblies> candidate_sets(const GroupState& group);
+  unsigned depth_of(unsigned round) const;
+  std::optional<Attempt> attempt_for(const GroupState& group, const Subassemblies& ids, unsigned round) const;
+  bool is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const;
+  bool move(GroupState& group, const std::vector<Subassemblies>& sets, std::size_t k, unsigned round);
+  bool several_moved(const Attempt& attempt, const std::vector<Pose>& reached) const;
+
+  DisassemblyState& state_;
+  PathOracle& oracle_;
+  StraightMotion& straight_;
+  const Lookahead& lookahead_;
+  const SimultaneousMotionParams& params_;
+  unsigned max_depth_;
+  PerGroup<Progress> progress_;
+  std::map<Subassemblies, PastMotion> last_;
+  bool unsupported_ = false;  // by the path planner or the simulator
+};
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,104 @@
+/// YAML and the command line into typed settings of a run. Formats and messages: docs/configuration.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/engine/layout.h"
+#include "dismantle/parameters.h"
+#include "dismantle/path_oracle.h"
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/verification/verifier.h"
+
+namespace dismantle {
+
+/// The `run:` section.
+struct RunSettings {
+  std::int64_t seed = 1;
+  unsigned threads = 0;         ///< 0 = all cores
+  double path_timeout = 120;    ///< seconds per attempt, 0 = none
+  std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
+  double timeout = 7200;        ///< seconds for the whole run, 0 = none
+  DISMANTLE_API static void describe(Schema<RunSettings>& s);
+};
+
+/// One of the chosen plugins. `params` is complete.
+struct PluginChoice {
+  std::string type;
+  ParamSet params;
+};
+
+/// What the user asks of the order, by names of parts. See Constraints.
+struct NamedConstraints {
+  std::vector<std::string> base;
+  std::vector<std::vector<std::string>> together;
+  std::vector<std::vector<std::string>> before;  ///< each in the order in which they are to leave
+  std::string target;                            ///< empty: none
+  std::vector<std::string> ignore;               ///< parts that are left out of the assembly
+  bool operator==(const NamedConstraints&) const = default;
+};
+/// @throws InputError when a part is not there.
+DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
+
+/// Everything that a run is told. Same RunConfig, same input: same plan.
+struct RunConfig {
+  PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
+  PrepareOptions assembly;
+  RunSettings run;
+  VerifyOptions verify;
+  LayoutOptions layout;
+  NamedConstraints constraints;
+  std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
+
+  /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
+  std::map<std::string, ParamSet> sections;
+  /// "run.seed" -> "configs/a.yaml:4", "<--set>:1", "<--seed>" or "default".
+  std::map<std::string, std::string> origins;
+};
+
+/// An option of the command line that stands for a key: {"--seed", "run.seed", "7"}.
+struct ConfigOption {
+  std::string flag;
+  std::string key;
+  std::string value;
+};
+
+struct ConfigSource {
+  std::optional<std::filesystem::path> file;  ///< none: defaults only
+  std::vector<std::string> set;               ///< "path_planner.goal_bias=0.1"; the value is YAML
+  std::vector<ConfigOption> options;          ///< values are taken literally
+};
+
+/// Reads, merges and checks. Adds the configuration's search paths to `registry` and scans it.
+/// @throws ConfigError with everything that is wrong.
+DISMANTLE_API RunConfig load_config(const ConfigSource& source, Registry& registry);
+
+/// The configuration as a file that gives the same RunConfig when it is loaded again: every value, with where it
+/// came from, and the plugins with version and hash as comments. `folder`: where the file will lie
+/// (search paths are written relative to it).
+DISMANTLE_API std::string resolved_yaml(const RunConfig& config, const Registry& registry,
+                                        const std::filesystem::path& folder);
+
+/// The sections with fixed parameters: name and declarations of `assembly`, `layout`, `run`, `verify`.
+DISMANTLE_API const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections();
+/// The sections that choose a plugin, with the id that is taken when none is named.
+struct PluginSection {
+  const char* name;
+  PluginKind kind;
+  const char* default_id;
+};
+DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
+/// The type that is taken where the section names none. Whoever names a path planner other than the default wants that
+/// one asked for every way: then the sequence planner is `progressive`, which finds no ways by itself.
+DISMANTLE_API std::string default_type(const PluginSection& section, const std::string& path_planner);
+
+inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
+
+}  // namespace dismantle

@@ -1,0 +1,25 @@
+/// From a configuration to what the runner takes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/host/config.h"
+#include "dismantle/export.h"
+#include "dismantle/importer.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/engine/run.h"
+
+namespace dismantle {
+
+/// The plugins that `config` chooses. `registry` must outlive what is returned. @throws PluginError.
+DISMANTLE_API Ingredients ingredients_of(const RunConfig& config, const Registry& registry);
+
+/// `part`: plan just this one; empty: all.
+DISMANTLE_API RunOptions run_options_of(const RunConfig& config, const std::string& part);
+
+/// All importers that are there, by id.
+DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry);
+
+}  // namespace dismantle

@@ -1,0 +1,258 @@
+#include "dismantle/host/config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "config/constraints.h"
+#include "config/layers.h"
+#include "dismantle/host/config_bind.h"
+
+namespace dismantle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One pass over the merged tree; each step reports all that it finds.
+class Loader {
+ public:
+  Loader(const ConfigNode& root, Registry& registry, std::vector<Diagnostic>& problems)
+      : root_(root), registry_(registry), problems_(problems) {}
+
+  RunConfig load() {
+    check_top_level();
+    read_plugins();
+    for (const auto& section : plugin_sections()) choose(section);
+    collect_homes();
+    for (const auto& section : plugin_sections()) bind_plugin(section);
+    for (const auto& [name, specs] : fixed_sections()) {
+      const ConfigNode* section = node(name);
+      ConfigNode plain;
+      if (name == "layout" && section != nullptr && section->is_map()) {
+        plain = without_poses(*section);
+        section = &plain;
+      }
+      config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
+    }
+    if (const ConfigNode* section = node("constraints"); section != nullptr)
+      config_.constraints = read_constraints(*section, problems_);
+    check_capabilities();
+    return std::move(config_);
+  }
+
+ private:
+  struct Chosen {
+    const RegisteredType* type = nullptr;
+    ConfigMark mark;
+    bool named = false;
+  };
+
+  const ConfigNode* node(const std::string& key) const {
+    const auto* member = root_.find(key);
+    return member == nullptr ? nullptr : &member->value;
+  }
+
+  void check_top_level() {
+    std::vector<std::string> known = {"schema", "extends", "plugins", "constraints"};
+    for (const auto& section : plugin_sections()) known.emplace_back(section.name);
+    for (const auto& section : fixed_sections()) known.push_back(section.first);
+    for (const auto& member : root_.members)
+      if (std::find(known.begin(), known.end(), member.key) == known.end()) unknown_top_.push_back({&member, known});
+  }
+
+  void read_plugins() {
+    const ConfigNode* plugins = node("plugins");
+    if (plugins != nullptr && !plugins->is_map()) {
+      problems_.push_back(
+          plugins->mark.error(fmt::format("plugins must be a map of keys, not {}", plugins->kind_name())));
+    } else if (plugins != nullptr) {
+      for (const auto& member : plugins->members) {
+        if (member.key == "search_paths")
+          read_search_paths(member.value);
+        else
+          unknown_plugins_.push_back(&member);
+      }
+    }
+    for (const auto& path : config_.plugin_search_paths) registry_.add_search_path(path);
+    registry_.scan();
+  }
+
+  void read_search_paths(const ConfigNode& list) {
+    if (list.kind != ConfigNode::Kind::sequence) {
+      problems_.push_back(
+          list.mark.error(fmt::format("plugins.search_paths must be a list of folders, not {}", list.kind_name())));
+      return;
+    }
+    for (const auto& item : list.items) {
+      if (!item.is_scalar() || item.scalar.empty()) {
+        problems_.push_back(
+            item.mark.error(fmt::format("plugins.search_paths must hold names of folders, not {}", item.kind_name())));
+        continue;
+      }
+      // Relative to the file that says so; what the command line says is relative to the working directory.
+      const std::string file = item.mark.file();
+      const fs::path base = file.starts_with('<') ? fs::path() : fs::path(file).parent_path();
+      const fs::path path = (base / item.scalar).lexically_normal();
+      std::error_code error;
+      if (!fs::exists(path, error))
+        problems_.push_back(item.mark.error(fmt::format("plugin folder '{}' does not exist", path.string())));
+      else
+        config_.plugin_search_paths.push_back(path);
+      config_.origins[fmt::format("plugins.search_paths.{}", config_.plugin_search_paths.size())] = item.mark.text();
+    }
+  }
+
+  void choose(const PluginSection& section) {
+    Chosen& chosen = chosen_[section.name];
+    const ConfigNode* map = node(section.name);
+    if (map != nullptr) chosen.mark = map->mark;
+    const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
+    std::string id = default_type(section, config_.path_planner.type);
+    std::string origin = "default";
+    if (type != nullptr) {
+      chosen.mark = type->value.mark;
+      if (!type->value.is_scalar() || type->value.scalar.empty()) {
+        problems_.push_back(type->value.mark.error(fmt::format("{}.type must be the id of a {}, got {}", section.name,
+                                                               to_string(section.kind), type->value.kind_name())));
+        return;
+      }
+      id = type->value.scalar;
+      origin = type->value.mark.text();
+    }
+    chosen.type = registry_.lookup(section.kind, id);
+    if (chosen.type == nullptr) problems_.push_back(chosen.mark.error(registry_.why_missing(section.kind, id)));
+    config_.origins[std::string(section.name) + ".type"] = origin;
+    choice(section.kind).type = id;
+  }
+
+  PluginChoice& choice(PluginKind kind) {
+    if (kind == PluginKind::simulator) return config_.simulator;
+    if (kind == PluginKind::path_planner) return config_.path_planner;
+    return kind == PluginKind::sequence_planner ? config_.sequence_planner : config_.transfer_planner;
+  }
+
+  void collect_homes() {
+    for (const auto& section : plugin_sections()) {
+      const auto* type = chosen_[section.name].type;
+      if (type == nullptr) continue;
+      for (const auto& spec : type->type.params)
+        homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
+    }
+    for (const auto& [name, specs] : fixed_sections())
+      for (const auto& spec : specs) homes_[spec.name].push_back(name);
+    homes_["poses"].push_back("layout");
+    for (const auto& [member, known] : unknown_top_)
+      problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
+    for (const auto* member : unknown_plugins_)
+      problems_.push_back(
+          member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
+  }
+
+  void bind_plugin(const PluginSection& section) {
+    const ConfigNode* map = node(section.name);
+    const auto* type = chosen_[section.name].type;
+    if (type == nullptr) {  // its keys cannot be judged; that the section is no map can
+      if (map != nullptr && !map->is_map())
+        problems_.push_back(
+            map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
+      return;
+    }
+    const std::string source =
+        fmt::format("{} {}, {}", type->type.id, type->file->version, type->file->path.filename().string());
+    choice(section.kind).params =
+        bind_section(type->type.params, map, {section.name, type->type.id, source}, homes_, config_.origins, problems_);
+  }
+
+  void check_capabilities() {
+    const auto* simulator = chosen_["simulator"].type;
+    if (simulator == nullptr) return;
+    for (const char* section : {"path_planner", "transfer_planner"}) {
+      const Chosen& chosen = chosen_[section];
+      if (chosen.type == nullptr) continue;
+      const Capabilities& needs = chosen.type->type.traits.needs;
+      const Capabilities& has = simulator->type.traits.provides;
+      const auto report = [&](const std::string& what) {
+        problems_.push_back(chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
+                                                          section, chosen.type->type.id, what, simulator->type.id)));
+      };
+      if (needs.dynamics && !has.dynamics) report("dynamics");
+      if (needs.contacts && !has.contacts) report("contacts");
+      if (needs.distance && !has.distance) report("distance queries");
+      if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    }
+  }
+
+  /// `layout.poses`: a map from part names to poses. Taken out of the section, whose other keys are plain parameters.
+  ConfigNode without_poses(const ConfigNode& layout) {
+    ConfigNode rest = layout;
+    const ConfigMember* poses = layout.find("poses");
+    if (poses == nullptr) return rest;
+    rest.erase("poses");
+    if (!poses->value.is_map()) {
+      problems_.push_back(poses->value.mark.error(
+          fmt::format("layout.poses must be a map from part names to poses, not {}", poses->value.kind_name())));
+      return rest;
+    }
+    for (const auto& member : poses->value.members)
+      if (const auto pose = read_pose(member.value)) {
+        config_.layout.poses[member.key] = *pose;
+        config_.origins["layout.poses." + member.key] = member.value.mark.text();
+      }
+    return rest;
+  }
+
+  std::optional<Pose> read_pose(const ConfigNode& list) {
+    const auto fail = [&](const std::string& what) {
+      problems_.push_back(
+          list.mark.error(fmt::format("a pose must be seven numbers [x, y, z, qw, qx, qy, qz]{}", what)));
+      return std::nullopt;
+    };
+    if (list.kind != ConfigNode::Kind::sequence) return fail(fmt::format(", not {}", list.kind_name()));
+    if (list.items.size() != 7) return fail(fmt::format(", got {}", list.items.size()));
+    double n[7] = {};
+    for (std::size_t i = 0; i < 7; ++i) {
+      const ConfigNode& item = list.items[i];
+      const char* end = item.scalar.data() + item.scalar.size();
+      const auto read = std::from_chars(item.scalar.data(), end, n[i]);
+      if (!item.is_scalar() || item.quoted || read.ec != std::errc{} || read.ptr != end || !std::isfinite(n[i]))
+        return fail(fmt::format("; '{}' is none", item.scalar));
+    }
+    Pose pose{{n[0], n[1], n[2]}, {n[3], n[4], n[5], n[6]}};
+    const double norm = pose.q.norm();
+    if (!(std::abs(norm - 1) <= 1e-3)) return fail(fmt::format("; the quaternion has length {:.6g}, expected 1", norm));
+    if (std::abs(norm - 1) > 1e-12) pose.q.normalize();
+    return pose;
+  }
+
+  const ConfigNode& root_;
+  Registry& registry_;
+  std::vector<Diagnostic>& problems_;
+  RunConfig config_;
+  KeyHomes homes_;
+  std::map<std::string, Chosen> chosen_;
+  std::vector<std::pair<const ConfigMember*, std::vector<std::string>>> unknown_top_;
+  std::vector<const ConfigMember*> unknown_plugins_;
+};
+
+}  // namespace
+
+RunConfig load_config(const ConfigSource& source, Registry& registry) {
+  std::vector<Diagnostic> problems;
+  const ConfigNode root = merged_tree(source, problems);
+  RunConfig config = Loader(root, registry, problems).load();
+  if (!problems.empty()) {
+    sort_by_place(problems);
+    throw ConfigError(std::move(problems));
+  }
+  config.assembly = Schema<PrepareOptions>().bind(config.sections.at("assembly"));
+  auto poses = std::move(config.layout.poses);
+  config.layout = Schema<LayoutOptions>().bind(config.sections.at("layout"));
+  config.layout.poses = std::move(poses);
+  config.run = Schema<RunSettings>().bind(config.sections.at("run"));
+  config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
+  return config;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,220 @@
+#include "config/layers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+#include "dismantle/host/config_bind.h"
+
+namespace dismantle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxChain = 32;
+
+void merge_maps(ConfigNode& base, ConfigNode over) {
+  for (auto& member : over.members) {
+    auto* below = base.find(member.key);
+    if (below == nullptr) {
+      base.members.push_back(std::move(member));
+    } else if (below->value.is_map() && member.value.is_map()) {
+      merge_maps(below->value, std::move(member.value));
+    } else {
+      *below = std::move(member);
+    }
+  }
+}
+
+/// The id that a section names, or its default; nothing when it is not text.
+std::optional<std::string> named_type(const ConfigNode& section, const char* fallback) {
+  const auto* type = section.find("type");
+  if (type == nullptr) return fallback;
+  if (!type->value.is_scalar()) return std::nullopt;
+  return type->value.scalar;
+}
+
+class FileChain {
+ public:
+  explicit FileChain(std::vector<Diagnostic>& problems) : problems_(problems) {}
+
+  /// The file with all that it extends below it. `from`: the place that names it, if a file does.
+  ConfigNode load(const std::string& shown, const ConfigMark* from) {
+    std::error_code error;
+    fs::path identity = fs::weakly_canonical(shown, error);
+    if (error) identity = shown;
+    const auto again = std::find(chain_.begin(), chain_.end(), identity);
+    if (from != nullptr && (again != chain_.end() || chain_.size() >= kMaxChain)) {
+      problems_.push_back(from->error(again != chain_.end()
+                                          ? fmt::format("'{}' extends itself{}", shown, way(again))
+                                          : fmt::format("more than {} files extend each other", kMaxChain)));
+      return empty();
+    }
+    ConfigNode root;
+    std::string unreadable;
+    if (!read_yaml(shown, root, problems_, unreadable)) {
+      problems_.push_back(from != nullptr ? from->error(unreadable) : Diagnostic{"", 0, 0, unreadable});
+      return empty();
+    }
+    if (!root.is_map()) {
+      problems_.push_back(
+          root.mark.error(fmt::format("a configuration must be a map of keys, not {}", root.kind_name())));
+      return empty();
+    }
+    take_schema(root, problems_);
+    chain_.push_back(identity);
+    names_.push_back(shown);
+    ConfigNode result = extended(std::move(root), shown);
+    chain_.pop_back();
+    names_.pop_back();
+    return result;
+  }
+
+ private:
+  static ConfigNode empty() {
+    ConfigNode node;
+    node.kind = ConfigNode::Kind::map;
+    return node;
+  }
+
+  ConfigNode extended(ConfigNode root, const std::string& shown) {
+    const auto* extends = root.find("extends");
+    if (extends == nullptr) return root;
+    const ConfigNode value = extends->value;
+    root.erase("extends");
+    if (!value.is_scalar() || value.scalar.empty()) {
+      problems_.push_back(value.mark.error("extends must be the name of a file"));
+      return root;
+    }
+    const fs::path base_file = (fs::path(shown).parent_path() / value.scalar).lexically_normal();
+    ConfigNode base = load(base_file.string(), &value.mark);
+    if (base.mark.source == nullptr) base.mark = root.mark;
+    merge_config(base, std::move(root));
+    return base;
+  }
+
+  std::string way(std::vector<fs::path>::const_iterator begin) const {
+    const std::size_t first = static_cast<std::size_t>(begin - chain_.begin());
+    if (first + 1 == names_.size()) return "";
+    std::string text = ": ";
+    for (std::size_t i = first; i < names_.size(); ++i) text += names_[i] + " -> ";
+    return text + names_[first];
+  }
+
+  std::vector<Diagnostic>& problems_;
+  std::vector<fs::path> chain_;
+  std::vector<std::string> names_;
+};
+
+/// The tree of all --set and options: keys with dots become nested maps.
+class Overrides {
+ public:
+  explicit Overrides(std::vector<Diagnostic>& problems) : problems_(problems) { root_.kind = ConfigNode::Kind::map; }
+
+  void set(const std::string& text, int number) {
+    const ConfigMark mark{std::make_shared<const std::string>("<--set>"), number, 0};
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      problems_.push_back(mark.error(fmt::format("'{}' is not of the form KEY=VALUE, such as run.seed=7", text)));
+      return;
+    }
+    std::vector<Diagnostic> found;
+    ConfigNode value = parse_yaml(text.substr(equals + 1), "<--set>", found);
+    if (text.size() == equals + 1) value = {};
+    remark(value, mark);
+    for (const auto& problem : found) problems_.push_back(mark.error(problem.message));
+    if (found.empty()) insert(text.substr(0, equals), std::move(value), mark);
+  }
+
+  void option(const ConfigOption& option) {
+    const ConfigMark mark{std::make_shared<const std::string>("<" + option.flag + ">"), 0, 0};
+    ConfigNode value;
+    value.kind = ConfigNode::Kind::scalar;
+    value.scalar = option.value;
+    value.mark = mark;
+    insert(option.key, std::move(value), mark);
+  }
+
+  ConfigNode take() { return std::move(root_); }
+
+ private:
+  static void remark(ConfigNode& node, const ConfigMark& mark) {
+    node.mark = mark;
+    for (auto& item : node.items) remark(item, mark);
+    for (auto& member : node.members) {
+      member.key_mark = mark;
+      remark(member.value, mark);
+    }
+  }
+
+  void insert(const std::string& key, ConfigNode value, const ConfigMark& mark) {
+    if (key == "schema" || key == "extends") {
+      problems_.push_back(mark.error(fmt::format("'{}' cannot be set: it belongs to a file", key)));
+      return;
+    }
+    ConfigNode* at = &root_;
+    std::size_t begin = 0;
+    while (true) {
+      const std::size_t dot = std::min(key.find('.', begin), key.size());
+      const std::string word = key.substr(begin, dot - begin);
+      const bool last = dot == key.size();
+      if (word.empty()) {
+        problems_.push_back(mark.error(fmt::format("'{}' is no key: a name is missing between its dots", key)));
+        return;
+      }
+      auto* member = at->find(word);
+      if (member != nullptr && (last || !member->value.is_map())) {
+        problems_.push_back(
+            mark.error(fmt::format("'{}' is set twice; it was set by {} already", key, member->key_mark.text())));
+        return;
+      }
+      if (member == nullptr) {
+        ConfigNode node;
+        if (last) {
+          node = std::move(value);
+        } else {
+          node.kind = ConfigNode::Kind::map;
+          node.mark = mark;
+        }
+        at->members.push_back({word, mark, std::move(node)});
+        member = &at->members.back();
+      }
+      if (last) return;
+      at = &member->value;
+      begin = dot + 1;
+    }
+  }
+
+  std::vector<Diagnostic>& problems_;
+  ConfigNode root_;
+};
+
+}  // namespace
+
+void merge_config(ConfigNode& base, ConfigNode over) {
+  for (const auto& section : plugin_sections()) {
+    auto* below = base.find(section.name);
+    const auto* above = over.find(section.name);
+    if (below == nullptr || above == nullptr || !below->value.is_map() || !above->value.is_map()) continue;
+    if (above->value.find("type") == nullptr) continue;
+    if (named_type(below->value, section.default_id) != named_type(above->value, section.default_id))
+      base.erase(section.name);
+  }
+  merge_maps(base, std::move(over));
+}
+
+ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& problems) {
+  ConfigNode root;
+  root.kind = ConfigNode::Kind::map;
+  if (source.file) root = FileChain(problems).load(source.file->string(), nullptr);
+  Overrides overrides(problems);
+  for (std::size_t i = 0; i < source.set.size(); ++i) overrides.set(source.set[i], static_cast<int>(i) + 1);
+  for (const auto& option : source.options) overrides.option(option);
+  merge_config(root, overrides.take());
+  return root;
+}
+
+}  // namespace dismantle

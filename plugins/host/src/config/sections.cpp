@@ -1,0 +1,63 @@
+#include <algorithm>
+
+#include "dismantle/host/config.h"
+
+namespace dismantle {
+namespace {
+
+struct VerifySettings {
+  double max_penetration = VerifyOptions{}.max_penetration;
+  static void describe(Schema<VerifySettings>& s) {
+    s.add("max_penetration", &VerifySettings::max_penetration,
+          {.unit = "assembly units",
+           .min = 0,
+           .min_open = true,
+           .doc = "Deepest penetration that a path may have, above what the pair had when assembled."});
+  }
+};
+
+}  // namespace
+
+void RunSettings::describe(Schema<RunSettings>& s) {
+  s.add("seed", &RunSettings::seed, {.unit = "1", .min = 0, .doc = "Seed of every random choice."});
+  s.add("threads", &RunSettings::threads,
+        {.unit = "1",
+         .min = 0,
+         .max = 1024,
+         .doc = "Threads to plan with; 0 = all cores. The plan does not depend on it."});
+  s.add("path_timeout", &RunSettings::path_timeout,
+        {.unit = "s", .min = 0, .doc = "Time for one attempt to take one part out; 0 = no limit."});
+  s.add("path_steps", &RunSettings::path_steps,
+        {.unit = "1",
+         .min = 0,
+         .doc = "Simulated time steps for one attempt; 0 = no limit. Unlike seconds, the same on every machine."});
+  s.add("timeout", &RunSettings::timeout, {.unit = "s", .min = 0, .doc = "Time for the whole run; 0 = no limit."});
+}
+
+const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections() {
+  static const std::vector<std::pair<std::string, std::vector<ParamSpec>>> sections = {
+      {"assembly", Schema<PrepareOptions>().specs()},
+      {"layout", Schema<LayoutOptions>().specs()},
+      {"run", Schema<RunSettings>().specs()},
+      {"verify", Schema<VerifySettings>().specs()}};
+  return sections;
+}
+
+const std::vector<PluginSection>& plugin_sections() {
+  static const std::vector<PluginSection> sections = {
+      {"simulator", PluginKind::simulator, "sdf_penalty"},
+      {"path_planner", PluginKind::path_planner, "guided"},
+      {"sequence_planner", PluginKind::sequence_planner, "blocking"},
+      {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
+  return sections;
+}
+
+std::string default_type(const PluginSection& section, const std::string& path_planner) {
+  const auto named = [&](const PluginSection& other) {
+    return other.kind == PluginKind::path_planner && path_planner != other.default_id;
+  };
+  const bool other_ways = std::any_of(plugin_sections().begin(), plugin_sections().end(), named);
+  return section.kind == PluginKind::sequence_planner && other_ways ? "progressive" : section.default_id;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,42 @@
+#include <nlohmann/json.hpp>
+
+#include "describe/facts.h"
+#include "describe/json_value.h"
+#include "dismantle/host/describe.h"
+
+namespace dismantle {
+namespace {
+
+Json capabilities(const Capabilities& c) {
+  return {{"dynamics", c.dynamics}, {"contacts", c.contacts}, {"distance", c.distance}, {"max_moving", c.max_moving}};
+}
+
+Json parameter(const ParamSpec& spec) {
+  Json json = {{"name", spec.name}, {"type", type_name(spec.type)}};
+  if (!spec.unit.empty()) json["unit"] = spec.unit;
+  json["default"] = json_value(spec.fallback);
+  if (spec.min) json["min"] = *spec.min;
+  if (spec.min && spec.min_open) json["min_open"] = true;
+  if (spec.max) json["max"] = *spec.max;
+  if (spec.max && spec.max_open) json["max_open"] = true;
+  for (const auto& choice : spec.choices) json["choices"].push_back({{"name", choice.name}, {"doc", choice.doc}});
+  json["doc"] = spec.doc;
+  return json;
+}
+
+}  // namespace
+
+std::string describe_json(const PluginType& type, const PluginFile& file) {
+  Json json = {
+      {"id", type.id}, {"kind", to_string(type.kind)}, {"summary", type.summary}, {"source", type.traits.source}};
+  if (type.kind == PluginKind::path_planner || type.kind == PluginKind::transfer_planner)
+    json["needs"] = capabilities(type.traits.needs);
+  if (type.kind == PluginKind::simulator) json["provides"] = capabilities(type.traits.provides);
+  json["parameters"] = Json::array();
+  for (const auto& spec : type.params) json["parameters"].push_back(parameter(spec));
+  json["plugin"] = {{"id", file.id},   {"version", file.version},    {"licence", file.licence},
+                    {"url", file.url}, {"file", file.path.string()}, {"built_in", file.built_in}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace dismantle

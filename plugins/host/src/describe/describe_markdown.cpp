@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include "describe/facts.h"
+#include "dismantle/host/config.h"
+#include "dismantle/host/describe.h"
+
+namespace dismantle {
+namespace {
+
+/// Text inside a table: a bar would begin a new column.
+std::string cell(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out;
+}
+
+std::string table(const std::vector<ParamSpec>& specs) {
+  std::string out = "| name | type | unit | default | range | meaning |\n|---|---|---|---|---|---|\n";
+  for (const auto& spec : specs) {
+    std::string doc = spec.doc;
+    for (const auto& choice : spec.choices) doc += fmt::format("<br>`{}`: {}", choice.name, choice.doc);
+    out += fmt::format("| `{}` | {} | {} | `{}` | {} | {} |\n", spec.name, type_name(spec.type), cell(spec.unit),
+                       cell(default_text(spec)), cell(limits_text(spec)), cell(doc));
+  }
+  return out;
+}
+
+std::string markdown_fact(const std::string& name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("- {}: {}\n", name, value);
+}
+
+}  // namespace
+
+std::string describe_markdown(const PluginType& type, const PluginFile& file) {
+  std::string out = fmt::format("# {}\n\n{}\n\n", type.id, type.summary);
+  out += markdown_fact("kind", fmt::format("`{}`", to_string(type.kind)));
+  out += markdown_fact("source", type.traits.source);
+  out += markdown_fact("needs", joined(capability_words(type.traits.needs)));
+  out += markdown_fact("provides", joined(capability_words(type.traits.provides)));
+  out +=
+      markdown_fact("plugin", fmt::format("{} {} ({}), {}", file.id, file.version, file.licence, file.path.filename().string()));
+  out += "\n## Parameters\n\n";
+  return out + (type.params.empty() ? "None.\n" : table(type.params));
+}
+
+std::string describe_sections_markdown() {
+  std::string out =
+      "# Sections of a configuration\n\nWhat they mean together: [configuration.md](../configuration.md).\n";
+  for (const auto& [name, specs] : fixed_sections()) out += fmt::format("\n## {}\n\n{}", name, table(specs));
+  return out;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "describe/facts.h"
+#include "dismantle/host/describe.h"
+
+namespace dismantle {
+namespace {
+
+/// Breaks `text` at blanks so that lines stay below `width`; all lines begin with `indent` blanks.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
+  std::string out, line;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
+      out += std::string(indent, ' ') + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    begin = end + 1;
+  }
+  if (!line.empty()) out += std::string(indent, ' ') + line + "\n";
+  return out;
+}
+
+std::string text_fact(const std::string& name, const std::string& value) {
+  return value.empty() ? "" : fmt::format("  {:<10}{}\n", name, value);
+}
+
+std::string parameter_text(const ParamSpec& spec) {
+  std::string head = fmt::format("  {} = {}", spec.name, default_text(spec));
+  if (!spec.unit.empty() && spec.unit != "1") head += " " + spec.unit;
+  head += fmt::format("   ({}", type_name(spec.type));
+  const std::string limits = limits_text(spec);
+  if (!limits.empty()) head += ", " + limits;
+  std::string out = head + ")\n" + wrapped(spec.doc, 6, 100);
+  for (const auto& choice : spec.choices) out += wrapped(fmt::format("{}: {}", choice.name, choice.doc), 8, 100);
+  return out;
+}
+
+}  // namespace
+
+std::string describe_text(const PluginType& type, const PluginFile& file) {
+  std::string out = fmt::format("{} ({})\n", type.id, to_string(type.kind)) + wrapped(type.summary, 2, 100) + "\n";
+  out += text_fact("source", type.traits.source);
+  out += text_fact("needs", joined(capability_words(type.traits.needs)));
+  out += text_fact("provides", joined(capability_words(type.traits.provides)));
+  out += text_fact("plugin",
+              fmt::format("{} {} ({}){}", file.id, file.version, file.licence, file.built_in ? ", built in" : ""));
+  out += text_fact("url", file.url);
+  out += text_fact("file", file.path.string());
+  out += "\n";
+  if (type.params.empty()) return out + "No parameters.\n";
+  out += "Parameters:\n";
+  for (const auto& spec : type.params) out += parameter_text(spec);
+  return out;
+}
+
+}  // namespace dismantle

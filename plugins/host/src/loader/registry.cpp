@@ -1,0 +1,242 @@
+#include "dismantle/host/registry.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "dismantle/host/suggest.h"
+#include "loader/load_plugin.h"
+
+namespace dismantle {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path canonical_or_absolute(const fs::path& path) {
+  std::error_code error;
+  fs::path result = fs::weakly_canonical(path, error);
+  if (error || result.empty()) result = fs::absolute(path, error);
+  if (result.filename().empty() && result.has_parent_path()) result = result.parent_path();  // trailing slash
+  return result;
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
+  return text;
+}
+
+}  // namespace
+
+std::string_view to_string(PluginKind kind) {
+  switch (kind) {
+    case PluginKind::simulator:
+      return "simulator";
+    case PluginKind::path_planner:
+      return "path_planner";
+    case PluginKind::sequence_planner:
+      return "sequence_planner";
+    case PluginKind::transfer_planner:
+      return "transfer_planner";
+    case PluginKind::importer:
+      return "importer";
+  }
+  return "unknown";
+}
+
+fs::path built_in_plugin_folder() {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&built_in_plugin_folder), &info) == 0 || info.dli_fname == nullptr)
+    return {};
+  return canonical_or_absolute(info.dli_fname).parent_path() / "dismantle" / "plugins";
+}
+
+Registry::Registry() : Registry(built_in_plugin_folder()) {
+  const char* paths = std::getenv("DISMANTLE_PLUGIN_PATH");
+  std::string_view rest = paths != nullptr ? paths : "";
+  while (!rest.empty()) {
+    const std::size_t colon = std::min(rest.find(':'), rest.size());
+    if (colon > 0) add_search_path(fs::path(rest.substr(0, colon)));
+    rest.remove_prefix(std::min(colon + 1, rest.size()));
+  }
+}
+
+Registry::Registry(const fs::path& built_in_folder) {
+  if (built_in_folder.empty()) return;
+  built_in_folder_ = canonical_or_absolute(built_in_folder);
+  add_search_path(built_in_folder_);
+}
+
+Registry::~Registry() = default;
+
+void Registry::add_search_path(const fs::path& path) {
+  const fs::path clean = canonical_or_absolute(path);
+  if (std::find(search_paths_.begin(), search_paths_.end(), clean) == search_paths_.end())
+    search_paths_.push_back(clean);
+}
+
+void Registry::scan() {
+  for (; scanned_paths_ < search_paths_.size(); ++scanned_paths_) {
+    const fs::path& path = search_paths_[scanned_paths_];
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (fs::is_regular_file(status)) {
+      try_load(path);
+      continue;
+    }
+    if (!fs::is_directory(status)) {
+      problems_.push_back({path, "", {}, "plugin folder does not exist"});
+      continue;
+    }
+    std::vector<fs::path> files;
+    fs::directory_iterator it(path, error);
+    for (; !error && it != fs::directory_iterator(); it.increment(error))
+      if (it->path().extension() == ".so") files.push_back(it->path());
+    if (error) problems_.push_back({path, "", {}, "plugin folder cannot be read: " + error.message()});
+    std::sort(files.begin(), files.end());  // the folder's own order differs between machines
+    for (const auto& file : files) try_load(file);
+  }
+}
+
+void Registry::try_load(const fs::path& file) {
+  try {
+    load_canonical(canonical_or_absolute(file));
+  } catch (const PluginRefused& refused) {
+    problems_.push_back(refused.problem);
+  }
+}
+
+const PluginFile& Registry::load(const fs::path& file) {
+  try {
+    const PluginFile& loaded = load_canonical(canonical_or_absolute(file));
+    std::string conflicts;
+    for (const auto& id : loaded.types) {
+      const auto& claim = claims_.at(id);
+      if (claim.rivals.empty()) continue;
+      const auto* other = claim.type->file == &loaded ? claim.rivals.front() : claim.type->file;
+      conflicts += fmt::format("{}type id '{}' is also in {}", conflicts.empty() ? "" : "; ", id, other->path.string());
+    }
+    if (!conflicts.empty()) throw PluginError(loaded.path.string(), conflicts);
+    return loaded;
+  } catch (const PluginRefused& refused) {
+    throw PluginError(refused.problem.file.string(), refused.problem.message);
+  }
+}
+
+const PluginFile& Registry::load_canonical(const fs::path& file) {
+  for (const auto& known : files_) {
+    std::error_code error;
+    if (known.path == file || fs::equivalent(known.path, file, error)) return known;
+  }
+  LoadedPlugin plugin = load_plugin(file, !built_in_folder_.empty() && file.parent_path() == built_in_folder_);
+  files_.push_back(std::move(plugin.file));
+  const PluginFile& added = files_.back();
+  for (auto& type : plugin.types) {
+    Claim& claim = claims_[type.id];
+    if (claim.type == nullptr) {
+      claim.type = std::make_unique<RegisteredType>(RegisteredType{std::move(type), &added});
+      continue;
+    }
+    claim.rivals.push_back(&added);
+    problems_.push_back({added.path,
+                         added.id,
+                         {type.id},
+                         fmt::format("type id '{}' is in two files: {} and {}; remove one of them", type.id,
+                                     claim.type->file->path.string(), added.path.string())});
+  }
+  return added;
+}
+
+std::vector<const RegisteredType*> Registry::types(PluginKind kind) const {
+  std::vector<const RegisteredType*> found;
+  for (const auto& [id, claim] : claims_)
+    if (claim.type->type.kind == kind && claim.rivals.empty()) found.push_back(claim.type.get());
+  return found;
+}
+
+const RegisteredType* Registry::lookup(const std::string& id) const {
+  const auto it = claims_.find(id);
+  return it == claims_.end() || !it->second.rivals.empty() ? nullptr : it->second.type.get();
+}
+
+const RegisteredType* Registry::lookup(PluginKind kind, const std::string& id) const {
+  const auto* type = lookup(id);
+  return type != nullptr && type->type.kind == kind ? type : nullptr;
+}
+
+std::string Registry::refused_files_text(const std::string& id) const {
+  std::string text;
+  for (const auto& problem : problems_) {
+    const bool known = std::find(problem.types.begin(), problem.types.end(), id) != problem.types.end();
+    if (known) return fmt::format("; {} offers it, but was refused: {}", problem.file.string(), problem.message);
+    if (problem.types.empty())  // what it offers is not known: it may be this
+      text += fmt::format("\n  not loaded: {}: {}", problem.file.string(), problem.message);
+  }
+  return text;
+}
+
+std::string Registry::missing_text(std::string_view what, const std::string& id,
+                                   const std::vector<std::string>& known) const {
+  const auto it = claims_.find(id);
+  if (it != claims_.end() && !it->second.rivals.empty())
+    return fmt::format("{} '{}' is in two files: {} and {}; remove one of them", what, id,
+                       it->second.type->file->path.string(), it->second.rivals.front()->path.string());
+  std::string text = fmt::format("unknown {} '{}'", what, id);
+  if (const auto near = nearest(id, known))
+    text += fmt::format("; did you mean '{}'?", *near);
+  else if (known.empty())
+    text += fmt::format("; no {} was found", what);
+  else
+    text += "; there are: " + listed(known);
+  return text + refused_files_text(id);
+}
+
+std::string Registry::why_missing(PluginKind kind, const std::string& id) const {
+  const auto* other = lookup(id);
+  if (other != nullptr && other->type.kind != kind)
+    return fmt::format("'{}' is a {}, not a {}", id, to_string(other->type.kind), to_string(kind));
+  std::vector<std::string> known;
+  for (const auto* type : types(kind)) known.push_back(type->type.id);
+  return missing_text(to_string(kind), id, known);
+}
+
+std::string Registry::why_missing(const std::string& id) const {
+  std::vector<std::string> known;
+  for (const auto& [name, claim] : claims_)
+    if (claim.rivals.empty()) known.push_back(name);
+  return missing_text("plugin type", id, known);
+}
+
+const RegisteredType& Registry::find(PluginKind kind, const std::string& id) const {
+  const auto* type = lookup(kind, id);
+  if (type == nullptr) throw PluginError("", why_missing(kind, id));
+  return *type;
+}
+
+const RegisteredType& Registry::find(const std::string& id) const {
+  const auto* type = lookup(id);
+  if (type == nullptr) throw PluginError("", why_missing(id));
+  return *type;
+}
+
+std::shared_ptr<void> Registry::create_object(PluginKind kind, const std::string& id, const ParamSet& given) const {
+  const RegisteredType& found = find(kind, id);
+  const auto fail = [&](const std::string& problem) {
+    throw PluginError(found.file->path.string(), fmt::format("cannot make {} '{}': {}", to_string(kind), id, problem));
+  };
+  std::shared_ptr<void> object;
+  try {
+    object = found.type.create(complete(found.type.params, given));
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail(e.what());
+  }
+  if (object == nullptr) fail("the plugin returned nothing");
+  return object;
+}
+
+}  // namespace dismantle

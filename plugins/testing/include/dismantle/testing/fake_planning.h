@@ -1,0 +1,182 @@
+/// Boxes, a simulator without physics and planners that follow a script: for tests of the oracle and the runner.
+#pragma once
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/engine/run.h"
+
+namespace dismantle::fake {
+
+struct Box {
+  Eigen::Vector3d lo, hi;
+};
+
+/// One mesh with a closed shell for each box.
+inline Mesh boxes(const std::vector<Box>& list) {
+  Mesh mesh;
+  for (const auto& b : list) {
+    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 8; ++i)
+      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
+                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
+    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
+                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
+                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
+      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+  }
+  return mesh;
+}
+
+inline Assembly assembly_of(const std::vector<std::pair<std::string, std::vector<Box>>>& parts) {
+  Assembly a;
+  a.source = "fake";
+  Aabb box;
+  for (const auto& [name, shells] : parts) {
+    Part part;
+    part.id = static_cast<PartId>(a.parts.size());
+    part.name = name;
+    part.file = name + ".obj";
+    part.mesh = part.surface = std::make_shared<const Mesh>(boxes(shells));
+    for (const auto& s : shells) part.volume += (s.hi - s.lo).prod();
+    box.extend(part.mesh->box());
+    a.parts.push_back(std::move(part));
+  }
+  a.input_box = box;
+  return a;
+}
+
+/// A tube with a floor, open at the top (+z), and `n` blocks in it, one above the other: the only way out is up, the
+/// uppermost first. The tube is part 0, blocks are 1 (lowest) to n.
+inline Assembly tube_with_blocks(unsigned n) {
+  const double height = 1.0 * n;
+  std::vector<std::pair<std::string, std::vector<Box>>> parts{{"tube",
+                                                               {{{-2, -2, -1}, {2, 2, -0.1}},
+                                                                {{-2, -2, 0}, {-1, 2, height}},
+                                                                {{1, -2, 0}, {2, 2, height}},
+                                                                {{-0.95, -2, 0}, {0.95, -1, height}},
+                                                                {{-0.95, 1, 0}, {0.95, 2, height}}}}};
+  for (unsigned k = 0; k < n; ++k)
+    parts.push_back({"block" + std::to_string(k + 1), {{{-0.8, -0.8, k + 0.1}, {0.8, 0.8, k + 0.9}}}});
+  return assembly_of(parts);
+}
+
+/// A plate in a closed box: nothing ever comes out.
+inline Assembly closed_box() {
+  return assembly_of({{"box",
+                       {{{-2, -2, -2}, {2, 2, -1.9}},
+                        {{-2, -2, 1.9}, {2, 2, 2}},
+                        {{-2, -2, -1.9}, {-1.9, 2, 1.9}},
+                        {{1.9, -2, -1.9}, {2, 2, 1.9}},
+                        {{-1.9, -2, -1.9}, {1.9, -1.9, 1.9}},
+                        {{-1.9, 1.9, -1.9}, {1.9, 2, 1.9}}}},
+                      {"plate", {{{-1, -1, -0.1}, {1, 1, 0.1}}}}});
+}
+
+/// Blocks side by side with room between them: all can leave at once.
+inline Assembly row(unsigned n) {
+  std::vector<std::pair<std::string, std::vector<Box>>> parts;
+  for (unsigned k = 0; k < n; ++k)
+    parts.push_back({"block" + std::to_string(k), {{{2.0 * k, 0, 0}, {2.0 * k + 1, 1, 1}}}});
+  return assembly_of(parts);
+}
+
+class Physics final : public Simulator {
+ public:
+  Capabilities capabilities() const noexcept override { return has; }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext& context) override {
+    if (on_prepare) on_prepare(context);
+    return std::make_shared<Prepared>();
+  }
+  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast&, MotionSpace) const override {
+    throw std::logic_error("the fake simulator has no worlds");
+  }
+  Capabilities has{.dynamics = true, .contacts = true, .distance = true, .max_moving = 4};
+  std::function<void(RunContext&)> on_prepare;
+};
+
+inline Path straight(const Cast& cast, const Eigen::Vector3d& way) {
+  Path path(2);
+  for (const auto& p : cast.moving) {
+    path[0].push_back(p.pose);
+    path[1].push_back(Pose{p.pose.t + way, p.pose.q});
+  }
+  return path;
+}
+
+/// Pushes along the axes in an order drawn from the context, two per unit of depth.
+inline PathResult push(const PathQuery& query, RunContext& context) {
+  std::vector<Eigen::Vector3d> ways;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0}) ways.push_back(sign * 30 * Eigen::Vector3d::Unit(axis));
+  for (std::size_t n = ways.size(); n > 1; --n) std::swap(ways[n - 1], ways[context.rng.below(n)]);
+  const unsigned depth = query.effort.max_depth;
+  const std::size_t allowed = depth == 0 || depth > 3 ? 6 : 2 * depth;
+  PathResult result;
+  result.outcome = allowed < 6 ? Outcome::depth_limit : Outcome::exhausted;
+  for (std::size_t i = 0; i < allowed; ++i) {
+    if (context.should_stop()) {
+      result.outcome = Outcome::cancelled;
+      return result;
+    }
+    const Path path = straight(query.cast, ways[i]);
+    const Verdict verdict = query.judge(path);
+    result.counts["judged"] += 1;
+    if (verdict.accepted) {
+      result.outcome = Outcome::solved;
+      result.path = path;
+      result.depth = 1;
+      return result;
+    }
+    if (verdict.has_witness)
+      result.blocked_by.push_back(verdict.part == query.cast.moving[0].part ? verdict.other : verdict.part);
+  }
+  return result;
+}
+
+using Script = std::function<PathResult(const PathQuery&, RunContext&)>;
+
+class Scripted final : public PathPlanner {
+ public:
+  explicit Scripted(Script script) : script_(std::move(script)) {}
+  Capabilities needs() const noexcept override { return {.dynamics = true}; }
+  bool moves_each_its_way() const noexcept override { return true; }
+  PathResult plan(const PathQuery& query, RunContext& context) override { return script_(query, context); }
+
+ private:
+  Script script_;
+};
+
+inline Ingredients ingredients(Script script, std::shared_ptr<SequencePlanner> sequence = nullptr) {
+  Ingredients i;
+  i.simulator = std::make_shared<Physics>();
+  i.path_planner = [script] { return std::make_shared<Scripted>(script); };
+  i.sequence_planner = std::move(sequence);
+  i.path_planner_id = "scripted";
+  return i;
+}
+
+inline PathResult outcome(Outcome o, std::string message = {}) {
+  PathResult r;
+  r.outcome = o;
+  r.message = std::move(message);
+  return r;
+}
+
+/// `part` leaves, all others stand.
+inline Attempt leave(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
+  Attempt a;
+  a.max_depth = max_depth;
+  a.moving.push_back({part, Pose{}});
+  for (const auto& p : assembly.parts)
+    if (p.id != part) a.still.push_back({p.id, Pose{}});
+  return a;
+}
+
+}  // namespace dismantle::fake

@@ -1,0 +1,37 @@
+/// An oracle with all that it refers to, over fake parts and planners.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/executor.h"
+#include "dismantle/testing/fake_planning.h"
+
+namespace dismantle::fake {
+
+struct Rig {
+  Rig(Assembly a, Ingredients i, unsigned threads = 1, RunOptions o = {})
+      : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {
+    context.threads = threads;
+    if (threads > 1) context.executor = std::make_shared<Executor>(threads);
+    context.rng = Rng(17);
+    context.on_log = [this](LogLevel level, std::string_view text) {
+      if (level == LogLevel::error) errors.emplace_back(text);
+    };
+    oracle = make_oracle(assembly, prepared, parts, options, verifier, context);
+  }
+  const AttemptResult& ask(const Attempt& a) { return oracle->attempt(a, context); }
+
+  Assembly assembly;
+  Ingredients parts;
+  RunOptions options;
+  Verifier verifier;
+  Prepared prepared;
+  RunContext context;
+  std::vector<std::string> errors;
+  std::unique_ptr<PathOracle> oracle;
+};
+
+}  // namespace dismantle::fake

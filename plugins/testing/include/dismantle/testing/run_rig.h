@@ -1,0 +1,83 @@
+/// Sequence planners for tests of whole runs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/engine/run.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/fake_planning.h"
+
+namespace dismantle::fake {
+
+/// Tries all parts left in turn until none leaves; hints all it knows.
+class InTurn : public SequencePlanner {
+ public:
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override {
+    SequenceResult result;
+    std::vector<PartId> left;
+    for (const auto& p : assembly.parts) left.push_back(p.id);
+    for (bool removed = true; removed && left.size() > 1;) {
+      removed = false;
+      result.unsolved.clear();
+      std::vector<Attempt> round;
+      for (const PartId id : left) round.push_back(question(left, id));
+      oracle.prefetch(round, context);
+      for (std::size_t i = 0; i < left.size() && !removed; ++i) {
+        const AttemptResult& r = oracle.attempt(question(left, left[i]), context);
+        if (is_success(r.result.outcome)) {
+          removed = true;
+          result.removals.push_back({{left[i]}, &r});
+          left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+          observer.removed(result.removals.back(), left.size());
+        } else {
+          result.unsolved.push_back({left[i], r.result.outcome, r.result.blocked_by, {}, r.result.message});
+        }
+      }
+    }
+    result.remaining = left;
+    result.outcome = left.size() <= 1 ? Outcome::solved : Outcome::exhausted;
+    if (left.size() <= 1) result.unsolved.clear();
+    return result;
+  }
+
+  static Attempt question(const std::vector<PartId>& left, PartId part) {
+    Attempt a;
+    a.moving.push_back({part, Pose{}});
+    for (const PartId id : left)
+      if (id != part) a.still.push_back({id, Pose{}});
+    return a;
+  }
+};
+
+/// The tube could go first, downwards: here it stands on a table.
+inline PathResult push_blocks(const PathQuery& query, RunContext& context) {
+  return query.cast.moving[0].part == 0 ? outcome(Outcome::exhausted) : push(query, context);
+}
+
+using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, SequenceObserver&, RunContext&)>;
+class Custom final : public SequencePlanner {
+ public:
+  explicit Custom(Steps steps) : steps_(std::move(steps)) {}
+  SequenceResult plan(const Assembly& a, PathOracle& o, SequenceObserver& s, RunContext& c) override {
+    return steps_(a, o, s, c);
+  }
+
+ private:
+  Steps steps_;
+};
+
+inline RunResult run_in_turn(const Assembly& assembly, RunContext context = {}, const RunOptions& options = {}) {
+  return run(assembly, ingredients(push, std::make_shared<InTurn>()), options, context);
+}
+
+inline std::string text_without_times(Plan plan) {
+  for (auto& step : plan.disassembly) step.seconds = 0;
+  return to_json(plan);
+}
+
+}  // namespace dismantle::fake
