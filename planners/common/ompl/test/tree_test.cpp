@@ -71,7 +71,7 @@ TEST(TreePlanner, SameSeedSamePath) {
     EXPECT_TRUE(slot().judge(a.path()->poses()).accept);
     EXPECT_TRUE(a.path()->poses().front()[0].is_identity());
   }
-  EXPECT_FALSE(same(slot().plan(1, kEffort).path, slot().plan(2, kEffort).path));
+  EXPECT_FALSE(same(slot().plan(1, kEffort).path()->poses(), slot().plan(2, kEffort).path()->poses()));
 }
 
 /// Searches on other threads, and generators made by others, change nothing.
