@@ -2,7 +2,7 @@
 #
 # The plugins that this project ships, by folder; `dismantle_folders` finds new ones by itself, tests know these.
 set(DISMANTLE_SHIPPED_PLUGINS
-  plugins/importers/mesh_files
+  plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
   planners/path/bfs planners/path/bk_rrt planners/path/guided planners/path/mv_t_rrt planners/path/rrt
   planners/path/squeeze planners/path/t_rrt planners/path/tunnel_forest
