@@ -4,10 +4,13 @@
 set(DISMANTLE_SHIPPED_PLUGINS
   plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
-  planners/path/bfs planners/path/bk_rrt planners/path/guided planners/path/mv_t_rrt planners/path/rrt
-  planners/path/squeeze planners/path/t_rrt planners/path/tunnel_forest
+  planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
+  planners/path/navigation_tree planners/path/portfolio planners/path/rrt
+  planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/sequence/progressive planners/sequence/queue planners/sequence/random
-  planners/transfer/rrt_connect)
+  planners/transfer/rrt_connect
+  planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
+  planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool)
 set(DISMANTLE_WITHOUT "" CACHE STRING "Plugin folders to leave out as if they were deleted, separated by semicolons")
 
 set(DISMANTLE_MISSING_PLUGINS "")
@@ -21,7 +24,8 @@ if(DISMANTLE_MISSING_PLUGINS)
 endif()
 
 # What the program uses when a configuration names nothing else (configs/default.yaml), and the files of the samples.
-set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty planners/path/guided
+set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty
+  planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/transfer/rrt_connect)
 
 # dismantle_folders(DEPTH): adds each folder that many levels below this one that has a CMakeLists.txt.

@@ -9,9 +9,11 @@
 #include "dismantle/errors.h"
 #include "dismantle/host/ingredients.h"
 #include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/settings.h"
+#include "dismantle/viewer_template.h"
 #include "dismantle/write_file.h"
 #include "dismantle/plan_io/plan_file.h"
 
@@ -73,12 +75,20 @@ class Saver {
 };
 
 /// Returns the names of the files in `folder`.
-std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder) {
+std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder,
+                                       Console& console) {
   write_file(folder / "plan.json", to_json(result.plan));
   const auto glb = to_glb(result.plan, assembly);
   write_file(folder / "plan.glb", std::string(glb.begin(), glb.end()));
   write_file(folder / "precedence.dot", to_dot(result.plan, result.precedence));
-  return {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+  std::vector<std::string> files = {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+  if (const auto page_template = viewer_template()) {
+    write_file(folder / "index.html", to_page(result.plan, assembly, *page_template));
+    files.insert(files.begin(), "index.html");
+  } else {
+    console.warning(std::string("index.html was not written: ") + kNoViewer);
+  }
+  return files;
 }
 
 bool any_crash(const RunResult& result) {
@@ -138,7 +148,7 @@ int plan(const PlanOptions& options) {
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any",
                             config.sequence_planner.type));
   const RunResult result = run(assembly, ingredients, run_options, context, std::ref(saver));
-  const auto files = write_results(result, assembly, folder);
+  const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
 
   const int status = status_of(result, assembly, !options.part.empty(), !run_options.constraints.empty(), context);
@@ -147,6 +157,7 @@ int plan(const PlanOptions& options) {
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
   if (result.counts.proposed > 0)
     text += fmt::format(", {} ways proposed ({} refused)", result.counts.proposed, result.counts.refused);
+  if (result.proof_seconds >= 0.05) text += fmt::format(", {:.1f} s of proofs", result.proof_seconds);
   for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
   text += "\n";
   if (const auto names = unusable_parts(assembly); !names.empty())
@@ -184,8 +195,8 @@ void add_plan(CLI::App& app, Action& action) {
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Writes plan.json, plan.glb (the animation), precedence.dot and resolved.yaml. Ctrl-C once stops soon and "
-      "saves.\n"
+      "Writes index.html (to look at in a browser), plan.json, plan.glb (the animation), precedence.dot and\n"
+      "resolved.yaml. Ctrl-C once stops soon and saves.\n"
       "Examples:\n"
       "  dismantle plan gearbox/\n"
       "  dismantle plan gearbox/ --part shaft --set path_planner.motion=rotation -o shaft\n"

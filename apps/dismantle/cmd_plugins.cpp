@@ -25,6 +25,12 @@ void scan(const Plugins& options, Registry& registry) {
     registry.scan();
 }
 
+/// The file that a type comes from.
+std::string origin_of(const RegisteredType& type) {
+  if (!type.preset_of.empty()) return fmt::format("preset of {}, {}", type.preset_of, type.preset_file.string());
+  return fmt::format("{} {}, {}", type.file->id, type.file->version, type.file->path.string());
+}
+
 int list(const Plugins& options) {
   Console console(ConsoleOptions{});
   Registry registry;
@@ -35,9 +41,8 @@ int list(const Plugins& options) {
     for (const RegisteredType* type : registry.types(kind)) width = std::max(width, type->type.id.size());
   for (const PluginKind kind : kPluginKinds)
     for (const RegisteredType* type : registry.types(kind))
-      out += fmt::format("{:<{}}  {:<16}  {}\n{:<{}}  {:<16}  {} {}, {}\n", type->type.id, width, to_string(kind),
-                         type->type.summary, "", width, "", type->file->id, type->file->version,
-                         type->file->path.string());
+      out += fmt::format("{:<{}}  {:<16}  {}\n{:<{}}  {:<16}  {}\n", type->type.id, width, to_string(kind),
+                         type->type.summary, "", width, "", origin_of(*type));
   if (out.empty()) {
     out = "no plugins found; searched:\n";
     for (const auto& path : registry.search_paths()) out += fmt::format("  {}\n", path.string());
@@ -55,11 +60,11 @@ int describe(const Plugins& options) {
   const RegisteredType& type = registry.find(options.id);
   std::string out;
   if (options.format == "markdown")
-    out = describe_markdown(type.type, *type.file);
+    out = describe_markdown(type, registry);
   else if (options.format == "json")
-    out = describe_json(type.type, *type.file);
+    out = describe_json(type);
   else
-    out = describe_text(type.type, *type.file);
+    out = describe_text(type, registry);
   if (out.empty() || out.back() != '\n') out += '\n';
   Console(ConsoleOptions{}).text(out);
   return kComplete;

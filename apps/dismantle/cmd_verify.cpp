@@ -24,19 +24,6 @@ struct Verify {
   ConsoleOptions console;
 };
 
-/// The plan's input: what the user names, else the path in the plan, seen from here or from the plan file.
-std::string find_source(const Verify& options, const Plan& plan) {
-  if (!options.assembly.empty()) return options.assembly;
-  const std::filesystem::path named = plan.assembly.source;
-  std::error_code error;
-  for (const auto& path : {named, std::filesystem::path(options.plan).parent_path() / named})
-    if (!named.empty() && std::filesystem::exists(path, error)) return path.string();
-  throw InputError(options.plan,
-                   fmt::format("the assembly '{}' that this plan is for is neither here nor beside the plan; "
-                               "name it with --assembly",
-                               plan.assembly.source));
-}
-
 /// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration;
@@ -62,7 +49,7 @@ int verify(const Verify& options) {
   RunContext context = context_of(settings, console);
 
   const Plan plan = read_plan(options.plan);
-  const std::string source = find_source(options, plan);
+  const std::string source = source_of(plan, options.plan, options.assembly);
   ReadOptions read;
   read.max_triangles = std::numeric_limits<std::int64_t>::max();
   const Assembly assembly = stoppable(context, [&] {
@@ -75,7 +62,11 @@ int verify(const Verify& options) {
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are judged as repaired with these",
         r.weld, r.repair, r.max_hole));
-  const PlanCheck check = check_plan(plan, assembly, tolerance, context);
+  const ProverOfKind prover_of = [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
+    return registry.create<ImmobilityProver>(kind);
+  };
+  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of);
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 
@@ -88,6 +79,7 @@ int verify(const Verify& options) {
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
+                  {"certificates", check.certificates},
                   {"problems", problems},
                   {"plan", options.plan}});
   return check.valid && check.complete ? kComplete : kPartial;

@@ -52,7 +52,7 @@ TEST(Executor, EachTaskRunsOnceUnlessItIsWithdrawn) {
 TEST(Executor, TheHandleOutlivesTheTask) {
   Rng rng(8);
   Executor executor(3);
-  for (int trial = 0; trial < 500; ++trial) {
+  for (int trial = 0; trial < 200; ++trial) {
     auto value = std::make_unique<int>(0);
     {
       std::vector<TaskHandle> handles;
@@ -69,11 +69,11 @@ TEST(Executor, NoMoreTasksRunThanThereAreSlots) {
     Executor executor(threads);
     Gauge gauge(1);
     std::vector<TaskHandle> handles;
-    for (int k = 0; k < 60; ++k)
+    for (int k = 0; k < 30; ++k)
       handles.push_back(executor.submit(
           [&gauge] {
             gauge.enter();
-            yield_times(10);
+            yield_times(4);
             gauge.leave();
           },
           kPriorities[k % 3]));
@@ -121,19 +121,19 @@ TEST(Executor, TheSlotOfATaskIsHandedToTheThreadThatWaitsForIt) {
     yield_times(turns);
     gauge.leave();
   };
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 60; ++round) {
     std::latch begun(1);
     std::vector<TaskHandle> later;
     TaskHandle task = executor.submit(
         [&] {
           gauge.enter();
           begun.count_down();
-          yield_times(50);
+          yield_times(5);
           gauge.leave();
         },
         Priority::fork_join);
     begun.wait();
-    for (int k = 0; k < 2; ++k) later.push_back(executor.submit([&] { work(200); }, Priority::speculative));
+    for (int k = 0; k < 2; ++k) later.push_back(executor.submit([&] { work(20); }, Priority::speculative));
     gauge.leave();
     task.wait();
     gauge.enter();
@@ -241,14 +241,14 @@ TEST(Executor, TasksPauseWhileAPauseScopeExists) {
       },
       Priority::fork_join);
   while (rounds == 0) std::this_thread::yield();
-  for (int k = 0; k < 20; ++k) {
+  for (int k = 0; k < 10; ++k) {
     {
       const Executor::PauseScope pause(executor);
       const Executor::PauseScope nested(executor);
       TaskHandle urgent = executor.submit([] {}, Priority::fork_join);
       while (!urgent.done()) std::this_thread::yield();  // in the slot of the task that pauses
       const int before = rounds;
-      yield_times(100);
+      yield_times(20);
       EXPECT_EQ(rounds, before);
     }
     const int before = rounds;

@@ -20,7 +20,7 @@ class Usage(CliTest):
         self.run_program("plan", "x", "-q", "-v", status=2)
 
     def test_commands_that_do_not_exist_are_not_pretended(self):
-        self.run_program("view", "x", status=2)
+        self.run_program("draw", "x", status=2)
 
     def test_usage_errors_in_json(self):
         done = self.run_program("plan", "--format", "json", status=2)

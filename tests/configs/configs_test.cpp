@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
-    if (entry.path().extension() == ".yaml" &&
-        entry.path().parent_path().filename() != "bench")  // suites: tests/benchmark
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench" &&  // suites: tests/benchmark
+        entry.path().string().find("/presets/") == std::string::npos)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -76,10 +76,10 @@ TEST(Configs, EachResolvedFileLoads) {
     std::ofstream(scratch) << resolved_yaml(config, registry, scratch.parent_path());
     const RunConfig again = load(scratch);
     EXPECT_EQ(config.sections, again.sections) << file;
-    EXPECT_EQ(config.simulator.params, again.simulator.params) << file;
-    EXPECT_EQ(config.path_planner.params, again.path_planner.params) << file;
-    EXPECT_EQ(config.sequence_planner.params, again.sequence_planner.params) << file;
-    EXPECT_EQ(config.transfer_planner.params, again.transfer_planner.params) << file;
+    EXPECT_EQ(config.simulator.parameters, again.simulator.parameters) << file;
+    EXPECT_EQ(config.path_planner.parameters, again.path_planner.parameters) << file;
+    EXPECT_EQ(config.sequence_planner.parameters, again.sequence_planner.parameters) << file;
+    EXPECT_EQ(config.transfer_planner.parameters, again.transfer_planner.parameters) << file;
     ASSERT_EQ(config.layout.poses.size(), again.layout.poses.size()) << file;
     for (const auto& [part, pose] : config.layout.poses) {
       EXPECT_EQ(pose.t, again.layout.poses.at(part).t) << file;
@@ -89,6 +89,24 @@ TEST(Configs, EachResolvedFileLoads) {
   fs::remove(scratch);
 }
 
+// Law: each file in configs/presets is a preset that can be used, and made.
+TEST(Configs, EachPresetIsAType) {
+  Registry registry;
+  registry.scan();
+  for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
+  const fs::path folder = fs::path(CONFIGS_FOLDER) / "presets";
+  for (const PluginKind kind : kPluginKinds) {
+    if (!fs::is_directory(folder / to_string(kind))) continue;
+    for (const auto& entry : fs::directory_iterator(folder / to_string(kind))) {
+      const RegisteredType* type = registry.lookup(kind, entry.path().stem().string());
+      ASSERT_NE(type, nullptr) << entry.path();
+      EXPECT_FALSE(type->preset_of.empty()) << entry.path();
+      EXPECT_TRUE(fs::equivalent(type->preset_file, entry.path())) << type->preset_file;
+      if (kind == PluginKind::path_planner) EXPECT_NE(registry.create<PathPlanner>(type->type.id), nullptr);
+    }
+  }
+}
+
 // default.yaml documents the defaults: it must not differ from them.
 TEST(Configs, DefaultSaysWhatIsTheDefault) {
   Registry registry;
@@ -96,13 +114,13 @@ TEST(Configs, DefaultSaysWhatIsTheDefault) {
   const RunConfig file = load(fs::path(CONFIGS_FOLDER) / "default.yaml");
   EXPECT_EQ(none.sections, file.sections);
   EXPECT_EQ(none.simulator.type, file.simulator.type);
-  EXPECT_EQ(none.simulator.params, file.simulator.params);
+  EXPECT_EQ(none.simulator.parameters, file.simulator.parameters);
   EXPECT_EQ(none.path_planner.type, file.path_planner.type);
-  EXPECT_EQ(none.path_planner.params, file.path_planner.params);
+  EXPECT_EQ(none.path_planner.parameters, file.path_planner.parameters);
   EXPECT_EQ(none.sequence_planner.type, file.sequence_planner.type);
-  EXPECT_EQ(none.sequence_planner.params, file.sequence_planner.params);
+  EXPECT_EQ(none.sequence_planner.parameters, file.sequence_planner.parameters);
   EXPECT_EQ(none.transfer_planner.type, file.transfer_planner.type);
-  EXPECT_EQ(none.transfer_planner.params, file.transfer_planner.params);
+  EXPECT_EQ(none.transfer_planner.parameters, file.transfer_planner.parameters);
 }
 
 }  // namespace

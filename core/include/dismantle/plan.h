@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,18 @@ struct PlanUnsolved {
   std::vector<std::string> blocked_by;
   Pose best_pose;
   std::string message;
+  std::optional<std::size_t> certificate{};  ///< index into Plan::certificates
+};
+
+/// A Certificate with names in place of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
+struct PlanCertificate {
+  std::string kind;
+  std::vector<std::string> parts;
+  std::vector<Pose> poses;  ///< by place in `parts`; empty: as assembled
+  bool full_tolerance = false;
+  double margin = 0;  ///< assembly units
+  std::map<std::string, std::vector<double>> numbers;
+  std::string text;
 };
 
 struct PlanPart {
@@ -95,6 +108,7 @@ struct Plan {
   std::string assembly_message;  ///< why partial; else empty
   std::vector<std::string> remaining;
   std::vector<PlanUnsolved> unsolved;
+  std::vector<PlanCertificate> certificates;  ///< proofs that parts cannot be separated
 };
 
 }  // namespace dismantle

@@ -106,6 +106,14 @@ std::string explain_text(const Plan& plan) {
         out +=
             fmt::format("  overlaps {} by {:.2g} assembly units when assembled\n", o.a == u.part ? o.b : o.a, o.depth);
     if (!u.message.empty()) out += fmt::format("  said: {}\n", u.message);
+    if (u.certificate && *u.certificate < plan.certificates.size()) {
+      const PlanCertificate& c = plan.certificates[*u.certificate];
+      out += fmt::format("  certificate {} ({}), {}; `dismantle verify` checks it again\n", *u.certificate, c.kind,
+                         c.full_tolerance
+                             ? std::string("for all motions within the tolerance")
+                             : fmt::format("for motions that cut in by no more than {:.4g} assembly units", c.margin));
+      if (c.text != u.message) out += fmt::format("    {}\n", c.text);
+    }
   }
   return out;
 }

@@ -5,14 +5,16 @@
 namespace dismantle::bfs {
 namespace {
 
-class Bfs final : public FunctionPathPlanner {
+class Bfs final : public PathPlanner {
  public:
   explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
 
   PathPlannerTraits traits() const noexcept override {
     return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
   }
-  PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return push::start(query, tactics_, context);
+  }
 
  private:
   push::Tactics tactics_;

@@ -1,33 +1,29 @@
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
+#include "dismantle/path/ended_search.h"
+#include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
 #include "growth.h"
 
 namespace dismantle::tunnel_forest {
 namespace {
 
-class TunnelForest final : public FunctionPathPlanner {
+class TunnelForest final : public PathPlanner {
  public:
   explicit TunnelForest(const Parameters& parameters) : parameters_(parameters) {}
-  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds, .concurrent = true}; }
 
-  PathResult plan(const PathQuery& query, RunContext& context) override {
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const Capabilities has = query.simulator.capabilities();
     if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
-      return PathResult::failure(Outcome::unsupported,
-                                 "needs a simulator with dynamics and distances for all moving parts");
-    return Growth(parameters_, query, context).run(level_limit(query.budget.max_depth));
+      return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
+    std::uint64_t most = path::doubled_per_level(parameters_.level_steps, query.budget.max_depth);
+    if (parameters_.max_steps > 0) most = std::min(most, static_cast<std::uint64_t>(parameters_.max_steps));
+    return std::make_unique<Growth>(parameters_, query, context, most);
   }
 
  private:
-  std::uint64_t level_limit(unsigned depth) const {
-    if (depth == 0) return kNoLimit;
-    const double steps =
-        std::ldexp(static_cast<double>(parameters_.level_steps), static_cast<int>(std::min(depth, 60u)) - 1);
-    return steps < 1e18 ? static_cast<std::uint64_t>(steps) : kNoLimit;
-  }
-
   Parameters parameters_;
 };
 

@@ -92,10 +92,10 @@ TEST_P(PathPlannerContract, UnsupportedWhereTheSimulatorLacksSomething) {
     CountingSimulator simulator(ready()->simulator, counted);
     simulator.has = has;
     RunContext context;
-    const PathQuery query{
-        small.assembly, simulator, *ready()->prepared[0],
-        small.cast(),   {},        [](const Path&) { return PathCheck{true, false, 0, 0, {}, 0, {}}; }};
-    const PathResult r = make()->plan(query, context);
+    const fake::RuleChecker checker = fake::accept_all();
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[0], small.cast(), {}, kTolerance, checker};
+    const auto planner = make();
+    const PathResult r = plan_path(*planner, query, context);
     EXPECT_EQ(r.outcome(), Outcome::unsupported);
     EXPECT_FALSE(r.message.empty()) << "says what is missing";
     EXPECT_EQ(counted.steps, 0u);

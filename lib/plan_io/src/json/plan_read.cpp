@@ -290,7 +290,7 @@ std::vector<PlanStep> read_steps(const Place& place, StepKind kind, const Names&
 }
 
 PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
-  place.object({"part", "outcome", "blocked_by", "best_pose", "message"});
+  place.object({"part", "outcome", "blocked_by", "best_pose", "message"}, {"certificate"});
   PlanUnsolved u;
   u.part = read_part(place.at("part"), parts);
   const std::string outcome = place.at("outcome").text();
@@ -300,7 +300,26 @@ PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
   u.blocked_by = read_group(place.at("blocked_by"), parts);
   u.best_pose = read_pose(place.at("best_pose"));
   u.message = place.at("message").text();
+  if (place.has("certificate")) u.certificate = place.at("certificate").count();
   return u;
+}
+
+PlanCertificate read_certificate(const Place& place, const Names& parts) {
+  place.object({"kind", "parts", "full_tolerance", "margin", "numbers", "text"}, {"poses"});
+  PlanCertificate c;
+  c.kind = place.at("kind").name();
+  c.parts = read_group(place.at("parts"), parts);
+  if (c.parts.size() < 2) place.at("parts").fail("expected two parts at least");
+  if (place.has("poses")) {
+    for (const Place& item : place.at("poses").items()) c.poses.push_back(read_pose(item));
+    if (c.poses.size() != c.parts.size()) place.at("poses").fail("expected one pose for each part");
+  }
+  c.full_tolerance = place.at("full_tolerance").truth();
+  c.margin = place.at("margin").positive();
+  for (const auto& [name, values] : place.at("numbers").members())
+    for (const Place& value : values.items()) c.numbers[name].push_back(value.number());
+  c.text = place.at("text").text();
+  return c;
 }
 
 AssemblyStatus read_assembly_status(const Place& place) {
@@ -342,7 +361,7 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
     root.at("version").fail(fmt::format("this program reads version 1 of the plan format, not {}", version));
   root.object({"format", "version", "generator", "assembly", "status", "seed", "verified_max_penetration",
                "disassembly", "assembly_steps", "remaining", "unsolved"},
-              {"assembly_status", "assembly_message"});
+              {"assembly_status", "assembly_message", "certificates"});
 
   Plan plan;
   Names parts;
@@ -362,6 +381,12 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   if (root.has("assembly_message")) plan.assembly_message = root.at("assembly_message").text();
   plan.remaining = read_group(root.at("remaining"), parts);
   for (const Place& item : root.at("unsolved").items()) plan.unsolved.push_back(read_unsolved(item, parts));
+  if (root.has("certificates"))
+    for (const Place& item : root.at("certificates").items())
+      plan.certificates.push_back(read_certificate(item, parts));
+  for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
+    if (plan.unsolved[i].certificate && *plan.unsolved[i].certificate >= plan.certificates.size())
+      root.at("unsolved").items()[i].at("certificate").fail("there is no such certificate");
   return plan;
 }
 

@@ -92,6 +92,26 @@ Json assembly_json(const PlanAssembly& a) {
   return out;
 }
 
+Json certificates_json(const std::vector<PlanCertificate>& certificates) {
+  Json out = Json::array();
+  for (const PlanCertificate& c : certificates) {
+    Json one = {{"kind", c.kind}, {"parts", c.parts}};
+    if (!c.poses.empty()) {
+      Json poses = Json::array();
+      for (const Pose& p : c.poses) poses.push_back(pose_json(p, canonical_sign(p.q)));
+      one["poses"] = std::move(poses);
+    }
+    one["full_tolerance"] = c.full_tolerance;
+    one["margin"] = c.margin;
+    Json numbers = Json::object();
+    for (const auto& [name, values] : c.numbers) numbers[name] = values;
+    one["numbers"] = std::move(numbers);
+    one["text"] = c.text;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string_view to_string(AssemblyStatus status) {
@@ -114,6 +134,8 @@ std::string to_json(const Plan& plan) {
                         {"blocked_by", u.blocked_by},
                         {"best_pose", pose_json(u.best_pose, canonical_sign(u.best_pose.q))},
                         {"message", u.message}});
+  for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
+    if (plan.unsolved[i].certificate) unsolved[i]["certificate"] = *plan.unsolved[i].certificate;
   Json out;
   out["format"] = "dismantle.plan";
   out["version"] = 1;
@@ -128,6 +150,7 @@ std::string to_json(const Plan& plan) {
   out["assembly_message"] = plan.assembly_message;
   out["remaining"] = plan.remaining;
   out["unsolved"] = std::move(unsolved);
+  if (!plan.certificates.empty()) out["certificates"] = certificates_json(plan.certificates);
   return json_text(out) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "dismantle/geometry/hull.h"
+#include "dismantle/path/shortcuts.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -188,16 +189,8 @@ Path Scene::path(const std::vector<StateType>& states, std::vector<std::size_t>*
 }
 
 std::vector<StateType> Scene::shortcut(const std::vector<StateType>& states) {
-  std::vector<StateType> kept;
-  if (states.empty()) return kept;
-  kept.push_back(states.front());
-  for (std::size_t at = 0; at + 1 < states.size();) {
-    std::size_t to = states.size() - 1;
-    while (to > at + 1 && !motion_is_free(states[at], states[to])) to = at + (to - at + 1) / 2;
-    kept.push_back(states[to]);
-    at = to;
-  }
-  return kept;
+  return path::shortcut_by_halving(states,
+                                   [this](const StateType& a, const StateType& b) { return motion_is_free(a, b); });
 }
 
 void Scene::note_blocked(const StateType& state) {

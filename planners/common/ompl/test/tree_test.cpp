@@ -37,7 +37,8 @@ struct Task {
     RunContext own;
     own.rng = Rng(seed);
     own.cancel = cancel;
-    return plan_by_trees(query, own, p, [](Scene& scene, Rng) { return std::make_unique<NearestExit>(scene); });
+    return run_to_end(
+        *start_trees(query, own, p, [](Scene& scene, Rng) { return std::make_unique<NearestExit>(scene); }));
   }
   RunContext context;
   CancelToken cancel;

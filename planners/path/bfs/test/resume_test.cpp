@@ -53,7 +53,7 @@ struct Made {
 /// What was found to be in the way leaves, one after the other: the search finds what one from the start finds, and
 /// what it simulates is less by what it knew.
 TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
-  for (const char* planner : {"bfs", "guided"})
+  for (const char* planner : {"bfs", "contact_search"})
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
       SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
       const RandomMaze m = random_maze(seed);
@@ -81,7 +81,7 @@ TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
 
 /// Deeper, with nothing else changed: as far as a search from the start, and together hardly more simulation.
 TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
-  for (const char* planner : {"bfs", "guided"})
+  for (const char* planner : {"bfs", "contact_search"})
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
       const RandomMaze m = random_maze(seed);
@@ -216,7 +216,7 @@ TEST(Resume, LessonsAreKept) {
 
 /// What other planners have kept is none of its business.
 TEST(Resume, WhatIsNotItsOwnIsIgnored) {
-  class Strange final : public Reached {};
+  class Strange final : public SearchState {};
   const Strange strange;
   const RandomMaze m = random_maze(2);
   const Made with(m, "bfs", 0, {}, &strange), without(m, "bfs", 0, {});

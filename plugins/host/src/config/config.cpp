@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
+#include "config/binder.h"
 #include "config/constraints.h"
 #include "config/layers.h"
 #include "dismantle/host/config_bind.h"
@@ -19,7 +21,7 @@ namespace fs = std::filesystem;
 class Loader {
  public:
   Loader(const ConfigNode& root, Registry& registry, std::vector<Diagnostic>& problems)
-      : root_(root), registry_(registry), problems_(problems) {}
+      : root_(root), registry_(registry), problems_(problems), types_(types_of(registry)) {}
 
   RunConfig load() {
     check_top_level();
@@ -35,7 +37,12 @@ class Loader {
         plain = without_poses(*section);
         section = &plain;
       }
-      config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
+      config_.sections[name] = binder().section(specs, section, {name, "", ""});
+    }
+    ParamSet immobility = binder().section({provers_parameter(registry_)}, node("immobility"), {"immobility", "", ""});
+    if (const auto found = immobility.find("provers"); found != immobility.end()) {
+      config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
+      check_provers();
     }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, problems_);
@@ -55,8 +62,17 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
+  /// Each is asked once.
+  void check_provers() {
+    std::set<std::string> seen;
+    for (const PluginChoice& choice : config_.provers)
+      if (!seen.insert(choice.type).second)
+        problems_.push_back({config_.origins["immobility.provers"], 0, 0,
+                             fmt::format("immobility.provers lists '{}' twice", choice.type)});
+  }
+
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "importers", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "importers", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)
@@ -110,7 +126,7 @@ class Loader {
     const ConfigNode* map = node(section.name);
     if (map != nullptr) chosen.mark = map->mark;
     const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
-    std::string id = default_type(section, config_.path_planner.type);
+    std::string id = section.default_id;
     std::string origin = "default";
     if (type != nullptr) {
       chosen.mark = type->value.mark;
@@ -138,8 +154,10 @@ class Loader {
     for (const auto& section : plugin_sections()) {
       const auto* type = chosen_[section.name].type;
       if (type == nullptr) continue;
-      for (const auto& spec : type->type.params)
+      for (const auto& spec : type->type.params) {
         homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
+        collect_nested_homes(spec, node(section.name), section.name);
+      }
     }
     for (const auto& [name, specs] : fixed_sections())
       for (const auto& spec : specs) homes_[spec.name].push_back(name);
@@ -153,6 +171,25 @@ class Loader {
           member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
   }
 
+  /// Of the plugins that one parameter holds: what the file names, or else the default.
+  void collect_nested_homes(const ParamSpec& spec, const ConfigNode* section, const std::string& name) {
+    std::vector<std::string> types;
+    const ConfigMember* given = section != nullptr && section->is_map() ? section->find(spec.name) : nullptr;
+    if (given != nullptr && given->value.kind == ConfigNode::Kind::sequence) {
+      for (const ConfigNode& item : given->value.items) types.push_back(named_type(item));
+    } else if (const auto* many = std::get_if<std::vector<PluginChoice>>(&spec.fallback)) {
+      for (const PluginChoice& choice : *many) types.push_back(choice.type);
+    }
+    const std::string list = name + "." + spec.name;
+    for (const ParamSpec& option : spec.options) homes_[option.name].push_back("items of " + list);
+    for (std::size_t k = 0; k < types.size(); ++k)
+      if (const RegisteredType* type = registry_.lookup(spec.plugin_kind, types[k]))
+        for (const ParamSpec& own : type->type.params)
+          homes_[own.name].push_back(fmt::format("{}.{} ({})", list, k, types[k]));
+  }
+
+  Binder binder() { return {types_, homes_, config_.origins, problems_}; }
+
   void bind_plugin(const PluginSection& section) {
     const ConfigNode* map = node(section.name);
     const auto* type = chosen_[section.name].type;
@@ -162,10 +199,8 @@ class Loader {
             map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
       return;
     }
-    const std::string source =
-        fmt::format("{} {}, {}", type->type.id, type->file->version, type->file->path.filename().string());
-    choice(section.kind).params =
-        bind_section(type->type.params, map, {section.name, type->type.id, source}, homes_, config_.origins, problems_);
+    choice(section.kind).parameters = binder().section(
+        type->type.params, map, {section.name, type->type.id, source_text(*type)}, default_origin(*type));
   }
 
   /// `importers`: a map from ids to maps of parameters. Every importer is in use, whether it is named or not.
@@ -193,19 +228,35 @@ class Loader {
   void check_capabilities() {
     const auto* simulator = chosen_["simulator"].type;
     if (simulator == nullptr) return;
-    for (const char* section : {"path_planner", "transfer_planner"}) {
-      const Chosen& chosen = chosen_[section];
+    for (const auto& section : plugin_sections()) {
+      const Chosen& chosen = chosen_[section.name];
       if (chosen.type == nullptr) continue;
-      const Capabilities& needs = chosen.type->type.traits.needs;
-      const Capabilities& has = simulator->type.traits.provides;
-      const auto report = [&](const std::string& what) {
-        problems_.push_back(chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
-                                                          section, chosen.type->type.id, what, simulator->type.id)));
-      };
-      if (needs.dynamics && !has.dynamics) report("dynamics");
-      if (needs.contacts && !has.contacts) report("contacts");
-      if (needs.distance && !has.distance) report("distance queries");
-      if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+      check_capabilities(section.kind, choice(section.kind), chosen.mark, simulator->type);
+    }
+  }
+
+  /// Of what was chosen and of the plugins that its parameters hold.
+  void check_capabilities(PluginKind kind, const PluginChoice& chosen, const ConfigMark& mark,
+                          const PluginType& simulator) {
+    const RegisteredType* type = registry_.lookup(kind, chosen.type);
+    if (type == nullptr) return;
+    const Capabilities& needs = type->type.traits.needs;
+    const Capabilities& has = simulator.traits.provides;
+    const auto report = [&](const std::string& what) {
+      problems_.push_back(mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
+                                                 to_string(kind), chosen.type, what, simulator.id)));
+    };
+    if (needs.dynamics && !has.dynamics) report("dynamics");
+    if (needs.contacts && !has.contacts) report("contacts");
+    if (needs.distance && !has.distance) report("distance queries");
+    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    for (const ParamSpec& spec : type->type.params) {
+      const auto held = chosen.parameters.find(spec.name);
+      if (held == chosen.parameters.end()) continue;
+      if (const auto* one = std::get_if<PluginChoice>(&held->second))
+        check_capabilities(spec.plugin_kind, *one, mark, simulator);
+      if (const auto* many = std::get_if<std::vector<PluginChoice>>(&held->second))
+        for (const PluginChoice& item : *many) check_capabilities(spec.plugin_kind, item, mark, simulator);
     }
   }
 
@@ -255,6 +306,7 @@ class Loader {
   Registry& registry_;
   std::vector<Diagnostic>& problems_;
   RunConfig config_;
+  const TypeSource types_;
   KeyHomes homes_;
   std::map<std::string, Chosen> chosen_;
   std::vector<std::pair<const ConfigMember*, std::vector<std::string>>> unknown_top_;

@@ -4,18 +4,20 @@ namespace dismantle {
 
 Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
   Ingredients out;
-  out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
+  out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
   out.path_planner = [&registry, choice = config.path_planner] {
-    return registry.create<PathPlanner>(choice.type, choice.params);
+    return registry.create<PathPlanner>(choice.type, choice.parameters);
   };
-  out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
+  out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   out.path_planner_id = config.path_planner.type;
   if (config.layout.enabled) {
     out.transfer_planner = [&registry, choice = config.transfer_planner] {
-      return registry.create<TransferPlanner>(choice.type, choice.params);
+      return registry.create<TransferPlanner>(choice.type, choice.parameters);
     };
     out.transfer_planner_id = config.transfer_planner.type;
   }
+  for (const PluginChoice& choice : config.provers)
+    out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   return out;
 }
 

@@ -15,10 +15,11 @@
 
 namespace dismantle::sampling {
 
-/// CheckBudget of one call of PathPlanner::plan, shared by all its searches.
+/// Budget of one search, shared by all its trees.
 struct CheckBudget {
   CheckBudget(const PathQuery& query, const RunContext& context);
-  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or too many checks
+  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or
+                        ///< too many checks
   Outcome why() const;  ///< when spent: cancelled or timeout
 
   std::uint64_t checks = 0;      ///< states looked at

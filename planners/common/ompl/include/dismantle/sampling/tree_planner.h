@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "dismantle/parameters.h"
+#include "dismantle/path/motion.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/sampling/target_tree.h"
 
 namespace dismantle::sampling {
 
-enum class Motion { translation, rotation, automatic };
+using path::Motion;
 
 /// Parameters that every tree planner has; a planner's own struct derives from this one.
 struct TreeParameters {
@@ -69,15 +70,17 @@ using MakeRule = std::function<std::unique_ptr<TargetRule>(Scene& scene, Rng rng
 /// Straight lines to try before any tree, as unit directions in the world. May be empty.
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 
-/// Grows trees until a path passes the judge or the budget is spent. A path is simplified before it is shown to the
-/// judge. If it is refused, the path as it was found is shown; if that is refused too, the edge at fault is taken out
-/// of the tree with all that grew from it, and the search goes on.
+/// A search that grows trees until a path is accepted or the budget is spent;
+/// two trees take turns. A path is shown to the checker simplified, and as it
+/// was found if that is refused. If both are refused, the edge at fault is
+/// taken out of the tree with all that grew from it, and the search goes on.
 ///
-/// Extra statistics: `iterations`, `lines` (tried). The cost is the number of state checks.
-PathResult plan_by_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
-                         const MakeRule& make_rule, const MakeLines& make_lines = {});
+/// Extra statistics: `iterations`, `lines` (tried). The cost is the number of
+/// state checks. The rules may be called as long as the search exists.
+std::unique_ptr<PathSearch> start_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
+                                        const MakeRule& make_rule, const MakeLines& make_lines = {});
 
-/// Needs of planners made with plan_by_trees.
+/// Needs of planners made with start_trees.
 constexpr Capabilities kTreeNeeds{.distance = true};
 
 }  // namespace dismantle::sampling
