@@ -45,6 +45,18 @@ class DISMANTLE_API Reached {
   virtual ~Reached();
 };
 
+/// When a removal is complete.
+struct Goal {
+  /// Empty: the moving parts move as one group until its convex hull is apart from that of the fixed parts. Else the
+  /// parts move independently and simultaneously until one of these (they are among the moving ones) is apart from all
+  /// others, moving and fixed (World::leaves).
+  std::vector<PartId> any_of{};
+  /// Intermediate placement, of proposed paths only (no query has it): the parts are moved and stay in their group. The
+  /// path has to be valid, and to separate nothing. Not together with any_of.
+  bool placement = false;
+  bool operator==(const Goal&) const = default;
+};
+
 struct PathQuery {
   const Assembly& assembly;
   const Simulator& simulator;

@@ -91,7 +91,7 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
 /// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
 /// them.
 std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
-  for (const PartId id : attempt.leaving) {
+  for (const PartId id : attempt.goal.any_of) {
     std::vector<PlacedPart> alone, others = attempt.still;
     for (const PlacedPart& p : group) (p.part == id ? alone : others).push_back(p);
     if (verifier_.apart(alone, others)) return id;
@@ -129,13 +129,13 @@ AttemptRunner::Judgement AttemptRunner::judge(const Attempt& attempt, const Path
     }
     return j;
   }
-  if (attempt.part_way) {
+  if (attempt.goal.placement) {
     j.verdict.accepted = true;
     return j;
   }
   std::vector<PlacedPart> group = attempt.moving;
   for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = j.written.path.back()[i];
-  if (!attempt.leaving.empty()) {
+  if (!attempt.goal.any_of.empty()) {
     j.out = first_out(attempt, group);
     j.verdict.accepted = j.out.has_value();
     if (!j.out) j.verdict.reason = "the path ends before any part that is to leave is apart from all others";
@@ -178,11 +178,11 @@ ComputedAttempt AttemptRunner::judge_way(const Attempt& attempt, const Path& way
 }
 
 /// What is found just in time is judged: only the end of the `run` interrupts that.
-PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context,
-                               const RunContext& run, Judgement& last) const {
+PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed,
+                               const RunContext& context, const RunContext& run, Judgement& last) const {
   const std::string missing = lacking(planner.needs(), attempt.moving.size());
   if (!missing.empty()) return failure(Outcome::unsupported, missing);
-  if (!attempt.leaving.empty() && !planner.moves_each_its_way())
+  if (!attempt.goal.any_of.empty() && !planner.moves_each_its_way())
     return failure(Outcome::unsupported,
                    fmt::format("path planner '{}' does not move several parts each in its own way", planner_id_));
   RunContext own = context;
@@ -200,13 +200,13 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                           last = std::move(judgement);
                           return verdict;
                         },
-                        attempt.leaving,
-                        attempt.after != nullptr ? attempt.after->result.reached.get() : nullptr};
+                        attempt.goal.any_of,
+                        resumed != nullptr ? resumed->result.reached.get() : nullptr};
   return planner.plan(query, own);
 }
 
 ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                                   const RunContext& context) const {
+                                   const AttemptResult* resumed, const RunContext& context) const {
   const Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   AttemptResult& answer = computed.answer;
@@ -216,10 +216,10 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
   Judgement last;
   try {
-    if (attempt.still.empty() && attempt.leaving.empty()) {
+    if (attempt.still.empty() && attempt.goal.any_of.empty()) {
       result.outcome = Outcome::start_is_goal;  // nothing left to be apart from
     } else {
-      result = plan(planner, attempt, own, context, last);
+      result = plan(planner, attempt, resumed, own, context, last);
     }
     if (result.outcome == Outcome::solved) {
       if (last.written.path.empty() || !same_path(last.given, result.path)) last = judge(attempt, result.path, context);
@@ -240,7 +240,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       result.path = {start, start};
       result.depth = 0;
       answer.out = first_out(attempt, attempt.moving);
-      const bool is_apart = attempt.leaving.empty()
+      const bool is_apart = attempt.goal.any_of.empty()
                                 ? attempt.still.empty() || verifier_.apart(attempt.moving, attempt.still)
                                 : answer.out.has_value();
       if (!is_apart) {

@@ -24,9 +24,10 @@ class AttemptRunner {
                 const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
-  /// the attempt is added here. Throws nothing: what a plugin throws becomes Outcome::crashed.
+  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. Throws nothing: what
+  /// a plugin throws becomes Outcome::crashed.
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                      const RunContext& context) const;
+                      const AttemptResult* resumed, const RunContext& context) const;
 
   /// Judges a way in place of a search. `attempt` and the columns of `way` in the same order.
   ComputedAttempt judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const;
@@ -35,8 +36,8 @@ class AttemptRunner {
 
  private:
   struct Judgement;
-  PathResult plan(PathPlanner& planner, const Attempt& attempt, const RunContext& context, const RunContext& run,
-                  Judgement& last) const;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed, const RunContext& context,
+                  const RunContext& run, Judgement& last) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;

@@ -5,8 +5,8 @@
 
 #include "barred_shaft.h"
 #include "blocking/blocking.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "blocking/directions.h"
 #include "blocking/orientations.h"
+#include "blocking/pair_sweep.h"
 #include "dismantle/speculative_cache.h"
-#include "dismantle/verification/verifier.h"
 
 namespace dismantle::blocking {
 
@@ -29,12 +29,12 @@ struct Pair {
 /// A pair, how the two stand to each other, and a direction; see Relations.
 using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
 
-/// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
-/// its end. Not safe to call from several threads; idle threads of an executor, if given, help.
+/// What is free here is a valid straight path past one part, up to the test of convex hulls at its end. Not safe to
+/// call from several threads; idle threads of an executor, if given, help.
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
-  Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+  Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
             std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
@@ -73,7 +73,7 @@ class Relations {
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
   const Directions& directions_;
-  const Verifier& judge_;
+  const PairSweep& sweep_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   const Orientations& turns_;

@@ -15,12 +15,12 @@ constexpr double kClear = 0.01;     // assembly units: further than that, so tha
 
 }  // namespace
 
-StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const Verifier& verifier)
+StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep)
     : state_(state),
       oracle_(oracle),
-      verifier_(verifier),
+      sweep_(sweep),
       directions_(blocking::directions_of(state.assembly())),
-      relations_(verifier, directions_, state.orientations(), state.context().executor),
+      relations_(sweep, directions_, state.orientations(), state.context().executor),
       blocker_(state.subassemblies()) {}
 
 void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
@@ -298,7 +298,7 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
   const double length =
-      verifier_.way_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
+      sweep_.distance_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
       kClear;
   Path path(2);
   for (const auto& p : attempt.moving) {

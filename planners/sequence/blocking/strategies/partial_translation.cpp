@@ -103,7 +103,7 @@ PartialTranslation::Made PartialTranslation::make(GroupState& group, const Slide
 bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& by,
                                    const AttemptResult*& answer) {
   Attempt attempt = state_.attempt_for(group, ids);
-  attempt.part_way = true;
+  attempt.goal.placement = true;
   Path path(2);
   for (const auto& p : attempt.moving) {
     path[0].push_back(p.pose);

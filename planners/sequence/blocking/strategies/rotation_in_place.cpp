@@ -101,7 +101,7 @@ bool RotationInPlace::arc_passes(PartId part, const Pose& from, const Pose& to, 
     key.insert(key.end(), p->q.coeffs().begin(), p->q.coeffs().end());
   }
   if (const auto known = arcs_.find(key); known != arcs_.end()) return known->second;
-  const bool passes = verifier_.passes(part, fixed, there, {from, to});
+  const bool passes = sweep_.passes(part, fixed, there, {from, to});
   return arcs_.emplace(std::move(key), passes).first->second;
 }
 
@@ -142,7 +142,7 @@ std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_by(c
 /// Proposes the rotation to the oracle, and leaves the part there.
 bool RotationInPlace::commit(GroupState& group, SubassemblyId id, const Path& path) {
   Attempt attempt = state_.attempt_for(group, {id});
-  attempt.part_way = true;
+  attempt.goal.placement = true;
   const AttemptResult& answer = oracle_.propose(attempt, path, state_.context());
   if (!is_success(answer.result.outcome)) return false;
   state_.commit(group, {id}, attempt, answer, GroupChange::Kind::rotated);

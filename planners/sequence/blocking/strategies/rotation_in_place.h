@@ -17,9 +17,9 @@ namespace dismantle::blocking {
 
 class RotationInPlace final : public Strategy {
  public:
-  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Verifier& verifier,
+  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const PairSweep& sweep,
                   const RotationParams& params)
-      : state_(state), oracle_(oracle), straight_(straight), verifier_(verifier), params_(params) {}
+      : state_(state), oracle_(oracle), straight_(straight), sweep_(sweep), params_(params) {}
   std::string_view name() const noexcept override { return "rotation_in_place"; }
   Cost cost() const noexcept override { return Cost::arc_sweeps; }
   Result apply(GroupState& group) override;
@@ -50,7 +50,7 @@ class RotationInPlace final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion& straight_;
-  const Verifier& verifier_;
+  const PairSweep& sweep_;
   const RotationParams& params_;
   PerGroup<bool> done_;
   std::map<PartId, std::vector<TurningAxis>> axes_;

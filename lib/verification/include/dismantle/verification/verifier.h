@@ -81,10 +81,6 @@ class DISMANTLE_API Verifier {
   bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
-  /// Way along the unit vector `direction`, at most `most` (where it is taken for granted), after which `group` is so;
-  /// found by halving that so many times.
-  double way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
-                   const Eigen::Vector3d& direction, double most, int halvings) const;
   const VerifyOptions& options() const;
   std::size_t parts() const;
   /// Corners of the convex hull of a part, in its assembled frame.
