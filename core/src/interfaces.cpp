@@ -4,7 +4,6 @@
 
 #include "dismantle/importer.h"
 #include "dismantle/path_oracle.h"
-#include "dismantle/path_planner.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
 #include "dismantle/transfer_planner.h"
@@ -19,8 +18,6 @@ bool World::leaves(const State& state, std::size_t body) {
 }
 Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
-Reached::~Reached() = default;
-PathPlanner::~PathPlanner() = default;
 PathOracle::~PathOracle() = default;
 const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
   return nullptr;

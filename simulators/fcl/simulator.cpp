@@ -17,7 +17,8 @@ constexpr double kSameShape = 1e-7;
 
 }  // namespace
 
-std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, RunContext& context) {
+std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, double /*tolerance*/,
+                                                      RunContext& context) {
   auto prepared = std::make_shared<PreparedBodies>();
   const std::size_t n = assembly.parts.size();
   prepared->placed.resize(n);

@@ -12,8 +12,8 @@ class VelocitySimulator final : public Simulator {
 
   Capabilities capabilities() const noexcept override { return offered(); }
 
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) override {
-    return sdf::prepare_shapes(assembly, sdf::shape_options(parameters_), context);
+  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override {
+    return sdf::prepare_shapes(assembly, sdf::shape_options(parameters_), tolerance, context);
   }
 
   std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "dismantle/host/config.h"
-#include "dismantle/errors.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/engine/run.h"
-#include "dismantle/samples.h"
+#include "dismantle/errors.h"
+#include "dismantle/host/config.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/samples.h"
 #include "dismantle/testing/fake_planning.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -181,10 +181,10 @@ class PairFirst final : public SequencePlanner {
       for (const PartId id : moving) attempt.moving.push_back({id, at[id]});
       for (const PartId id : still) attempt.still.push_back({id, at[id]});
       const AttemptResult& answer = oracle.attempt(attempt, context);
-      ASSERT_TRUE(is_success(answer.result.outcome)) << answer.result.message;
+      ASSERT_TRUE(is_success(answer.result.outcome())) << answer.result.message;
       result.removals.push_back({moving, &answer});
       observer.removed(result.removals.back(), 0);
-      for (std::size_t k = 0; k < moving.size(); ++k) at[moving[k]] = answer.result.path.back()[k];
+      for (std::size_t k = 0; k < moving.size(); ++k) at[moving[k]] = answer.result.path()->poses().back()[k];
     };
     take({2, 3}, {0, 1});
     take({3}, {2});

@@ -3,7 +3,7 @@
 
 #include "bench_models.h"
 #include "dismantle/host/registry.h"
-#include "dismantle/verification/verdict.h"
+#include "dismantle/testing/path_checking.h"
 
 namespace dismantle::bench {
 namespace {
@@ -34,18 +34,19 @@ struct Task {
   }
   void prepare() {
     RunContext context;
-    prepared = simulator->prepare(assembly, context);
+    prepared = simulator->prepare(assembly, 0.01, context);
     verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
   }
   PathResult plan() {
     RunContext context;
-    const PathQuery query{assembly, *simulator, *prepared, cast, {}, [&](const Path& path) {
-                            const auto begin = Deadline::Clock::now();
-                            const Verdict v = verdict_of(verifier->check_motion(moving, cast.still, path));
-                            judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
-                            return v;
-                          }};
-    return planner->plan(query, context);
+    const fake::RuleChecker checker([&](const Path& path) {
+      const auto begin = Deadline::Clock::now();
+      const fake::Ruling ruling = fake::ruling_of(verifier->check_motion(moving, cast.still, path));
+      judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+      return ruling;
+    });
+    const PathQuery query{assembly, *simulator, *prepared, cast, {}, 0.01, checker};
+    return plan_path(*planner, query, context);
   }
 };
 
@@ -56,9 +57,9 @@ void PathPlanning(benchmark::State& state, const char* name, const char* part, b
   for (auto _ : state) {
     if (prepare) task.prepare();
     result = task.plan();
-    if (result.outcome != Outcome::solved) state.SkipWithError("not solved");
+    if (result.outcome() != Outcome::solved) state.SkipWithError("not solved");
   }
-  for (const auto& [count, value] : result.counts) state.counters[count] = value;
+  for (const auto& [count, value] : result.stats.by_name()) state.counters[count] = value;
   state.counters["judging"] = benchmark::Counter(task.judging, benchmark::Counter::kAvgIterations);
 }
 BENCHMARK_CAPTURE(PathPlanning, peg_in_hole, "peg_in_hole", "peg", false)->Unit(benchmark::kMillisecond);
@@ -70,15 +71,15 @@ BENCHMARK_CAPTURE(PathPlanning, inclined_washer, "inclined_washer", "washer", fa
 void VerifyPath(benchmark::State& state, const char* name, const char* part) {
   Task task(name, part);
   const PathResult result = task.plan();
-  if (result.outcome != Outcome::solved) state.SkipWithError("not solved");
+  if (result.outcome() != Outcome::solved) state.SkipWithError("not solved");
   MotionCheck check;
   for (auto _ : state) {
-    check = task.verifier->check_motion(task.moving, task.cast.still, result.path);
+    check = task.verifier->check_motion(task.moving, task.cast.still, result.path()->poses());
     benchmark::DoNotOptimize(check.valid);
   }
   std::size_t triangles = 0;
   for (const auto& p : task.assembly.parts) triangles += p.mesh->triangles.size();
-  state.counters["instants"] = static_cast<double>(result.path.size());
+  state.counters["instants"] = static_cast<double>(result.path()->poses().size());
   state.counters["triangles"] = static_cast<double>(triangles);
   state.counters["tests"] = static_cast<double>(check.tests);
 }

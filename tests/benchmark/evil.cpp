@@ -18,18 +18,14 @@ struct NoParams {
 };
 
 template <PathResult (*kDo)()>
-class Planner final : public dismantle::PathPlanner {
+class Planner final : public dismantle::FunctionPathPlanner {
  public:
   explicit Planner(const NoParams&) {}
-  dismantle::Capabilities needs() const noexcept override { return {}; }
+  dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
   PathResult plan(const PathQuery&, RunContext&) override { return kDo(); }
 };
 
-PathResult give_up() {
-  PathResult result;
-  result.outcome = Outcome::exhausted;
-  return result;
-}
+PathResult give_up() { return PathResult::failure(Outcome::exhausted); }
 
 PathResult abort_at_once() {
   static const char words[] = "evil.abort says goodbye\n";
@@ -58,12 +54,20 @@ PathResult scribble() {
   for (;; ++at) *at = here;
 }
 
-/// Claims success with a path that goes nowhere; the oracle must not believe it.
+/// Accepts everything.
+class Accomplice final : public dismantle::PathChecker {
+ public:
+  dismantle::PathCheck check(const dismantle::Path& path) const override {
+    dismantle::PathCheck answer;
+    answer.verified = accept(path, 0);
+    return answer;
+  }
+};
+
+/// Claims success with a path that goes nowhere, which a checker of its own accepted; the oracle must not believe it.
 PathResult lie() {
   PathResult result;
-  result.outcome = Outcome::solved;
-  result.path = {{dismantle::Pose{}}, {dismantle::Pose{}}};
-  result.depth = 1;
+  result.solve(*Accomplice().check({{dismantle::Pose{}}, {dismantle::Pose{}}}).verified, 1);
   return result;
 }
 

@@ -59,8 +59,8 @@ class CountingSimulator final : public Simulator {
   CountingSimulator(std::shared_ptr<Simulator> inner, Counted& counted)
       : has(inner->capabilities()), inner_(std::move(inner)), counted_(counted) {}
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) override {
-    return inner_->prepare(assembly, context);
+  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override {
+    return inner_->prepare(assembly, tolerance, context);
   }
   std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
                                MotionSpace space) const override {

@@ -24,6 +24,9 @@ bool same(const Path& a, const Path& b) {
   return true;
 }
 
+/// Empty where nothing was found.
+Path poses_of(const PathResult& result) { return result.path() ? result.path()->poses() : Path{}; }
+
 /// Doc of PathPlanner: cancellation and budgets are looked at at least so often.
 constexpr std::uint64_t kLook = 100;
 /// Enough for any of the small assemblies.
@@ -47,13 +50,13 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     Counted counted;
     std::string output;
   };
-  using Judge = std::function<Verdict(const Path&)>;
+  using Rule = std::function<fake::Ruling(const Path&)>;
 
   static std::shared_ptr<PathPlanner> make() { return registry().create<PathPlanner>(GetParam()); }
   /// The simulator and what it prepared, once for all tests; null when there is none.
   static const Ready* ready() {
     static std::map<std::string, Ready> cache;
-    const Capabilities needs = make()->needs();
+    const Capabilities needs = make()->traits().needs;
     auto candidates = ids(PluginKind::simulator);  // those of this project first: a third party's id has a dot
     std::stable_partition(candidates.begin(), candidates.end(),
                           [](const std::string& id) { return id.find('.') == std::string::npos; });
@@ -68,14 +71,14 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       r.simulator = simulator;
       for (const auto& small : small_assemblies()) {
         RunContext context;
-        r.prepared.push_back(simulator->prepare(small.assembly, context));
+        r.prepared.push_back(simulator->prepare(small.assembly, 0.01, context));
       }
       return &r;
     }
     return nullptr;
   }
 
-  static Verdict verify(const Small& small, const Cast& cast, const Path& path) {
+  static fake::Ruling verify(const Small& small, const Cast& cast, const Path& path) {
     std::vector<PartId> moving;
     std::vector<PlacedPart> group = cast.moving;
     for (std::size_t i = 0; i < group.size(); ++i) {
@@ -83,44 +86,39 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       group[i].pose = path.back()[i];
     }
     const MotionCheck check = small.verifier->check_motion(moving, cast.still, path);
-    Verdict v = verdict_of(check);
-    v.accepted = v.accepted && small.verifier->apart(group, cast.still);
+    fake::Ruling v = fake::ruling_of(check);
+    v.accept = v.accept && small.verifier->apart(group, cast.still);
     if (v.has_witness) v.reason = "it cuts";
     return v;
   }
 
-  /// One search; a judge that is empty is the verifier.
-  static void plan(Run& run, std::size_t which, const Effort& effort = {.max_steps = kPlenty}, RunContext context = {},
-                   const Judge& judge = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr,
-                   const Reached* reached = nullptr) {
+  /// One search; a rule that is empty is the verifier.
+  static void plan(Run& run, std::size_t which, const Budget& effort = {.max_steps = kPlenty}, RunContext context = {},
+                   const Rule& rule = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr,
+                   const SearchState* resume_from = nullptr) {
     const Small& small = small_assemblies()[which];
     CountingSimulator simulator(ready()->simulator, run.counted);
     const Cast chosen = cast != nullptr ? *cast : small.cast();
-    const PathQuery query{small.assembly,
-                          simulator,
-                          *ready()->prepared[which],
-                          chosen,
-                          effort,
-                          [&](const Path& path) {
-                            const Verdict v = judge ? judge(path) : verify(small, chosen, path);
-                            run.judged.emplace_back(path, v.accepted);
-                            return v;
-                          },
-                          {},
-                          reached};
+    const fake::RuleChecker checker([&](const Path& path) {
+      const fake::Ruling ruling = rule ? rule(path) : verify(small, chosen, path);
+      run.judged.emplace_back(path, ruling.accept);
+      return ruling;
+    });
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[which], chosen, effort, 0.01, checker, {},
+                          resume_from};
     const auto own = make();
     testing::internal::CaptureStdout();
-    run.result = (planner != nullptr ? planner : own.get())->plan(query, context);
+    run.result = plan_path(planner != nullptr ? *planner : *own, query, context);
     run.output = testing::internal::GetCapturedStdout();
     expect_lawful(run, small, chosen, effort);
   }
 
   /// What holds however a search ends.
-  static void expect_lawful(const Run& run, const Small& small, const Cast& cast, const Effort& effort) {
+  static void expect_lawful(const Run& run, const Small& small, const Cast& cast, const Budget& effort) {
     SCOPED_TRACE(small.name);
     const PathResult& r = run.result;
     EXPECT_TRUE(run.output.empty()) << "planners never print: " << run.output;
-    EXPECT_NE(r.outcome, Outcome::crashed);
+    EXPECT_NE(r.outcome(), Outcome::crashed);
     for (const PartId id : r.blocked_by)
       EXPECT_TRUE(std::any_of(cast.still.begin(), cast.still.end(), [id](const auto& p) { return p.part == id; }))
           << "part " << id << " does not stand still";
@@ -146,19 +144,19 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       for (std::size_t i = 0; i < cast.moving.size(); ++i)
         EXPECT_TRUE(bitwise(path.front()[i], cast.moving[i].pose)) << "starts where the parts are";
     }
-    if (r.outcome == Outcome::solved) {
+    if (r.outcome() == Outcome::solved) {
       ASSERT_FALSE(run.judged.empty()) << "no path without a judge";
       EXPECT_TRUE(std::any_of(run.judged.begin(), run.judged.end(), [&](const auto& j) {
-        return j.second && same(j.first, r.path);
+        return j.second && same(j.first, r.path()->poses());
       })) << "the judge has accepted just this path";
       const auto world = ready()->simulator->world(
           small.assembly, *ready()->prepared[static_cast<std::size_t>(&small - small_assemblies().data())], cast,
           MotionSpace::rigid);
       State end = world->initial_state();
-      for (std::size_t i = 0; i < end.bodies.size(); ++i) end.bodies[i].pose = r.path.back()[i];
+      for (std::size_t i = 0; i < end.bodies.size(); ++i) end.bodies[i].pose = r.path()->poses().back()[i];
       EXPECT_TRUE(world->separated(end));
-    } else if (r.outcome != Outcome::start_is_goal) {
-      EXPECT_TRUE(r.path.empty()) << to_string(r.outcome);
+    } else if (r.outcome() != Outcome::start_is_goal) {
+      EXPECT_FALSE(r.path()) << to_string(r.outcome());
     }
   }
 
@@ -171,7 +169,7 @@ TEST_P(PathPlannerContract, DeclaresItselfInFull) {
   const PluginType& type = registry().find(PluginKind::path_planner, GetParam()).type;
   EXPECT_TRUE(problems_of_schema(type.params).empty());
   EXPECT_FALSE(type.summary.empty());
-  const Capabilities says = type.traits.needs, needs = make()->needs();
+  const Capabilities says = type.traits.needs, needs = make()->traits().needs;
   EXPECT_EQ(says.dynamics, needs.dynamics);
   EXPECT_EQ(says.contacts, needs.contacts);
   EXPECT_EQ(says.distance, needs.distance);
@@ -182,7 +180,7 @@ TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
     Run run;
     plan(run, which);
     if (GetParam() == "bfs" || GetParam() == "guided") {
-      EXPECT_EQ(run.result.outcome, Outcome::solved) << small_assemblies()[which].name;
+      EXPECT_EQ(run.result.outcome(), Outcome::solved) << small_assemblies()[which].name;
     }
   }
 }
@@ -190,15 +188,15 @@ TEST_P(PathPlannerContract, WhatIsSolvedHasPassedTheJudge) {
 /// One that says that it may be used by several threads finds on each what it finds alone.
 TEST_P(PathPlannerContract, AConcurrentOneIsNotConfusedByOthers) {
   const auto shared = make();
-  if (!shared->is_concurrent()) GTEST_SKIP() << "each thread has its own";
+  if (!shared->traits().concurrent) GTEST_SKIP() << "each thread has its own";
   const auto planned = [](PathPlanner& planner, std::size_t which) {
     const Small& small = small_assemblies()[which];
     const Cast cast = small.cast();
+    const fake::RuleChecker checker([&](const Path& path) { return verify(small, cast, path); });
     const PathQuery query{
-        small.assembly, *ready()->simulator,    *ready()->prepared[which],
-        cast,           {.max_steps = kPlenty}, [&](const Path& path) { return verify(small, cast, path); }};
+        small.assembly, *ready()->simulator, *ready()->prepared[which], cast, {.max_steps = kPlenty}, 0.01, checker};
     RunContext context;
-    return planner.plan(query, context);
+    return plan_path(planner, query, context);
   };
   const std::size_t count = small_assemblies().size();
   std::vector<PathResult> alone(count), together(2 * count);
@@ -209,9 +207,9 @@ TEST_P(PathPlannerContract, AConcurrentOneIsNotConfusedByOthers) {
       threads.emplace_back([&, k] { together[k] = planned(*shared, k % count); });
   }
   for (std::size_t k = 0; k < together.size(); ++k) {
-    EXPECT_EQ(together[k].outcome, alone[k % count].outcome);
-    EXPECT_TRUE(same(together[k].path, alone[k % count].path));
-    EXPECT_EQ(together[k].counts, alone[k % count].counts);
+    EXPECT_EQ(together[k].outcome(), alone[k % count].outcome());
+    EXPECT_TRUE(same(poses_of(together[k]), poses_of(alone[k % count])));
+    EXPECT_EQ(together[k].stats, alone[k % count].stats);
   }
 }
 
@@ -224,7 +222,7 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
     const Cast cast = small.cast_of({part.id});
     Run run;
     plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &cast);
-    EXPECT_FALSE(is_success(run.result.outcome)) << part.name;
+    EXPECT_FALSE(is_success(run.result.outcome())) << part.name;
   }
 }
 
@@ -233,7 +231,7 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
 TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
   const std::size_t which = 2;
   const Small& small = small_assemblies()[which];
-  class Strange final : public Reached {};
+  class Strange final : public SearchState {};
   const Strange strange;
   int solved = 0;
   for (const auto& part : small.assembly.parts) {
@@ -241,26 +239,26 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
     const Cast closed = small.cast_of({part.id});
     Cast open = closed;
     std::erase_if(open.still, [&](const PlacedPart& p) { return p.part == small.leaves; });
-    const Effort little{.max_depth = 2, .max_steps = 3'000};
+    const Budget little{.max_depth = 2, .max_steps = 3'000};
     Run first, strangers, anew, again, same_again;
     plan(first, which, little, {}, {}, &closed);
-    ASSERT_FALSE(is_success(first.result.outcome)) << part.name;
+    ASSERT_FALSE(is_success(first.result.outcome())) << part.name;
     plan(strangers, which, little, {}, {}, &closed, nullptr, &strange);
-    EXPECT_EQ(strangers.result.counts, first.result.counts);
+    EXPECT_EQ(strangers.result.stats, first.result.stats);
     plan(anew, which, little, {}, {}, &open);
-    plan(again, which, little, {}, {}, &open, nullptr, first.result.reached.get());
-    plan(same_again, which, little, {}, {}, &open, nullptr, first.result.reached.get());
-    EXPECT_EQ(again.result.outcome, same_again.result.outcome);
-    EXPECT_EQ(again.result.counts, same_again.result.counts);
-    EXPECT_TRUE(same(again.result.path, same_again.result.path));
+    plan(again, which, little, {}, {}, &open, nullptr, first.result.state.get());
+    plan(same_again, which, little, {}, {}, &open, nullptr, first.result.state.get());
+    EXPECT_EQ(again.result.outcome(), same_again.result.outcome());
+    EXPECT_EQ(again.result.stats, same_again.result.stats);
+    EXPECT_TRUE(same(poses_of(again.result), poses_of(same_again.result)));
     if (GetParam() == "bfs" || GetParam() == "guided") {
-      EXPECT_NE(first.result.reached, nullptr);
-      EXPECT_EQ(is_success(again.result.outcome), is_success(anew.result.outcome)) << part.name;
-      solved += is_success(again.result.outcome) ? 1 : 0;
-      EXPECT_GT(again.result.counts["resumed_nodes"] + again.result.counts["led_resumed_nodes"], 0);
+      EXPECT_NE(first.result.state, nullptr);
+      EXPECT_EQ(is_success(again.result.outcome()), is_success(anew.result.outcome())) << part.name;
+      solved += is_success(again.result.outcome()) ? 1 : 0;
+      EXPECT_GT(again.result.stats.resumed_nodes, 0);
     }
-    if (is_success(again.result.outcome)) {
-      EXPECT_EQ(again.result.reached, nullptr);
+    if (is_success(again.result.outcome())) {
+      EXPECT_EQ(again.result.state, nullptr);
     }
   }
   if (GetParam() == "bfs" || GetParam() == "guided") {
@@ -274,7 +272,7 @@ TEST_P(PathPlannerContract, AJudgeThatAlwaysRefusesIsNeverOverruled) {
       const Small& small = small_assemblies()[which];
       Run run;
       plan(run, which, {.max_steps = 5'000}, {}, [&](const Path&) {
-        Verdict v;
+        fake::Ruling v;
         v.has_witness = witness;
         v.part = small.leaves;
         v.other = small.leaves == 0 ? 1 : 0;
@@ -282,7 +280,7 @@ TEST_P(PathPlannerContract, AJudgeThatAlwaysRefusesIsNeverOverruled) {
         v.reason = "refused";
         return v;
       });
-      EXPECT_FALSE(is_success(run.result.outcome));
+      EXPECT_FALSE(is_success(run.result.outcome()));
     }
 }
 
@@ -291,7 +289,7 @@ TEST_P(PathPlannerContract, ARefusedPathIsNotShownForEver) {
   int refusals = 0;
   plan(run, 0, {.max_steps = kPlenty}, {}, [&](const Path& path) {
     if (refusals++ > 0) return verify(small_assemblies()[0], small_assemblies()[0].cast(), path);
-    return Verdict{};
+    return fake::Ruling{};
   });
   EXPECT_LT(run.judged.size(), 200u);
 }
@@ -302,7 +300,7 @@ TEST_P(PathPlannerContract, CancelledBeforeTheStart) {
     context.cancel.cancel();
     Run run;
     plan(run, which, {}, context);
-    EXPECT_EQ(run.result.outcome, Outcome::cancelled);
+    EXPECT_EQ(run.result.outcome(), Outcome::cancelled);
     EXPECT_LE(run.counted.steps, kLook);
     EXPECT_TRUE(run.judged.empty());
   }
@@ -316,8 +314,8 @@ TEST_P(PathPlannerContract, CancelledOnTheWay) {
     if (run.counted.steps >= 20) cancel.cancel();
   };
   plan(run, 1, {}, context);
-  if (run.result.outcome != Outcome::solved) {
-    EXPECT_EQ(run.result.outcome, Outcome::cancelled);
+  if (run.result.outcome() != Outcome::solved) {
+    EXPECT_EQ(run.result.outcome(), Outcome::cancelled);
   }
   EXPECT_LE(run.counted.steps, 20 + 2 * kLook);
 }
@@ -327,7 +325,7 @@ TEST_P(PathPlannerContract, ADeadlineThatHasPassedIsATimeout) {
   context.deadline = Deadline::after_seconds(0);
   Run run;
   plan(run, 0, {}, context);
-  EXPECT_EQ(run.result.outcome, Outcome::timeout);
+  EXPECT_EQ(run.result.outcome(), Outcome::timeout);
   EXPECT_LE(run.counted.steps, kLook);
 }
 
@@ -338,7 +336,7 @@ TEST_P(PathPlannerContract, StepBudgetsAreKept) {
     Run run;
     plan(run, 1, {.max_steps = budget});  // expect_lawful looks at the steps
     if (free.counted.steps > budget + kLook) {
-      EXPECT_EQ(run.result.outcome, Outcome::timeout) << budget;
+      EXPECT_EQ(run.result.outcome(), Outcome::timeout) << budget;
     }
   }
 }
@@ -348,7 +346,7 @@ TEST_P(PathPlannerContract, APartThatIsOutHasNothingToDo) {
   cast.moving[0].pose.t = Vector3d(0, 0, 30);
   Run run;
   plan(run, 0, {}, {}, {}, &cast);
-  EXPECT_EQ(run.result.outcome, Outcome::start_is_goal);
+  EXPECT_EQ(run.result.outcome(), Outcome::start_is_goal);
   for (const auto& instant : run.result.path) EXPECT_TRUE(bitwise(instant[0], cast.moving[0].pose));
 }
 
@@ -358,7 +356,7 @@ TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {
   Run run;
   plan(run, 0, {.max_steps = kPlenty}, {}, {}, &cast);
   if (GetParam() == "bfs" || GetParam() == "guided") {
-    EXPECT_EQ(run.result.outcome, Outcome::solved);
+    EXPECT_EQ(run.result.outcome(), Outcome::solved);
   }
 }
 
@@ -373,8 +371,8 @@ TEST_P(PathPlannerContract, SameSeedSameResultOnAnyObject) {
     Run a, b;
     plan(a, which, {.max_steps = kPlenty}, seeded(7));
     plan(b, which, {.max_steps = kPlenty}, seeded(7), {}, nullptr, used.get());
-    EXPECT_EQ(a.result.outcome, b.result.outcome);
-    EXPECT_TRUE(same(a.result.path, b.result.path));
+    EXPECT_EQ(a.result.outcome(), b.result.outcome());
+    EXPECT_TRUE(same(poses_of(a.result), poses_of(b.result)));
     EXPECT_EQ(a.result.blocked_by, b.result.blocked_by);
     EXPECT_EQ(a.counted.steps, b.counted.steps);
     EXPECT_EQ(a.judged.size(), b.judged.size());
@@ -395,7 +393,7 @@ TEST_P(PathPlannerContract, SeveralPartsMoveAtOnce) {
 }
 
 TEST_P(PathPlannerContract, UnsupportedWhereTheSimulatorLacksSomething) {
-  const Capabilities needs = make()->needs();
+  const Capabilities needs = make()->traits().needs;
   std::vector<Capabilities> lacking;
   const Capabilities full = ready()->simulator->capabilities();
   if (needs.dynamics) lacking.push_back({false, full.contacts, full.distance, full.max_moving});
@@ -407,10 +405,11 @@ TEST_P(PathPlannerContract, UnsupportedWhereTheSimulatorLacksSomething) {
     CountingSimulator simulator(ready()->simulator, counted);
     simulator.has = has;
     RunContext context;
-    const PathQuery query{small.assembly, simulator, *ready()->prepared[0],
-                          small.cast(),   {},        [](const Path&) { return Verdict{true, false, 0, 0, {}, 0, {}}; }};
+    const PathQuery query{
+        small.assembly, simulator, *ready()->prepared[0],
+        small.cast(),   {},        [](const Path&) { return PathCheck{true, false, 0, 0, {}, 0, {}}; }};
     const PathResult r = make()->plan(query, context);
-    EXPECT_EQ(r.outcome, Outcome::unsupported);
+    EXPECT_EQ(r.outcome(), Outcome::unsupported);
     EXPECT_FALSE(r.message.empty()) << "says what is missing";
     EXPECT_EQ(counted.steps, 0u);
   }

@@ -33,7 +33,7 @@ class SimulatorContract : public testing::TestWithParam<std::string> {
     RunContext context;
     context.threads = threads;
     Made m{make(), nullptr, &small};
-    m.prepared = m.simulator->prepare(small.assembly, context);
+    m.prepared = m.simulator->prepare(small.assembly, 0.01, context);
     return m;
   }
   /// One of each sample, prepared once for all tests.
@@ -344,7 +344,7 @@ TEST_P(SimulatorContract, StopsPreparingWhenTold) {
   RunContext context;
   context.cancel.cancel();
   const auto simulator = make();
-  EXPECT_NO_THROW(static_cast<void>(simulator->prepare(small.assembly, context)));
+  EXPECT_NO_THROW(static_cast<void>(simulator->prepare(small.assembly, 0.01, context)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, SimulatorContract, testing::ValuesIn(ids(PluginKind::simulator)), test_name);

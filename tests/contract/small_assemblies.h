@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/preparation/prepare.h"
 #include "dismantle/host/registry.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
-#include "dismantle/verification/verdict.h"
+#include "dismantle/testing/path_checking.h"
 
 namespace dismantle::contract {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "dismantle/transfer_planner.h"
 #include "dismantle/testing/fake_planning.h"
+#include "dismantle/transfer_planner.h"
 #include "small_assemblies.h"
 
 namespace dismantle::contract {
@@ -25,7 +25,7 @@ struct Errand {
   Errand(const Assembly& a, const std::vector<PartId>& moving, const Pose& from, const Pose& to)
       : assembly(a), verifier(a, VerifyOptions{}) {
     RunContext context;
-    prepared = simulator->prepare(assembly, context);
+    prepared = simulator->prepare(assembly, 0.01, context);
     for (const auto& p : assembly.parts) {
       if (std::find(moving.begin(), moving.end(), p.id) == moving.end()) {
         cast.still.push_back({p.id, Pose{}});
@@ -46,17 +46,18 @@ struct Errand {
   }
 
   PathResult go(TransferPlanner& planner, RunContext context = {}) {
-    TransferQuery query{assembly, *simulator, *prepared, cast, goal, Eigen::Vector3d::UnitZ(), {}, {}};
-    query.effort.max_steps = most_checks;
-    query.judge = [&](const Path& path) {
+    const fake::RuleChecker checker([&](const Path& path) {
       ++judged;
       std::vector<PartId> ids;
       for (const auto& m : cast.moving) ids.push_back(m.part);
-      Verdict v;
-      v.accepted = !refuse && ends_right(path) && verifier.check_motion(ids, cast.still, path).valid;
-      accepted += v.accepted ? 1 : 0;
-      return v;
-    };
+      fake::Ruling ruling;
+      ruling.accept = !refuse && ends_right(path) && verifier.check_motion(ids, cast.still, path).valid;
+      accepted += ruling.accept ? 1 : 0;
+      return ruling;
+    });
+    const TransferQuery query{
+        assembly, *simulator, *prepared, cast, goal, Eigen::Vector3d::UnitZ(), {.max_steps = most_checks},
+        0.01,     checker};
     return planner.plan(query, context);
   }
 };
@@ -103,9 +104,9 @@ TEST_P(TransferPlannerContract, FindsAWayThroughFreeSpace) {
     for (const Pose& from : {shift(8, 0, 0), turned(shift(-6, 5, 1))}) {
       Errand errand(small.assembly, {small.leaves}, from, shift(0, 0, 6));
       const PathResult r = errand.go(*make());
-      ASSERT_EQ(r.outcome, Outcome::solved) << small.name << ": " << r.message;
+      ASSERT_EQ(r.outcome(), Outcome::solved) << small.name << ": " << r.message;
       EXPECT_GE(errand.accepted, 1);
-      EXPECT_TRUE(errand.ends_right(r.path));
+      EXPECT_TRUE(errand.ends_right(r.path()->poses()));
     }
 }
 
@@ -113,8 +114,8 @@ TEST_P(TransferPlannerContract, FindsAWayAroundACorner) {
   const Assembly assembly = pipe();
   Errand errand(assembly, {1}, shift(0, 0, 0), shift(0, 9, 0));
   const PathResult r = errand.go(*make());
-  ASSERT_EQ(r.outcome, Outcome::solved) << r.message;
-  EXPECT_TRUE(errand.ends_right(r.path));
+  ASSERT_EQ(r.outcome(), Outcome::solved) << r.message;
+  EXPECT_TRUE(errand.ends_right(r.path()->poses()));
   EXPECT_GT(r.depth, 1u);
 }
 
@@ -126,9 +127,11 @@ TEST_P(TransferPlannerContract, SameSeedSamePath) {
     Errand errand(assembly, {1}, shift(0, 0, 0), turned(shift(0, 9, 0)));
     const auto planner = make();
     const PathResult a = errand.go(*planner, context), b = errand.go(*planner, context);
-    ASSERT_EQ(a.outcome, b.outcome);
-    ASSERT_EQ(a.path.size(), b.path.size());
-    for (std::size_t k = 0; k < a.path.size(); ++k) EXPECT_TRUE(bitwise(a.path[k][0], b.path[k][0]));
+    ASSERT_EQ(a.outcome(), b.outcome());
+    ASSERT_TRUE(a.path() && b.path());
+    const Path &one = a.path()->poses(), &other = b.path()->poses();
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t k = 0; k < one.size(); ++k) EXPECT_TRUE(bitwise(one[k][0], other[k][0]));
   }
 }
 
@@ -136,8 +139,8 @@ TEST_P(TransferPlannerContract, AGroupKeepsItsShape) {
   const Assembly assembly = fake::row(4);
   Errand errand(assembly, {0, 1}, turned(shift(0, 10, 0)), shift(0, -6, 0));
   const PathResult r = errand.go(*make());
-  ASSERT_EQ(r.outcome, Outcome::solved) << r.message;
-  for (const auto& instant : r.path) {
+  ASSERT_EQ(r.outcome(), Outcome::solved) << r.message;
+  for (const auto& instant : r.path()->poses()) {
     EXPECT_LT((instant[0].t - instant[1].t).norm(), 1e-9);  // both have one displacement
     EXPECT_LT(angle_between(instant[0].q, instant[1].q), 1e-7);
   }
@@ -148,8 +151,8 @@ TEST_P(TransferPlannerContract, GivesUpWithinItsBudget) {
   Errand errand(assembly, {1}, shift(9, 0, 0), Pose{});
   errand.most_checks = 400;
   const PathResult r = errand.go(*make());
-  EXPECT_FALSE(is_success(r.outcome));
-  EXPECT_TRUE(r.path.empty());
+  EXPECT_FALSE(is_success(r.outcome()));
+  EXPECT_FALSE(r.path());
   EXPECT_EQ(errand.accepted, 0);
 }
 
@@ -159,7 +162,7 @@ TEST_P(TransferPlannerContract, WhatTheJudgeRefusesIsNoSolution) {
   errand.refuse = true;
   errand.most_checks = 2000;
   const PathResult r = errand.go(*make());
-  EXPECT_FALSE(is_success(r.outcome));
+  EXPECT_FALSE(is_success(r.outcome()));
   EXPECT_GE(errand.judged, 1);
 }
 
@@ -169,7 +172,7 @@ TEST_P(TransferPlannerContract, StopsWhenToldTo) {
   RunContext context;
   context.cancel.cancel();
   const PathResult r = errand.go(*make(), context);
-  EXPECT_EQ(r.outcome, Outcome::cancelled);
+  EXPECT_EQ(r.outcome(), Outcome::cancelled);
   EXPECT_LE(errand.judged, 1);
 }
 

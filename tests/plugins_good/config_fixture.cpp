@@ -10,15 +10,15 @@ using namespace dismantle;  // NOLINT: a file of its own
 class NoSimulator : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return {}; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override { return nullptr; }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override { return nullptr; }
   std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast&, MotionSpace) const override {
     return nullptr;
   }
 };
 
-class NoPath : public PathPlanner {
+class NoPath : public FunctionPathPlanner {
  public:
-  Capabilities needs() const noexcept override { return {}; }
+  PathPlannerTraits traits() const noexcept override { return {}; }
   PathResult plan(const PathQuery&, RunContext&) override { return {}; }
 };
 

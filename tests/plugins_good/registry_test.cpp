@@ -115,7 +115,7 @@ TEST(Registry, MakesObjects) {
   registry.add_search_path(kAcme);
   registry.scan();
   const auto planner = registry.create<PathPlanner>("acme.straight", {{"force", 5.0}});
-  EXPECT_TRUE(planner->needs().dynamics);
+  EXPECT_TRUE(planner->traits().needs.dynamics);
   EXPECT_NE(planner, registry.create<PathPlanner>("acme.straight"));
   EXPECT_TRUE(registry.create<Simulator>("acme.stepper")->capabilities().contacts);
   EXPECT_THROW(registry.create<PathPlanner>("acme.straight", {{"force", -5.0}}), PluginError);
@@ -143,17 +143,15 @@ TEST(Examples, StraightPlannerOnStepper) {
   const auto simulator = registry.create<Simulator>("acme.stepper");
   const auto planner = registry.create<PathPlanner>("acme.straight");
   RunContext context;
-  const auto prepared = simulator->prepare(assembly, context);
-  const PathQuery query{assembly, *simulator, *prepared, {{{1, {}}}, {{0, {}}}}, {}, [](const Path&) {
-                          Verdict yes;
-                          yes.accepted = true;
-                          return yes;
-                        }};
-  const PathResult result = planner->plan(query, context);
-  EXPECT_EQ(result.outcome, Outcome::solved);
-  ASSERT_GE(result.path.size(), 2u);
-  EXPECT_TRUE(result.path.front()[0].is_identity());
-  EXPECT_GT(result.path.back()[0].t.x(), 0.0);
+  const auto prepared = simulator->prepare(assembly, 0.01, context);
+  const fake::RuleChecker checker = fake::accept_all();
+  const PathQuery query{assembly, *simulator, *prepared, {{{1, {}}}, {{0, {}}}}, {}, 0.01, checker};
+  const PathResult result = plan_path(*planner, query, context);
+  EXPECT_EQ(result.outcome(), Outcome::solved);
+  ASSERT_TRUE(result.path());
+  ASSERT_GE(result.path()->poses().size(), 2u);
+  EXPECT_TRUE(result.path()->poses().front()[0].is_identity());
+  EXPECT_GT(result.path()->poses().back()[0].t.x(), 0.0);
   EXPECT_EQ(result.path.back()[0].t.y(), 0.0);
 }
 

@@ -1,10 +1,10 @@
-/// Path planners: how does this part (or group) leave?
+/// Path planners: how is this part (or group) removed?
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,30 +19,74 @@ namespace dismantle {
 /// entry is where they start. Between two instants each part moves by the joining screw motion.
 using Path = Trace;
 
-/// How hard to try. Counts come first: only they make results independent of the machine.
-struct Effort {
+/// How much a search may spend. Counts come first: only they make results independent of the machine.
+struct Budget {
   unsigned max_depth = 0;       ///< depth of the search tree, 0 = no limit (Algorithm 1: d_max)
-  std::uint64_t max_steps = 0;  ///< simulated time steps or, without dynamics, state checks; 0 = no limit
+  std::uint64_t max_steps = 0;  ///< simulated time steps plus state checks; 0 = no limit
   double timeout = 0;           ///< seconds, 0 = no limit beyond the context's deadline (t_max)
 };
 
-/// What the judge says of a path. A planner must not report `solved` with a path that was refused.
-struct Verdict {
-  bool accepted = false;
-  // Filled when refused and the place is known:
-  bool has_witness = false;
-  PartId part = 0, other = 0;                       ///< `point` of `part` lies inside `other`
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled frame of `part`
-  std::size_t instant = 0;                          ///< path index at (or just after) which it happened
-  std::string reason{};
-  std::vector<Pose> poses{};  ///< of the moving parts when it happened; may be empty
+class PathChecker;
+
+/// A path that a PathChecker accepted. Nothing else makes one, so a search cannot report success with a refused path.
+class DISMANTLE_API VerifiedPath {
+ public:
+  /// The motion in the form that is written to the plan. It may have fewer or more instants than what was shown.
+  const Path& poses() const { return poses_; }
+  /// Certified upper bound over the whole path of the penetration above the initial overlap; assembly units.
+  double max_penetration() const { return max_penetration_; }
+  /// Where a Goal names parts: the one of them that is apart from all others at the end.
+  const std::optional<PartId>& released() const { return released_; }
+  /// The same motion with the moving parts listed in another order: part i of the result is part order[i] of this.
+  /// @throws std::invalid_argument when `order` is not a permutation of the moving parts.
+  VerifiedPath reordered(const std::vector<std::size_t>& order) const;
+
+ private:
+  friend class PathChecker;
+  VerifiedPath(Path poses, double max_penetration, std::optional<PartId> released, std::uint64_t checker);
+
+  Path poses_;
+  double max_penetration_ = 0;
+  std::optional<PartId> released_;
+  std::uint64_t checker_ = 0;
 };
 
-/// What a search in vain has reached: states, and how they are reached. What is in it only planners of the kind that
-/// made it know. Immutable; may be used by several searches at the same time, from any thread.
-class DISMANTLE_API Reached {
+/// The verifier's answer about a path. When a path is refused and the place is known, `part` lies too deep in `other`.
+struct PathCheck {
+  std::optional<VerifiedPath> verified{};  ///< set: the path is accepted
+  bool has_witness = false;                ///< refused, and the next five fields are filled
+  PartId part = 0, other = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of `part`, in its assembled frame
+  std::size_t instant = 0;                          ///< index of the path at (or just before) the violation
+  std::vector<Pose> poses{};                        ///< of the moving parts at the violation; may be empty
+  std::string reason{};                             ///< refused: why
+  bool accepted() const { return verified.has_value(); }
+};
+
+/// Decides whether a path is a valid removal or transfer. The engine implements it for each query.
+class DISMANTLE_API PathChecker {
  public:
-  virtual ~Reached();
+  PathChecker();
+  virtual ~PathChecker();
+  PathChecker(const PathChecker&) = delete;
+  PathChecker& operator=(const PathChecker&) = delete;
+  /// May be called from several threads at the same time.
+  virtual PathCheck check(const Path& path) const = 0;
+  /// True when this checker, and no other, accepted `path`.
+  bool accepted(const VerifiedPath& path) const { return path.checker_ == id_; }
+
+ protected:
+  VerifiedPath accept(Path poses, double max_penetration, std::optional<PartId> released = {}) const;
+
+ private:
+  std::uint64_t id_;  ///< unique in the process
+};
+
+/// What an unsuccessful search has found out, for a later search that resumes from it. Opaque to all but the planner
+/// type that made it, which recognises it with dynamic_cast. Immutable; may be used from several threads.
+class DISMANTLE_API SearchState {
+ public:
+  virtual ~SearchState();
 };
 
 /// When a removal is complete.
@@ -57,46 +101,129 @@ struct Goal {
   bool operator==(const Goal&) const = default;
 };
 
+/// One question to a path planner. All references outlive the search.
 struct PathQuery {
   const Assembly& assembly;
   const Simulator& simulator;
   const Prepared& prepared;
   Cast cast;
-  Effort effort;
-  /// Judges a finished path. Never empty. Planners call it with every path that they would return, from any thread.
-  std::function<Verdict(const Path&)> judge;
-  /// Empty: the moving parts are to come apart from the still ones, as one group. Else as Attempt::leaving: each moves
-  /// in its own way, until one of these is apart from all other parts of the cast. World::separated does not tell that.
-  std::vector<PartId> leaving{};
-  /// Null, or what an earlier search in vain had reached: for the same moving parts from the same places and the same
-  /// `leaving`, where the still parts were those of now and perhaps others, by a planner of the same kind with the same
-  /// parameters. States that were reached then can be reached now: a planner may go on from there, or ignore it.
-  const Reached* reached = nullptr;
+  Budget budget;
+  /// Penetration above the initial overlap that the verifier tolerates (`verify.max_penetration`); assembly units, >=
+  /// 0. Planners keep a share of it in reserve, because simulators see contact at samples only.
+  double tolerance;
+  const PathChecker& checker;
+  Goal goal{};
+  /// Null, or the state of an earlier unsuccessful search: for the same moving parts at the same poses and the same
+  /// goal, where the fixed parts were those of now and perhaps others, by a planner of the same type with the same
+  /// parameters. What was reachable then is reachable now. A planner may ignore it.
+  const SearchState* resume_from = nullptr;
 };
 
-struct PathResult {
-  Outcome outcome = Outcome::crashed;
-  Path path;                             ///< the accepted path iff is_success(outcome); front() = start
-  unsigned depth = 0;                    ///< actions in the path
-  std::map<std::string, double> counts;  ///< documented names, e.g. nodes, steps, refused
-  std::vector<PartId> blocked_by;        ///< still parts that were touched, most often touched first
-  std::vector<Pose> best_pose;           ///< failed: the state that came furthest, one pose per moving part
-  std::string message;
-  std::shared_ptr<const Reached> reached{};  ///< failed: where a later search can go on; null if it has to begin anew
+/// Effort and size of a search. The fixed fields mean the same for all planners.
+struct DISMANTLE_API SearchStats {
+  std::uint64_t steps = 0;          ///< simulated time steps
+  std::uint64_t state_checks = 0;   ///< states that were tested without simulating
+  std::uint64_t nodes = 0;          ///< states kept in search trees, those taken over from an earlier search included
+  std::uint64_t refused = 0;        ///< paths that the checker refused
+  std::uint64_t resumed_nodes = 0;  ///< nodes taken over from PathQuery::resume_from
+  std::uint64_t spared = 0;         ///< steps and state checks saved by taking them over
+  /// Work of the search, to be compared with that of other searches: steps and state checks, or what a planner counts
+  /// in place of them where some cost far more than others. Does not depend on the machine.
+  double cost = 0;
+  std::map<std::string, double> extra{};  ///< what else a planner counts, for reports; no code depends on the names
+
+  SearchStats& operator+=(const SearchStats& other);  ///< adds up, extras by name
+  bool operator==(const SearchStats&) const = default;
+  /// All non-zero fields by name, `extra` included: for reports.
+  std::map<std::string, double> by_name() const;
 };
 
-/// Finds a removal motion. Stateless between calls: same parameters, query and seed give the same result.
-/// Never prints; polls context.should_stop() at least every hundred simulated steps.
+/// The answer of a path planner. Success cannot be claimed without a VerifiedPath, except for "nothing to do".
+class DISMANTLE_API PathResult {
+ public:
+  /// Nothing was found yet: Outcome::crashed until something else is said.
+  PathResult() = default;
+  /// As fail().
+  static PathResult failure(Outcome outcome, std::string message = {});
+
+  Outcome outcome() const { return outcome_; }
+  /// Set when solved. For start_is_goal the engine fills it.
+  const std::optional<VerifiedPath>& path() const { return path_; }
+
+  /// `depth`: number of actions in the path.
+  void solve(VerifiedPath path, unsigned depth);
+  /// There is nothing to do. `path`: both its instants are the start.
+  void start_is_goal(std::optional<VerifiedPath> path = {});
+  /// `outcome`: not a success. Keeps `message` where none is given.
+  /// @throws std::invalid_argument for `solved` and `start_is_goal`.
+  void fail(Outcome outcome, std::string message = {});
+
+  unsigned depth = 0;  ///< actions in the path
+  SearchStats stats{};
+  std::vector<PartId> blocked_by{};               ///< fixed parts that were touched, most often touched first
+  std::vector<Pose> best_pose{};                  ///< failed: the state that came furthest, one
+                                                  ///< pose per moving part
+  std::string message{};                          ///< failed: why, for the user
+  std::shared_ptr<const SearchState> state = {};  ///< failed: where a later search can resume; may be null
+
+ private:
+  Outcome outcome_ = Outcome::crashed;
+  std::optional<VerifiedPath> path_{};
+};
+
+/// What a path planner type needs and can do; constant for an object.
+struct PathPlannerTraits {
+  Capabilities needs{};              ///< without these of the simulator, searches end as `unsupported`
+  bool concurrent = false;           ///< start() may be called from several threads; one object serves them all
+  bool simultaneous_motion = false;  ///< answers queries with Goal::any_of; others are never given one
+  bool resumable = false;            ///< uses PathQuery::resume_from and fills PathResult::state
+};
+
+enum class SearchStatus {
+  solved,     ///< a path was found, or there is nothing to do
+  paused,     ///< the portion is used up; another run() goes on
+  exhausted,  ///< nothing is left to do within the query's budget; another run()
+              ///< does nothing
+  failed,     ///< cancelled, out of time, unsupported, or the start is not valid
+};
+
+/// The status that belongs to the end of a search.
+DISMANTLE_API SearchStatus status_of(Outcome outcome);
+
+/// A search that is run in portions. Used by one thread at a time.
+class DISMANTLE_API PathSearch {
+ public:
+  virtual ~PathSearch();
+  /// Goes on where the last call stopped. `portion.max_steps` and `portion.timeout` limit this call, 0 = no limit
+  /// beyond the query's budget, which holds for all calls together; the step that is in progress when the portion ends
+  /// is completed. `portion.max_depth` is not used: depth is limited by the query.
+  virtual SearchStatus run(const Budget& portion) = 0;
+  /// How the search ended, or would end if it were given up now.
+  virtual PathResult result() = 0;
+};
+
+/// Finds removal motions. Same parameters, query and seed give the same result. Never prints; polls
+/// context.should_stop() at least every hundred simulated steps.
 class DISMANTLE_API PathPlanner {
  public:
   virtual ~PathPlanner();
-  /// Capabilities without which plan() returns `unsupported`.
-  virtual Capabilities needs() const noexcept = 0;
-  /// True: plan() answers queries with PathQuery::leaving. Others are never given one.
-  virtual bool moves_each_its_way() const noexcept { return false; }
-  /// True: plan() may be called from several threads at the same time. Then one object serves all threads of a run, and
-  /// what it has computed for one search is there for all; else each thread has its own.
-  virtual bool is_concurrent() const noexcept { return false; }
+  virtual PathPlannerTraits traits() const noexcept = 0;
+  /// `query`, `context` and this planner outlive the search. Time limits count
+  /// from here.
+  virtual std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) = 0;
+};
+
+/// Runs a search until it is over.
+DISMANTLE_API PathResult run_to_end(PathSearch& search);
+/// Starts a search and runs it until it is over.
+DISMANTLE_API PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context);
+
+/// Base of planners that are one function. In portions: a call that ends with `timeout` only because of its portion is
+/// repeated from the beginning by the next run(), with its larger portion.
+class DISMANTLE_API FunctionPathPlanner : public PathPlanner {
+ public:
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) final;
+  /// Keeps to query.budget.
   virtual PathResult plan(const PathQuery& query, RunContext& context) = 0;
 };
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/assembly.h"
 #include "dismantle/export.h"
 #include "dismantle/pose.h"
-#include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
@@ -141,8 +141,9 @@ class DISMANTLE_API Simulator {
  public:
   virtual ~Simulator();
   virtual Capabilities capabilities() const noexcept = 0;
+  /// `tolerance`: penetration above the initial overlap that the verifier lets pass, assembly units.
   /// @throws InputError naming the part that cannot be used.
-  virtual std::shared_ptr<const Prepared> prepare(const Assembly& assembly, RunContext& context) = 0;
+  virtual std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) = 0;
   /// The assembly given to prepare() and `prepared` must outlive the world.
   virtual std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
                                        MotionSpace space) const = 0;

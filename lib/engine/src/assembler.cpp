@@ -200,22 +200,65 @@ void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const
   }
 }
 
+/// The answers of the verifier for one transfer.
+class Assembler::Checker final : public PathChecker {
+ public:
+  /// All outlive it. `context`: interrupts a check that is running.
+  Checker(const Assembler& assembler, const Cast& cast, const std::vector<Pose>& goal, const RunContext& context)
+      : assembler_(assembler), cast_(cast), goal_(goal), context_(context) {
+    for (const PlacedPart& p : cast_.moving) moving_.push_back(p.part);
+  }
+
+  PathCheck check(const Path& path) const override {
+    PathCheck answer;
+    NormalizedPath written = assembler_.normalizer_.normalize(path, cast_.moving);
+    answer.reason = written.problem;
+    if (!answer.reason.empty()) return answer;
+    for (std::size_t k = 0; k < goal_.size(); ++k) {
+      if (!near(written.path.back()[k], goal_[k])) {
+        answer.reason = "the path does not end at the goal";
+        return answer;
+      }
+      written.path.back()[k] = goal_[k];
+    }
+    const MotionCheck motion = assembler_.verifier_.check_motion(moving_, cast_.still, written.path, context_);
+    if (motion.valid) {
+      answer.verified = accept(std::move(written.path), motion.max_penetration);
+      return answer;
+    }
+    const Violation v = motion.violation.value_or(Violation{});
+    answer.has_witness = motion.violation.has_value();
+    answer.part = v.part;
+    answer.other = v.other;
+    answer.point = v.point;
+    answer.instant = written.given_instant(v.segment, v.u);
+    const auto& parts = assembler_.assembly_.parts;
+    answer.reason = fmt::format("'{}' and '{}' would meet", parts[v.part].name, parts[v.other].name);
+    return answer;
+  }
+
+ private:
+  const Assembler& assembler_;
+  const Cast& cast_;
+  const std::vector<Pose>& goal_;
+  const RunContext& context_;
+  std::vector<PartId> moving_;
+};
+
 Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
                                    const RunContext& context) const {
   const BookedStep& step = scenery.steps[i];
-  TransferQuery query{assembly_, *ingredients_.simulator, prepared_, {}, {}, options_.layout.up_axis(), {}, {}};
-  query.cast.still = scenery.others(i);
+  Cast cast{{}, scenery.others(i)};
+  std::vector<Pose> goal;
   for (const PartId id : step.parts) {
     const Pose& out = scenery.poses[i + 1][id];
     if (!step.leaves(id)) {  // there, and waits
-      query.cast.still.push_back({id, scenery.place[step.from] * out});
+      cast.still.push_back({id, scenery.place[step.from] * out});
       continue;
     }
-    query.cast.moving.push_back({id, scenery.place[i + 1] * out});
-    query.goal.push_back(scenery.place[step.from] * out);
+    cast.moving.push_back({id, scenery.place[i + 1] * out});
+    goal.push_back(scenery.place[step.from] * out);
   }
-  query.effort.max_steps = options_.path_steps;
-  query.effort.timeout = options_.path_timeout;
 
   std::vector<std::pair<LogLevel, std::string>> log;
   RunContext own = context;
@@ -224,58 +267,38 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   own.on_progress = nullptr;
   own.on_log = [&](LogLevel level, std::string_view text) { log.emplace_back(level, text); };
 
-  std::vector<PartId> moving;
-  for (const PlacedPart& p : query.cast.moving) moving.push_back(p.part);
-  Way accepted;
-  query.judge = [&](const Path& path) {
-    Verdict verdict;
-    NormalizedPath written = normalizer_.normalize(path, query.cast.moving);
-    verdict.reason = written.problem;
-    if (!verdict.reason.empty()) return verdict;
-    for (std::size_t k = 0; k < query.goal.size(); ++k) {
-      if (!near(written.path.back()[k], query.goal[k])) {
-        verdict.reason = "the path does not end at the goal";
-        return verdict;
-      }
-      written.path.back()[k] = query.goal[k];
-    }
-    const MotionCheck check = verifier_.check_motion(moving, query.cast.still, written.path, own);
-    if (!check.valid) {
-      const Violation v = check.violation.value_or(Violation{});
-      verdict.has_witness = check.violation.has_value();
-      verdict.part = v.part;
-      verdict.other = v.other;
-      verdict.point = v.point;
-      verdict.instant = written.given_instant(v.segment, v.u);
-      verdict.reason =
-          fmt::format("'{}' and '{}' would meet", assembly_.parts[v.part].name, assembly_.parts[v.other].name);
-      return verdict;
-    }
-    verdict.accepted = true;
-    accepted.path = std::move(written.path);
-    accepted.max_penetration = check.max_penetration;
-    return verdict;
-  };
-
+  const Checker checker(*this, cast, goal, own);
+  const TransferQuery query{assembly_,
+                            *ingredients_.simulator,
+                            prepared_,
+                            cast,
+                            goal,
+                            options_.layout.up_axis(),
+                            {.max_steps = options_.path_steps, .timeout = options_.path_timeout},
+                            verifier_.options().max_penetration,
+                            checker};
   if (options_.path_timeout > 0) own.deadline = own.deadline.earlier(Deadline::after_seconds(options_.path_timeout));
   const auto begin = Clock::now();
   PathResult result;
   try {
     result = planner.plan(query, own);
   } catch (const std::exception& e) {
-    result.outcome = Outcome::crashed;
-    result.message = e.what();
+    result.fail(Outcome::crashed, e.what());
   } catch (...) {
-    result.outcome = Outcome::crashed;
-    result.message = "it threw something that is not a std::exception";
+    result.fail(Outcome::crashed, "it threw something that is not a std::exception");
   }
-  accepted.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  accepted.depth = result.depth;
-  accepted.log = log;
-  if (is_success(result.outcome) && !accepted.path.empty()) return accepted;
+  if (result.path() && checker.accepted(*result.path())) {
+    Way way;
+    way.path = result.path()->poses();
+    way.max_penetration = result.path()->max_penetration();
+    way.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    way.depth = result.depth;
+    way.log = std::move(log);
+    return way;
+  }
   Way none;
   none.log = std::move(log);
-  none.problem = std::string(to_string(is_success(result.outcome) ? Outcome::crashed : result.outcome));
+  none.problem = std::string(to_string(is_success(result.outcome()) ? Outcome::crashed : result.outcome()));
   if (!result.message.empty()) none.problem += ", " + result.message;
   return none;
 }

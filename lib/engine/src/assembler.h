@@ -36,6 +36,7 @@ class Assembler {
  private:
   struct Scenery;
   struct Way;
+  class Checker;
   void place_groups(Scenery& scenery, const RunContext& context) const;
   void clear_ways_in(Scenery& scenery, const RunContext& context) const;
   std::vector<Way> transfers(const Scenery& scenery, std::size_t first, std::size_t last, const RunContext& context);

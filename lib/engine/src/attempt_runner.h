@@ -1,12 +1,12 @@
-/// One attempt, from question to judged answer. The only place where a path planner is called.
+/// One attempt, from question to verified answer. The only place where a path planner is called.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "dismantle/path_oracle.h"
-#include "dismantle/engine/run.h"
 #include "attempt_key.h"
+#include "dismantle/engine/run.h"
+#include "dismantle/path_oracle.h"
 #include "path_normalizer.h"
 
 namespace dismantle {
@@ -24,22 +24,22 @@ class AttemptRunner {
                 const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
-  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. Throws nothing: what
-  /// a plugin throws becomes Outcome::crashed.
-  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                      const AttemptResult* resumed, const RunContext& context) const;
+  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. Throws nothing:
+  /// what a plugin throws becomes Outcome::crashed.
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const AttemptResult* resumed,
+                      const RunContext& context) const;
 
-  /// Judges a way in place of a search. `attempt` and the columns of `way` in the same order.
-  ComputedAttempt judge_way(const Attempt& attempt, const Path& way, const RunContext& context) const;
+  /// Verifies a way in place of a search. `attempt` and the columns of `way` in the same order.
+  ComputedAttempt check_proposal(const Attempt& attempt, const Path& way, const RunContext& context) const;
 
   const std::string& planner_id() const { return planner_id_; }
 
  private:
-  struct Judgement;
-  PathResult plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed, const RunContext& context,
-                  const RunContext& run, Judgement& last) const;
+  class Checker;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed, RunContext& context,
+                  const Checker& checker) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
-  Judgement judge(const Attempt& attempt, const Path& path, const RunContext& context) const;
+  void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 
   const Assembly& assembly_;

@@ -53,7 +53,7 @@ std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
   }
   std::shared_ptr<PathPlanner> planner = make_planner_();
   if (!planner) throw std::runtime_error("nothing was made");
-  if (planner->is_concurrent()) concurrent_planner_ = planner;
+  if (planner->traits().concurrent) concurrent_planner_ = planner;
   return planner;
 }
 
@@ -79,13 +79,13 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, cons
     proof_seconds += seconds_since(begin);
     if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
       PathResult& result = computed.answer.result;
-      result.outcome = Outcome::infeasible;
-      result.message = found->text;
+      result.fail(Outcome::infeasible, found->text);
       result.blocked_by = infeasible_by(*found, attempt).blocked_by;
-      result.reached = nullptr;
+      result.state = nullptr;
     }
     // A proof that was cut short leaves open what a longer one says.
-    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome))
+    if (computed.answer.certificate == nullptr && context.should_stop() &&
+        !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
   }
   computed.answer.proof_seconds = proof_seconds;
@@ -115,8 +115,7 @@ LoggedAttempt Oracle::compute(const Question& question, RunContext context) {
     return result;
   }
   PathResult& crashed = result.computed.answer.result;
-  crashed.outcome = Outcome::crashed;
-  crashed.message = fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem);
+  crashed.fail(Outcome::crashed, fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem));
   context.log(LogLevel::error, crashed.message);
   return result;
 }
@@ -128,7 +127,7 @@ const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   const auto known = finals_.find(key.cast);
   if (known == finals_.end()) return nullptr;
   const auto& [depth, answer] = known->second;
-  if (!holds_for_all(answer->result.outcome) && !is_deeper(key.max_depth, depth)) return nullptr;
+  if (!holds_for_all(answer->result.outcome()) && !is_deeper(key.max_depth, depth)) return nullptr;
   return answer;
 }
 
@@ -152,7 +151,7 @@ Oracle::Question Oracle::question_of(const Attempt& attempt) const {
   const AttemptKey& key = keys_.at(last);
   if (key.cast == question.key.cast && key.max_depth == question.key.max_depth) {
     question.key = key;
-  } else if (last->result.reached) {
+  } else if (last->result.state) {
     question.resumed = last;
     question.key.after = digest_of(key);
   }
@@ -169,23 +168,23 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
   if (context.should_stop()) {
     AttemptResult stopped;
     stopped.attempt = std::move(question.attempt);
-    stopped.result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
-    stopped.result.message = "not begun: the run was told to stop";
+    stopped.result.fail(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout,
+                        "not begun: the run was told to stop");
     return keep(std::move(stopped));
   }
   const auto compute_it = [&](const RunContext& c) { return compute(question, c); };
   LoggedAttempt logged = computed_ahead_.get(question.key, compute_it, context);
   for (const auto& line : logged.log) context.log(line.level, line.text);
   ComputedAttempt& computed = logged.computed;
-  if (!attempt.resume) computed.answer.result.reached = nullptr;
+  if (!attempt.resume) computed.answer.result.state = nullptr;
   computed.answer.attempt = std::move(question.attempt);
   const AttemptResult& result = keep(std::move(computed.answer));
-  for (const auto& [name, count] : result.result.counts) planner_counts_[name] += count;
+  for (const auto& [name, count] : result.result.stats.by_name()) planner_counts_[name] += count;
   if (computed.interrupted) return result;  // says nothing about the question: not remembered
   ++planned_;
   answers_.emplace(question.key, &result);
   keys_.emplace(&result, question.key);
-  const Outcome outcome = result.result.outcome;
+  const Outcome outcome = result.result.outcome();
   if (holds_for_all(outcome) || holds_for_deeper(outcome))
     finals_.try_emplace(question.key.cast, Final{question.key.max_depth, &result});
   if (attempt.resume && !is_success(outcome)) unsuccessful_[digest_of_moving(result.attempt)].push_back(&result);
@@ -214,17 +213,17 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& path, R
     throw std::invalid_argument("a proposed path whose parts are not in ascending order");
   const std::lock_guard lock(ask_mutex_);
   ComputedAttempt computed;
-  if (const Certificate* lock = attempt.goal.placement ? nullptr : proofs_.locked(attempt)) {
-    computed.answer.certificate = lock;
-    computed.answer.result = infeasible_by(*lock, attempt);
+  if (const Certificate* proof = attempt.goal.placement ? nullptr : proofs_.locked(attempt)) {
+    computed.answer.certificate = proof;
+    computed.answer.result = infeasible_by(*proof, attempt);
   } else {
-    computed = runner_.judge_way(attempt, path, context);
+    computed = runner_.check_proposal(attempt, path, context);
   }
   computed.answer.attempt = std::move(question);
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;
-  if (is_success(result.result.outcome))
+  if (is_success(result.result.outcome()))
     keys_.emplace(&result, AttemptKey{digest_of(result.attempt), 0, {}});
   else
     ++refused_;

@@ -46,7 +46,8 @@ class Oracle final : public PathOracle {
   const AttemptKey* key_of(const AttemptResult* result) const;
   /// As ProofSchedule::seconds.
   double proof_seconds() const { return proofs_.seconds(); }
-  /// PathResult::counts summed over the answers that were asked for, in the order of asking; interrupted ones included.
+  /// PathResult::stats by name, summed over the answers that were asked for, in the order of asking; interrupted ones
+  /// included.
   const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
 
  private:

@@ -20,7 +20,7 @@ constexpr unsigned kDepthForHigh = 4;  // likewise of high effort
 constexpr double kLastShare = 0.5;     // of the tolerance: with half of it more is proved than with all of it
 constexpr double kWhole = 1 - 1e-9;
 
-bool holds(const std::vector<PlacedPart>& group, PartId part) {
+bool contains(const std::vector<PlacedPart>& group, PartId part) {
   return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
 }
 
@@ -31,11 +31,9 @@ bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome
 }  // namespace
 
 PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt) {
-  PathResult result;
-  result.outcome = Outcome::infeasible;
-  result.message = certificate.text;
+  PathResult result = PathResult::failure(Outcome::infeasible, certificate.text);
   for (const PartId id : certificate.parts)
-    if (holds(attempt.still, id)) result.blocked_by.push_back(id);
+    if (contains(attempt.still, id)) result.blocked_by.push_back(id);
   return result;
 }
 
@@ -136,7 +134,7 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
   if (!attempt.goal.any_of.empty()) {
     const Certificate* found = nullptr;
     for (const PartId id : attempt.goal.any_of) {
-      const auto here = [&](PartId other) { return holds(attempt.moving, other) || holds(attempt.still, other); };
+      const auto here = [&](PartId other) { return contains(attempt.moving, other) || contains(attempt.still, other); };
       const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
         return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
       });
@@ -146,8 +144,8 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
     return found;
   }
   const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
-    return (holds(attempt.moving, c->parts[0]) && holds(attempt.still, c->parts[1])) ||
-           (holds(attempt.moving, c->parts[1]) && holds(attempt.still, c->parts[0]));
+    return (contains(attempt.moving, c->parts[0]) && contains(attempt.still, c->parts[1])) ||
+           (contains(attempt.moving, c->parts[1]) && contains(attempt.still, c->parts[0]));
   });
   return lock == locks_.end() ? nullptr : *lock;
 }
@@ -162,10 +160,10 @@ const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContex
 }
 
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
-  if (provers_.empty() || !found_nothing(result.outcome) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
+  if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
       attempt.moving.size() != 1 || attempt.still.empty() || !as_deep(attempt, kDepthForHigh))
     return nullptr;
-  const bool last = attempt.max_depth == 0 || result.outcome == Outcome::exhausted;  // more depth would not help
+  const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
   std::optional<PartId> holder;
   if (attempt.still.size() == 1)
     holder = attempt.still.front().part;

@@ -52,10 +52,11 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
 }
 
 /// Nothing when the run was stopped meanwhile.
-std::shared_ptr<const Prepared> prepare(Simulator& simulator, const Assembly& assembly, RunContext& context) {
+std::shared_ptr<const Prepared> prepare(Simulator& simulator, const Assembly& assembly, double tolerance,
+                                        RunContext& context) {
   std::shared_ptr<const Prepared> prepared;
   try {
-    prepared = simulator.prepare(assembly, context);
+    prepared = simulator.prepare(assembly, tolerance, context);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
@@ -132,7 +133,7 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
   }
   context.progress("sequence", 0, 1, assembly.parts[part].name);
   const AttemptResult& answer = oracle.attempt(attempt, context);
-  result.outcome = answer.result.outcome;
+  result.outcome = answer.result.outcome();
   if (is_success(result.outcome)) {
     result.removals.push_back({{part}, &answer});
     booking.removed(result.removals.back(), assembly.parts.size() - 1);
@@ -188,7 +189,8 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
 
   RunResult result;
   Clock::time_point begin = Clock::now();
-  const std::shared_ptr<const Prepared> prepared = prepare(*ingredients.simulator, assembly, own);
+  const std::shared_ptr<const Prepared> prepared =
+      prepare(*ingredients.simulator, assembly, options.verify.max_penetration, own);
   result.prepare_seconds = seconds_since(begin);
 
   begin = Clock::now();

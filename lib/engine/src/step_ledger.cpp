@@ -66,8 +66,9 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const std::string& name = assembly_.parts[removal.parts[i]].name;
     PlanMove move{name, {}};
-    move.poses.reserve(result.path.size());
-    for (const auto& instant : result.path) move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
+    move.poses.reserve(result.path()->poses().size());
+    for (const auto& instant : result.path()->poses())
+      move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
     step.moves.push_back(std::move(move));
     if (separates && (!alone || *alone == removal.parts[i])) step.separates.back().push_back(name);
   }
@@ -81,7 +82,7 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
 
 void StepLedger::book(const Removal& removal) {
   const AttemptKey* key = oracle_.key_of(removal.attempt);
-  if (key == nullptr || !is_success(removal.attempt->result.outcome))
+  if (key == nullptr || !is_success(removal.attempt->result.outcome()))
     throw std::logic_error("a removal that is not a successful answer of the oracle");
   const Goal& goal = removal.attempt->attempt.goal;
   std::vector<PartId>& group = group_of(removal.parts);
@@ -104,7 +105,7 @@ void StepLedger::book(const Removal& removal) {
 
   const auto from = static_cast<std::size_t>(&group - groups_.data());
   PlanStep step = to_step(removal);
-  Path path = removal.attempt->result.path;
+  Path path = removal.attempt->result.path()->poses();
   for (std::size_t i = 0; i < removal.parts.size(); ++i) poses_[removal.parts[i]] = path.back()[i];
   if (goes_on(removal, from)) take_back_last(step, path);
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));

@@ -22,24 +22,24 @@ Attempt without(Attempt attempt, PartId out) {
   return attempt;
 }
 
-double length(const AttemptResult& answer) { return answer.result.counts.at("length"); }
+double length(const AttemptResult& answer) { return answer.result.stats.extra.at("length"); }
 
 /// How many searches it took to come there, and a number drawn by each.
-struct Chain final : Reached {
+struct Chain final : SearchState {
   int length = 0;
   double drawn = 0;
 };
 
 /// Never finds anything, and keeps what it had.
 PathResult in_vain(const PathQuery& query, RunContext& context) {
-  const auto* before = dynamic_cast<const Chain*>(query.reached);
+  const auto* before = dynamic_cast<const Chain*>(query.resume_from);
   auto chain = std::make_shared<Chain>();
   chain->length = 1 + (before != nullptr ? before->length : 0);
   chain->drawn = context.rng.uniform() + (before != nullptr ? 10 * before->drawn : 0);
   PathResult r = fake::outcome(Outcome::depth_limit);
-  r.counts["length"] = chain->length;
-  r.counts["drawn"] = chain->drawn;
-  r.reached = chain;
+  r.stats.extra["length"] = chain->length;
+  r.stats.extra["drawn"] = chain->drawn;
+  r.state = chain;
   return r;
 }
 
@@ -67,7 +67,7 @@ TEST(OracleResume, TheSameAttemptAgainHasTheSameAnswer) {
 TEST(OracleResume, AttemptsThatDoNotAskForItBeginAnewAndLeaveNothing) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
   const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
-  EXPECT_EQ(first.result.reached, nullptr);
+  EXPECT_EQ(first.result.state, nullptr);
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 2))), 1);
   EXPECT_EQ(length(s.ask(fake::leave(s.assembly, 0, 3))), 1);
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 4))), 2);
@@ -75,7 +75,7 @@ TEST(OracleResume, AttemptsThatDoNotAskForItBeginAnewAndLeaveNothing) {
 
 TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
   const auto keeps_nothing = [](const PathQuery& query, RunContext&) {
-    EXPECT_EQ(query.reached, nullptr);
+    EXPECT_EQ(query.resume_from, nullptr);
     return fake::outcome(Outcome::depth_limit);
   };
   Rig s(fake::row(4), fake::ingredients(keeps_nothing));
@@ -108,14 +108,14 @@ TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
 TEST(OracleResume, SuccessLeavesNothingToResume) {
   const auto finds = [](const PathQuery& query, RunContext& context) {
     PathResult r = fake::push(query, context);
-    r.reached = std::make_shared<Chain>();
-    EXPECT_EQ(query.reached, nullptr);
+    r.state = std::make_shared<Chain>();
+    EXPECT_EQ(query.resume_from, nullptr);
     return r;
   };
   Rig s(fake::row(3), fake::ingredients(finds));
   const AttemptResult& out = s.ask(resuming(s.assembly, 0, 1));
-  ASSERT_EQ(out.result.outcome, Outcome::solved);
-  EXPECT_EQ(out.result.reached, nullptr);
+  ASSERT_EQ(out.result.outcome(), Outcome::solved);
+  EXPECT_EQ(out.result.state, nullptr);
   s.ask(resuming(s.assembly, 0, 2));
 }
 
@@ -138,10 +138,10 @@ TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
       for (PartId k = 0; k < 5; ++k) {
         const PartId part = backwards ? 4 - k : k;
         last[part] = &s.ask(question(part, depth));
-        drawn[part] = last[part]->result.counts.at("drawn");
+        drawn[part] = last[part]->result.stats.extra.at("drawn");
       }
     }
-    for (const AttemptResult* answer : last) EXPECT_EQ(answer->result.counts.at("length"), 4);
+    for (const AttemptResult* answer : last) EXPECT_EQ(answer->result.stats.extra.at("length"), 4);
     return drawn;
   };
   const std::vector<double> expected = chains(1, false, false);

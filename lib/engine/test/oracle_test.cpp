@@ -28,8 +28,8 @@ double largest_way(const Mesh& mesh, const Pose& a, const Pose& b) {
 TEST(Oracle, PathIsDenseExactAtTheStartAndEndsWhereThePlannerSaid) {
   Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
   const AttemptResult& r = s.ask(leave(s.assembly, 2));
-  ASSERT_EQ(r.result.outcome, Outcome::solved);
-  const Path& path = r.result.path;
+  ASSERT_EQ(r.result.outcome(), Outcome::solved);
+  const Path& path = r.result.path()->poses();
   ASSERT_GE(path.size(), 2u);
   EXPECT_TRUE(path.front()[0].is_identity());
   EXPECT_NEAR((path.back()[0].t - Eigen::Vector3d(0, 0, 30)).norm(), 0, 1e-9);
@@ -41,60 +41,65 @@ TEST(Oracle, PathIsDenseExactAtTheStartAndEndsWhereThePlannerSaid) {
 
 TEST(Oracle, LeavesOutInstantsThatSayNothingNew) {
   const auto crawl = [](const PathQuery& q, RunContext&) {  // straight up in 50 000 steps
-    PathResult r = outcome(Outcome::solved);
-    for (int k = 0; k <= 50000; ++k) r.path.push_back(fake::straight(q.cast, {0, 0, k * 2e-4})[1]);
-    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
-    return r;
+    Path path;
+    for (int k = 0; k <= 50000; ++k) path.push_back(fake::straight(q.cast, {0, 0, k * 2e-4})[1]);
+    return fake::shown(q, path);
   };
   Rig s(fake::tube_with_blocks(1), fake::ingredients(crawl));
   const AttemptResult& r = s.ask(leave(s.assembly, 1));
-  ASSERT_EQ(r.result.outcome, Outcome::solved);
-  EXPECT_LT(r.result.path.size(), 300u);  // 10 units at 0.04 a piece
-  EXPECT_NEAR(r.result.path.back()[0].t.z(), 10, 1e-9);
+  ASSERT_EQ(r.result.outcome(), Outcome::solved);
+  EXPECT_LT(r.result.path()->poses().size(), 300u);  // 10 units at 0.04 a piece
+  EXPECT_NEAR(r.result.path()->poses().back()[0].t.z(), 10, 1e-9);
 }
 
 TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
   for (const bool asks_first : {false, true}) {
     const auto liar = [asks_first](const PathQuery& q, RunContext&) {
-      PathResult r = outcome(Outcome::solved);
-      r.path = fake::straight(q.cast, {30, 0, 0});
+      const Path path = fake::straight(q.cast, {30, 0, 0});
       if (asks_first) {
-        EXPECT_FALSE(q.judge(r.path).accepted);
+        EXPECT_FALSE(q.checker.check(path).accepted());
       }
-      return r;
+      return fake::forged(path);
     };
     Rig s(fake::tube_with_blocks(1), fake::ingredients(liar));
     const AttemptResult& r = s.ask(leave(s.assembly, 1));
-    EXPECT_EQ(r.result.outcome, Outcome::crashed);
-    EXPECT_TRUE(r.result.path.empty());
+    EXPECT_EQ(r.result.outcome(), Outcome::crashed);
+    EXPECT_FALSE(r.result.path());
     EXPECT_NE(r.result.message.find("'scripted'"), std::string::npos) << r.result.message;
     ASSERT_EQ(s.errors.size(), 1u);
     EXPECT_EQ(s.errors[0], r.result.message);
   }
 }
 
-TEST(Oracle, AcceptingOnePathDoesNotAcceptAnother) {
-  const auto swaps = [](const PathQuery& q, RunContext&) {
-    EXPECT_TRUE(q.judge(fake::straight(q.cast, {0, 0, 30})).accepted);
-    PathResult r = outcome(Outcome::solved);
-    r.path = fake::straight(q.cast, {30, 0, 0});
+/// A path that was accepted for one attempt is no answer to another.
+TEST(Oracle, APathThatWasVerifiedForAnotherAttemptIsRefused) {
+  std::optional<VerifiedPath> kept;
+  const auto keeps = [&kept](const PathQuery& q, RunContext&) {
+    PathResult r = kept ? PathResult{} : fake::shown(q, fake::straight(q.cast, {0, 0, 30}));
+    if (kept)
+      r.solve(*kept, 1);
+    else
+      kept = r.path();
     return r;
   };
-  Rig s(fake::tube_with_blocks(1), fake::ingredients(swaps));
-  EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed);
+  Rig s(fake::tube_with_blocks(1), fake::ingredients(keeps));
+  Attempt question = leave(s.assembly, 1);
+  EXPECT_EQ(s.ask(question).result.outcome(), Outcome::solved);
+  question.moving[0].pose.t.z() = 0.01;
+  EXPECT_EQ(s.ask(question).result.outcome(), Outcome::crashed);
 }
 
 TEST(Oracle, TheJudgeSaysWhere) {
-  Verdict said;
+  PathCheck said;
   const auto once = [&said](const PathQuery& q, RunContext&) {
     Path path = fake::straight(q.cast, {0, 0, -0.05});
     path.push_back(fake::straight(q.cast, {0, 0, -30})[1]);
-    said = q.judge(path);
+    said = q.checker.check(path);
     return outcome(Outcome::exhausted);
   };
   Rig s(fake::tube_with_blocks(1), fake::ingredients(once));
   s.ask(leave(s.assembly, 1));
-  EXPECT_FALSE(said.accepted);
+  EXPECT_FALSE(said.accepted());
   ASSERT_TRUE(said.has_witness);
   EXPECT_EQ(said.part + said.other, 1u);
   EXPECT_EQ(said.instant, 1u);
@@ -111,11 +116,10 @@ TEST(Oracle, RefusesPathsThatAreNoPaths) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](std::function<void(Path&)> spoil) {
     return [spoil](const PathQuery& q, RunContext&) {
-      PathResult r = outcome(Outcome::solved);
-      r.path = fake::straight(q.cast, {0, 0, 30});
-      spoil(r.path);
-      EXPECT_FALSE(q.judge(r.path).accepted);
-      return r;
+      Path path = fake::straight(q.cast, {0, 0, 30});
+      spoil(path);
+      EXPECT_FALSE(q.checker.check(path).accepted());
+      return fake::forged(path);
     };
   };
   const std::vector<std::function<void(Path&)>> spoilt{
@@ -130,7 +134,7 @@ TEST(Oracle, RefusesPathsThatAreNoPaths) {
   };
   for (std::size_t i = 0; i < spoilt.size(); ++i) {
     Rig s(fake::tube_with_blocks(1), fake::ingredients(with(spoilt[i])));
-    EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed) << "case " << i;
+    EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome(), Outcome::crashed) << "case " << i;
   }
 }
 
@@ -138,10 +142,10 @@ TEST(Oracle, StartIsGoalHasToBeTrue) {
   const auto lazy = [](const PathQuery&, RunContext&) { return outcome(Outcome::start_is_goal); };
   Rig apart(fake::row(2), fake::ingredients(lazy));
   const AttemptResult& yes = apart.ask(leave(apart.assembly, 0));
-  EXPECT_EQ(yes.result.outcome, Outcome::start_is_goal);
-  EXPECT_EQ(yes.result.path.size(), 2u);
+  EXPECT_EQ(yes.result.outcome(), Outcome::start_is_goal);
+  EXPECT_EQ(yes.result.path()->poses().size(), 2u);
   Rig inside(fake::tube_with_blocks(1), fake::ingredients(lazy));
-  EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome, Outcome::crashed);
+  EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome(), Outcome::crashed);
 }
 
 TEST(Oracle, WhatIsShutInIsNotSearchedFor) {
@@ -153,14 +157,14 @@ TEST(Oracle, WhatIsShutInIsNotSearchedFor) {
   Rig s(fake::closed_box(), fake::ingredients(planner));
   for (const PartId part : {PartId{0}, PartId{1}}) {
     const AttemptResult& r = s.ask(leave(s.assembly, part));
-    EXPECT_EQ(r.result.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
     EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1 - part});
     EXPECT_NE(r.result.message.find("shut in"), std::string::npos) << r.result.message;
   }
   EXPECT_FALSE(asked);
   Attempt shallow = leave(s.assembly, 1);
   shallow.max_depth = 1;
-  EXPECT_EQ(s.ask(shallow).result.outcome, Outcome::depth_limit) << "a short search is cheaper than a proof";
+  EXPECT_EQ(s.ask(shallow).result.outcome(), Outcome::depth_limit) << "a short search is cheaper than a proof";
   EXPECT_TRUE(asked);
 }
 
@@ -171,22 +175,22 @@ TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   };
   Rig s(fake::row(2), fake::ingredients(throws));
   const AttemptResult& known = s.ask(leave(s.assembly, 0));
-  EXPECT_EQ(known.result.outcome, Outcome::crashed);
+  EXPECT_EQ(known.result.outcome(), Outcome::crashed);
   EXPECT_NE(known.result.message.find("index out of range"), std::string::npos);
-  EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome, Outcome::crashed);
+  EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome(), Outcome::crashed);
   EXPECT_EQ(s.errors.size(), 2u);
 
   Ingredients broken = fake::ingredients(fake::push);
   broken.path_planner = []() -> std::shared_ptr<PathPlanner> { throw std::runtime_error("no licence"); };
   Rig t(fake::row(2), broken);
-  EXPECT_EQ(t.ask(leave(t.assembly, 0)).result.outcome, Outcome::crashed);
+  EXPECT_EQ(t.ask(leave(t.assembly, 0)).result.outcome(), Outcome::crashed);
   EXPECT_NE(t.ask(leave(t.assembly, 0)).result.message.find("no licence"), std::string::npos);
 }
 
 TEST(Oracle, StoppingUnaskedIsABug) {
   const auto quits = [](const PathQuery&, RunContext&) { return outcome(Outcome::cancelled); };
   Rig s(fake::row(2), fake::ingredients(quits));
-  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::crashed);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::crashed);
 }
 
 TEST(Oracle, SaysWhatTheSimulatorLacks) {
@@ -196,13 +200,13 @@ TEST(Oracle, SaysWhatTheSimulatorLacks) {
   parts.simulator = simulator;
   Rig s(fake::row(3), parts);
   const AttemptResult& r = s.ask(leave(s.assembly, 0));
-  EXPECT_EQ(r.result.outcome, Outcome::unsupported);
+  EXPECT_EQ(r.result.outcome(), Outcome::unsupported);
   EXPECT_NE(r.result.message.find("dynamics"), std::string::npos);
   simulator->has.dynamics = true;
   Attempt two;
   two.moving = {{0, Pose{}}, {1, Pose{}}};
   two.still = {{2, Pose{}}};
-  EXPECT_EQ(s.ask(two).result.outcome, Outcome::unsupported);
+  EXPECT_EQ(s.ask(two).result.outcome(), Outcome::unsupported);
 }
 
 TEST(Oracle, QuestionsWithoutSenseAreErrorsOfTheCaller) {
@@ -222,7 +226,7 @@ TEST(Oracle, QuestionsWithoutSenseAreErrorsOfTheCaller) {
 
 TEST(Oracle, NobodyLeftIsApartFromNobody) {
   Rig s(fake::row(1), fake::ingredients(fake::push));
-  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::start_is_goal);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::start_is_goal);
 }
 
 TEST(Oracle, NonsenseAboutBlockersIsDropped) {
@@ -240,13 +244,9 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
 
 /// Two blocks in a tube go up, each by its own way: the first by 0.1.
 PathResult each_up(const PathQuery& q, double second) {
-  PathResult r;
-  r.path = fake::straight(q.cast, {0, 0, 0.1});
-  r.path[1][1].t.z() = second;
-  const Verdict verdict = q.judge(r.path);
-  r.outcome = verdict.accepted ? Outcome::solved : Outcome::exhausted;
-  r.message = verdict.reason;
-  return r;
+  Path path = fake::straight(q.cast, {0, 0, 0.1});
+  path[1][1].t.z() = second;
+  return fake::shown(q, path);
 }
 
 TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
@@ -254,7 +254,7 @@ TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   double second = 30;
   Rig s(fake::tube_with_blocks(2), fake::ingredients([&](const PathQuery& q, RunContext&) {
           ++asked;
-          EXPECT_FALSE(q.leaving.empty());
+          EXPECT_FALSE(q.goal.any_of.empty());
           return each_up(q, second);
         }));
   Attempt both;
@@ -262,7 +262,7 @@ TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   both.still = {{0, Pose{}}};
   both.goal.any_of = {2, 1};
   const AttemptResult& r = s.ask(both);
-  EXPECT_EQ(r.result.outcome, Outcome::solved) << r.result.message;
+  EXPECT_EQ(r.result.outcome(), Outcome::solved) << r.result.message;
   EXPECT_EQ(r.out, PartId{2}) << "1 is in the tube still";
   both.goal.any_of = {2};
   EXPECT_EQ(s.ask(both).out, PartId{2});
@@ -270,13 +270,13 @@ TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   both.goal.any_of = {2, 2};
   EXPECT_EQ(s.ask(both).out, PartId{2});
   both.goal.any_of = {1};
-  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "2 is out, but it is 1 that was to leave";
+  EXPECT_EQ(s.ask(both).result.outcome(), Outcome::exhausted) << "2 is out, but it is 1 that was to leave";
   EXPECT_FALSE(s.ask(both).out);
   EXPECT_EQ(asked, 3u);
   second = 0.2;
   both.goal.any_of = {1, 2};
   both.max_depth = 2;
-  EXPECT_EQ(s.ask(both).result.outcome, Outcome::exhausted) << "nobody is out";
+  EXPECT_EQ(s.ask(both).result.outcome(), Outcome::exhausted) << "nobody is out";
   EXPECT_EQ(asked, 4u);
 
   both.goal.any_of = {0};
@@ -287,9 +287,9 @@ TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
 }
 
 TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
-  class Groups final : public PathPlanner {
+  class Groups final : public FunctionPathPlanner {
    public:
-    Capabilities needs() const noexcept override { return {}; }
+    PathPlannerTraits traits() const noexcept override { return {}; }
     PathResult plan(const PathQuery&, RunContext&) override { throw std::logic_error("not to be asked"); }
   };
   fake::Script none;
@@ -301,8 +301,8 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
   both.still = {{2, Pose{}}};
   both.goal.any_of = {0};
   const AttemptResult& r = s.ask(both);
-  EXPECT_EQ(r.result.outcome, Outcome::unsupported);
-  EXPECT_NE(r.result.message.find("each in its own way"), std::string::npos);
+  EXPECT_EQ(r.result.outcome(), Outcome::unsupported);
+  EXPECT_NE(r.result.message.find("independently at the same time"), std::string::npos);
 }
 
 TEST(Oracle, JudgesWaysThatItIsShown) {
@@ -312,16 +312,16 @@ TEST(Oracle, JudgesWaysThatItIsShown) {
   };
   const Attempt top = leave(s.assembly, 2), low = leave(s.assembly, 1);
   const AttemptResult& out = s.oracle->propose(top, up(top, 3), s.context);
-  EXPECT_EQ(out.result.outcome, Outcome::solved);
-  EXPECT_EQ(out.result.path.back()[0].t, Eigen::Vector3d(0, 0, 3));
+  EXPECT_EQ(out.result.outcome(), Outcome::solved);
+  EXPECT_EQ(out.result.path()->poses().back()[0].t, Eigen::Vector3d(0, 0, 3));
   const AttemptResult& blocked = s.oracle->propose(low, up(low, 3), s.context);
-  EXPECT_EQ(blocked.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(blocked.result.outcome(), Outcome::exhausted);
   EXPECT_EQ(blocked.result.blocked_by, std::vector<PartId>{2});
   EXPECT_FALSE(blocked.result.message.empty());
   Attempt part_way = top;
-  EXPECT_EQ(s.oracle->propose(top, up(top, 0.5), s.context).result.outcome, Outcome::exhausted) << "not out";
+  EXPECT_EQ(s.oracle->propose(top, up(top, 0.5), s.context).result.outcome(), Outcome::exhausted) << "not out";
   part_way.goal.placement = true;
-  EXPECT_EQ(s.oracle->propose(part_way, up(top, 0.5), s.context).result.outcome, Outcome::solved);
+  EXPECT_EQ(s.oracle->propose(part_way, up(top, 0.5), s.context).result.outcome(), Outcome::solved);
   Path elsewhere = up(top, 3);
   elsewhere[0][0].t.x() += 0.1;
   EXPECT_THROW(s.oracle->propose(top, elsewhere, s.context), std::invalid_argument);

@@ -42,11 +42,9 @@ TEST(Oracle, TheSameQuestionIsPlannedOnce) {
 
 TEST(Oracle, ColumnsFollowTheOrderAsked) {
   const auto fan = [](const PathQuery& q, RunContext&) {  // each part by its own way
-    PathResult r = outcome(Outcome::solved);
-    r.path = fake::straight(q.cast, {0, 0, 0});
-    for (std::size_t i = 0; i < q.cast.moving.size(); ++i) r.path[1][i].t.z() = 10 + 10.0 * q.cast.moving[i].part;
-    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
-    return r;
+    Path path = fake::straight(q.cast, {0, 0, 0});
+    for (std::size_t i = 0; i < q.cast.moving.size(); ++i) path[1][i].t.z() = 10 + 10.0 * q.cast.moving[i].part;
+    return fake::shown(q, path);
   };
   Rig s(fake::row(3), fake::ingredients(fan));
   Attempt a;
@@ -56,9 +54,9 @@ TEST(Oracle, ColumnsFollowTheOrderAsked) {
   std::swap(b.moving[0], b.moving[1]);
   const AttemptResult& ra = s.ask(a);
   const AttemptResult& rb = s.ask(b);
-  ASSERT_EQ(ra.result.outcome, Outcome::solved);
-  EXPECT_EQ(ra.result.path.back()[0].t.z(), 10);
-  EXPECT_EQ(rb.result.path.back()[0].t.z(), 20);
+  ASSERT_EQ(ra.result.outcome(), Outcome::solved);
+  EXPECT_EQ(ra.result.path()->poses().back()[0].t.z(), 10);
+  EXPECT_EQ(rb.result.path()->poses().back()[0].t.z(), 20);
   EXPECT_EQ(s.oracle->counts().attempts, 1u);
   EXPECT_EQ(&s.ask(b), &rb);
 }
@@ -77,7 +75,7 @@ TEST(Oracle, WhatMoreDepthCannotChangeIsRemembered) {
     };
     Rig s(fake::row(2), fake::ingredients(fails));
     s.ask(leave(s.assembly, 0, 3));
-    for (const unsigned depth : {4u, 5u, 0u}) EXPECT_EQ(s.ask(leave(s.assembly, 0, depth)).result.outcome, said);
+    for (const unsigned depth : {4u, 5u, 0u}) EXPECT_EQ(s.ask(leave(s.assembly, 0, depth)).result.outcome(), said);
     EXPECT_EQ(planned, remembered ? 1 : 4);
     s.ask(leave(s.assembly, 1, 3));  // another part
     EXPECT_EQ(planned, remembered ? 2 : 5);
@@ -101,13 +99,13 @@ TEST(Oracle, BudgetReachesThePlanner) {
   options.path_steps = 77;
   options.path_timeout = 0;
   const auto looks = [](const PathQuery& q, RunContext&) {
-    EXPECT_EQ(q.effort.max_steps, 77u);
-    EXPECT_EQ(q.effort.max_depth, 5u);
-    EXPECT_EQ(q.effort.timeout, 0);
+    EXPECT_EQ(q.budget.max_steps, 77u);
+    EXPECT_EQ(q.budget.max_depth, 5u);
+    EXPECT_EQ(q.budget.timeout, 0);
     return outcome(Outcome::timeout);
   };
   Rig s(fake::row(2), fake::ingredients(looks), 1, options);
-  EXPECT_EQ(s.ask(leave(s.assembly, 0, 5)).result.outcome, Outcome::timeout);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0, 5)).result.outcome(), Outcome::timeout);
 }
 
 TEST(Oracle, InterruptionsAreNotAnswers) {
@@ -122,8 +120,8 @@ TEST(Oracle, InterruptionsAreNotAnswers) {
     Rig s(fake::row(2), fake::ingredients(interrupted), threads);
     RunContext impatient = s.context;
     impatient.cancel = stop;
-    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome, Outcome::cancelled);
-    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome, Outcome::cancelled);  // not begun
+    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome(), Outcome::cancelled);
+    EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome(), Outcome::cancelled);  // not begun
     EXPECT_EQ(s.oracle->counts().attempts, 0u);
     EXPECT_EQ(s.oracle->counts().memoised, 0u);
   }
@@ -138,15 +136,15 @@ TEST(Oracle, AfterTheDeadlineNothingIsBegun) {
   Rig s(fake::row(2), fake::ingredients(counting));
   RunContext late = s.context;
   late.deadline = Deadline::after_seconds(0);
-  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome, Outcome::timeout);
+  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome(), Outcome::timeout);
   EXPECT_EQ(planned, 0);
-  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::solved);
-  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome, Outcome::solved);  // from memory
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::solved);
+  EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome(), Outcome::solved);  // from memory
 }
 
 PathResult draw(const PathQuery& q, RunContext& c) {
   PathResult r = fake::push(q, c);
-  r.counts["draw"] = c.rng.uniform();
+  r.stats.extra["draw"] = c.rng.uniform();
   return r;
 }
 
@@ -158,7 +156,7 @@ TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
   std::vector<double> expected;
   {
     Rig s(assembly, fake::ingredients(draw));
-    for (const auto& q : questions) expected.push_back(s.ask(q).result.counts.at("draw"));
+    for (const auto& q : questions) expected.push_back(s.ask(q).result.stats.extra.at("draw"));
     EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), expected.size());
   }
   for (const unsigned threads : {1u, 2u, 4u})
@@ -166,7 +164,7 @@ TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
       Rig s(assembly, fake::ingredients(draw), threads);
       if (hint) s.oracle->prefetch(questions, s.context);
       for (std::size_t i = questions.size(); i-- > 0;) {
-        EXPECT_EQ(s.ask(questions[i]).result.counts.at("draw"), expected[i]);
+        EXPECT_EQ(s.ask(questions[i]).result.stats.extra.at("draw"), expected[i]);
       }
       EXPECT_EQ(s.oracle->counts().attempts, questions.size());
       EXPECT_EQ(s.oracle->counts().memoised, 0u);
@@ -224,11 +222,10 @@ TEST(Oracle, AConcurrentPlannerServesAllThreads) {
   for (const bool concurrent : {true, false}) {
     std::atomic<int> made{0};
     Crowd crowd;
-    class Patient final : public PathPlanner {
+    class Patient final : public FunctionPathPlanner {
      public:
       Patient(bool is, Crowd& crowd) : concurrent_(is), crowd_(crowd) {}
-      Capabilities needs() const noexcept override { return {}; }
-      bool is_concurrent() const noexcept override { return concurrent_; }
+      PathPlannerTraits traits() const noexcept override { return {.concurrent = concurrent_}; }
       PathResult plan(const PathQuery& q, RunContext& c) override {
         crowd_.enter();
         for (int k = 0; k < 1'000'000 && crowd_.most < 2; ++k) std::this_thread::yield();
@@ -250,7 +247,7 @@ TEST(Oracle, AConcurrentPlannerServesAllThreads) {
     std::vector<Attempt> hints;
     for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
     s.oracle->prefetch(hints, s.context);
-    for (const auto& h : hints) EXPECT_EQ(s.ask(h).result.outcome, Outcome::solved);
+    for (const auto& h : hints) EXPECT_EQ(s.ask(h).result.outcome(), Outcome::solved);
     EXPECT_GE(crowd.most, 2);
     if (concurrent)
       EXPECT_EQ(made, 1);
@@ -271,7 +268,7 @@ TEST(Oracle, WorkNobodyAskedForMakesWay) {
   std::vector<Attempt> hints;
   for (const unsigned depth : {1u, 2u, 3u, 4u}) hints.push_back(leave(s.assembly, 0, depth));
   s.oracle->prefetch(hints, s.context);  // both threads are stuck
-  for (PartId id = 1; id < 5; ++id) EXPECT_EQ(s.ask(leave(s.assembly, id)).result.outcome, Outcome::solved);
+  for (PartId id = 1; id < 5; ++id) EXPECT_EQ(s.ask(leave(s.assembly, id)).result.outcome(), Outcome::solved);
   s.oracle->prefetch({}, s.context);
   EXPECT_EQ(s.oracle->counts().attempts, 4u);
   EXPECT_TRUE(s.errors.empty());

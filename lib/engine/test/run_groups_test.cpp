@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dismantle/errors.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/testing/run_rig.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -78,12 +78,7 @@ TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
 }
 
 TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
-  const auto lift = [](const PathQuery& q, RunContext&) {
-    PathResult r;
-    r.path = fake::straight(q.cast, {0, 0, 30});
-    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
-    return r;
-  };
+  const auto lift = [](const PathQuery& q, RunContext&) { return fake::shown(q, fake::straight(q.cast, {0, 0, 30})); };
   const auto in_groups = [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
     Attempt both;
     both.moving = {{1, Pose{}}, {2, Pose{}}};
@@ -93,8 +88,8 @@ TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
     result.removals.push_back({{1, 2}, &up});
     observer.removed(result.removals.back(), 1);
     Attempt apart;
-    apart.moving = {{2, up.result.path.back()[1]}};
-    apart.still = {{1, up.result.path.back()[0]}};
+    apart.moving = {{2, up.result.path()->poses().back()[1]}};
+    apart.still = {{1, up.result.path()->poses().back()[0]}};
     result.removals.push_back({{2}, &oracle.attempt(apart, c)});
     observer.removed(result.removals.back(), 1);
     result.outcome = Outcome::solved;
@@ -128,7 +123,7 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
       result.removals.push_back({{1, 2}, &r});
       observer.removed(result.removals.back(), 2);
       Attempt last;
-      last.moving = {{1, honest ? r.result.path.back()[0] : Pose{}}};
+      last.moving = {{1, honest ? r.result.path()->poses().back()[0] : Pose{}}};
       last.still = {{0, Pose{}}};
       result.removals.push_back({{1}, &oracle.propose(last, fake::straight({last.moving, {}}, {0, 0, 30}), c)});
       observer.removed(result.removals.back(), 1);
@@ -173,7 +168,7 @@ RunResult in_bits(const std::vector<PartId>& order) {
         if (p.id != part && !gone[p.id]) a.still.push_back({p.id, at[p.id]});
       const Path way = fake::straight({a.moving, a.still}, {0, 0, last ? 30 : 0.25});
       const AttemptResult& r = oracle.propose(a, way, c);
-      at[part] = r.result.path.back()[0];
+      at[part] = r.result.path()->poses().back()[0];
       gone[part] = last;
       result.removals.push_back({{part}, &r});
       observer.removed(result.removals.back(), 1);

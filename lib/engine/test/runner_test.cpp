@@ -1,5 +1,3 @@
-#include "dismantle/engine/run.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/testing/run_rig.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -112,10 +111,7 @@ TEST(Run, SameSeedSamePlanOnAnyNumberOfThreads) {
 TEST(Run, TheSeedIsThatOfTheOptions) {
   const auto marks = [](const PathQuery& q, RunContext& c) {
     const double draw = c.rng.uniform();
-    PathResult r;
-    r.path = fake::straight(q.cast, {0, 0, 30 + draw});
-    r.outcome = q.judge(r.path).accepted ? Outcome::solved : Outcome::exhausted;
-    return r;
+    return fake::shown(q, fake::straight(q.cast, {0, 0, 30 + draw}));
   };
   const Assembly assembly = fake::tube_with_blocks(2);
   std::set<std::string> plans;

@@ -9,9 +9,12 @@ class Bfs final : public PathPlanner {
  public:
   explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
 
-  Capabilities needs() const noexcept override { return push::required(); }
-  bool moves_each_its_way() const noexcept override { return true; }
-  PathResult plan(const PathQuery& query, RunContext& context) override { return push::plan(query, tactics_, context); }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
+  }
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return push::start(query, tactics_, context);
+  }
 
  private:
   push::Tactics tactics_;

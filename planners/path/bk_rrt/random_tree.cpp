@@ -101,27 +101,24 @@ Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of
   return path;
 }
 
-bool RandomTree::judged(std::uint32_t node, PathResult& result) {
+bool RandomTree::verified(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
-  Path path = path::thin(full, bodies_, parameters_.thinning);
-  const Verdict verdict = query_.judge(path);
-  if (verdict.accepted) {
-    result.outcome = Outcome::solved;
-    result.depth = nodes_[node].depth;
-    result.path = std::move(path);
-    result.message.clear();
+  const Path path = path::thin(full, bodies_, parameters_.thinning);
+  PathCheck check = query_.checker.check(path);
+  if (check.accepted()) {
+    result.solve(std::move(*check.verified), nodes_[node].depth);
     return true;
   }
   ++refused_;
-  result.message = verdict.reason;
-  if (!verdict.has_witness) {
+  result.message = check.reason;
+  if (!check.has_witness) {
     discard(node);
     return false;
   }
-  world_->learn(verdict.part, verdict.other, verdict.point);
+  world_->learn(check.part, check.other, check.point);
   // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
-  const auto& after = path[std::min(verdict.instant + 1, path.size() - 1)];
+  const auto& after = path[std::min(check.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;
   discard(node_of[k]);
@@ -148,7 +145,7 @@ bool RandomTree::iterate(PathResult& result) {
   if (!report.finite || way.empty()) return false;
   way = path::thin(way, bodies_, parameters_.thinning);
   const std::uint32_t node = add(std::move(state), from, std::move(way));
-  return world_->separated(nodes_[node].state) && judged(node, result);
+  return world_->separated(nodes_[node].state) && verified(node, result);
 }
 
 }  // namespace dismantle::bk_rrt

@@ -8,20 +8,20 @@
 namespace dismantle::guided {
 namespace {
 
-class Guided final : public PathPlanner {
+class Guided final : public FunctionPathPlanner {
  public:
   explicit Guided(const Parameters& parameters) : parameters_(parameters), tactics_(parameters.tactics()) {}
 
-  Capabilities needs() const noexcept override { return push::required(); }
-  bool moves_each_its_way() const noexcept override { return true; }
-  bool is_concurrent() const noexcept override { return true; }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = push::required(), .concurrent = true, .simultaneous_motion = true, .resumable = true};
+  }
 
   PathResult plan(const PathQuery& query, RunContext& context) override {
     // Walk and forest move a group as one.
     const bool others = (parameters_.forest_steps > 0 || parameters_.squeeze_looks > 0 || parameters_.lead_looks > 0) &&
-                        parameters_.motion == push::Motion::automatic && can_grow(query) && query.leaving.empty();
+                        parameters_.motion == push::Motion::automatic && can_grow(query) && query.goal.any_of.empty();
     return others ? plan_with_others(query, parameters_, tactics_, cache_, context)
-                  : push::plan(query, tactics_, context);
+                  : run_to_end(*push::start(query, tactics_, context));
   }
 
  private:

@@ -37,10 +37,10 @@ class OneGoal final : public TargetRule {
 class Rrt final : public PathPlanner {
  public:
   explicit Rrt(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return sampling::kTreeNeeds; }
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    return sampling::plan_by_trees(query, context, parameters_,
-                                   [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
+  PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return sampling::start_trees(query, context, parameters_,
+                                 [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
   }
 
  private:

@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
+#include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
 #include "dismantle/tolerant_walk/walk.h"
 
@@ -10,23 +11,17 @@ namespace {
 class Squeeze final : public PathPlanner {
  public:
   explicit Squeeze(const tolerant_walk::Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return tolerant_walk::kNeeds; }
-  bool is_concurrent() const noexcept override { return true; }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = tolerant_walk::kNeeds, .concurrent = true, .resumable = true};
+  }
 
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    tolerant_walk::Walk walk(parameters_, query, context, cache_);
-    return walk.run(limit(query.effort.max_depth));
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    const std::uint64_t level = path::doubled_per_level(parameters_.level_looks, query.budget.max_depth);
+    return std::make_unique<tolerant_walk::Walk>(parameters_, query, context, cache_,
+                                                 std::min(level, static_cast<std::uint64_t>(parameters_.looks)));
   }
 
  private:
-  std::uint64_t limit(unsigned depth) const {
-    const auto most = static_cast<std::uint64_t>(parameters_.looks);
-    if (depth == 0) return most;
-    const double looks =
-        std::ldexp(static_cast<double>(parameters_.level_looks), static_cast<int>(std::min(depth, 60u)) - 1);
-    return std::min(most, looks < 1e18 ? static_cast<std::uint64_t>(looks) : most);
-  }
-
   tolerant_walk::Parameters parameters_;
   tolerant_walk::GeometryCache cache_;
 };

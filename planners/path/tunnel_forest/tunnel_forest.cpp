@@ -1,6 +1,7 @@
-#include <algorithm>
-#include <cmath>
+#include <memory>
 
+#include "dismantle/path/ended_search.h"
+#include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
 #include "growth.h"
 
@@ -10,27 +11,17 @@ namespace {
 class TunnelForest final : public PathPlanner {
  public:
   explicit TunnelForest(const Parameters& parameters) : parameters_(parameters) {}
-  Capabilities needs() const noexcept override { return kNeeds; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
 
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    PathResult result;
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size()) {
-      result.outcome = Outcome::unsupported;
-      result.message = "needs a simulator with dynamics and distances for all moving parts";
-      return result;
-    }
-    return Growth(parameters_, query, context).run(level_limit(query.effort.max_depth));
+    if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
+      return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
+    return std::make_unique<Growth>(parameters_, query, context,
+                                    path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));
   }
 
  private:
-  std::uint64_t level_limit(unsigned depth) const {
-    if (depth == 0) return kNoLimit;
-    const double steps =
-        std::ldexp(static_cast<double>(parameters_.level_steps), static_cast<int>(std::min(depth, 60u)) - 1);
-    return steps < 1e18 ? static_cast<std::uint64_t>(steps) : kNoLimit;
-  }
-
   Parameters parameters_;
 };
 

@@ -8,35 +8,14 @@
 #include <set>
 
 #include "barred_shaft.h"
-#include "blocking/proofs_ahead.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/testing/fake_planning.h"
-#include "dismantle/testing/held_shapes.h"
-#include "dismantle/verification/check_plan.h"
+#include "run_blocking.h"
 
 namespace dismantle {
 namespace {
 
-PathResult helpless(const PathQuery&, RunContext&) { return fake::outcome(Outcome::exhausted); }
-
-/// As if it touched all that is there, and might find more a little deeper.
-PathResult shallow(const PathQuery& query, RunContext&) {
-  PathResult r = fake::outcome(query.effort.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
-  for (const PlacedPart& p : query.cast.still) r.blocked_by.push_back(p.part);
-  return r;
-}
-
-template <class Planner = decltype(&helpless)>
-RunResult take_apart(const Assembly& assembly, unsigned threads = 1, RunOptions options = {},
-                     Planner planner = &helpless) {
-  RunContext context;
-  context.threads = threads;
-  RunResult r =
-      run(assembly, fake::ingredients(planner, std::make_shared<Blocking>(BlockingParams{})), options, context);
-  const PlanCheck check = check_plan(r.plan, assembly, options.verify, context);
-  EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
-  return r;
-}
+using fake::helpless;
+using fake::take_apart;
 
 /// Two combs that hold each other, in a tube that is open at the top: only together do they come out of it.
 Assembly combs_in_tube() {
@@ -118,65 +97,8 @@ TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
   EXPECT_EQ(r.plan.disassembly.back().separates[0].size(), 1u);
 }
 
-/// Pairs that hold each other, side by side.
-Assembly cased_pairs(int count) {
-  const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
-  std::vector<Mesh> parts;
-  for (int k = 0; k < count; ++k) {
-    const Pose there = shapes::shift({3.0 * k, 0, 0});
-    parts.push_back(shapes::moved(held.around(), there));
-    parts.push_back(shapes::moved(held.block(), there));
-  }
-  return shapes::assembly_of(parts);
-}
-
-TEST(Blocking, EachOfSeveralPairsIsProvedToHoldEachOther) {
-  RunResult r = take_apart(cased_pairs(3), 2);
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
-  EXPECT_EQ(r.sequence_counts["held"], 3);
-  EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
-  ASSERT_EQ(r.plan.unsolved.size(), 6u);
-  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
-}
-
-/// Whatever was begun before, and however much of it was dropped.
-TEST(ProofsAhead, TellWhatTheJudgeDoes) {
-  using Question = blocking::HoldQuestion;
-  const Assembly assembly = cased_pairs(2);
-  const Verifier judge(assembly, {});
-  std::vector<Question> all;
-  std::map<Question, std::optional<std::string>> truth;
-  std::map<Question::Kind, std::size_t> held;
-  for (const auto& [a, b] : {std::pair<PartId, PartId>{0, 1}, {2, 3}, {1, 2}})
-    for (const Question::Kind kind : {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_for_sure,
-                                      Question::Kind::confined_at_last}) {
-      all.push_back(Question::of_pair(kind, a, b));
-      truth[all.back()] = blocking::ProofsAhead(judge, assembly, nullptr).answer(all.back(), {}, {});
-      held[kind] += truth[all.back()].has_value();
-    }
-  EXPECT_EQ(held[Question::Kind::confined_at_last], 2u);
-  EXPECT_EQ(held[Question::Kind::confined_for_sure], 2u);
-  Rng rng(4);
-  for (int trial = 0; trial < 4; ++trial) {
-    RunContext context;
-    context.threads = 1 + static_cast<unsigned>(trial % 3);
-    if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
-    blocking::ProofsAhead ahead(judge, assembly, context.executor);
-    for (int k = 0; k < 8; ++k) {
-      std::vector<Question> wanted;
-      for (const Question& q : all)
-        if (rng.uniform() < 0.5) wanted.push_back(q);
-      ahead.begin(wanted, context);
-      if (rng.uniform() < 0.5) continue;
-      const Question& q = all[rng.below(all.size())];
-      ASSERT_EQ(ahead.answer(q, wanted, context), truth[q]);
-    }
-  }
-}
-
 TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
-  for (const Assembly& assembly :
-       {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube(), cased_pairs(3)}) {
+  for (const Assembly& assembly : {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube()}) {
     std::set<std::string> plans;
     std::set<double> relations;
     for (const unsigned threads : {1U, 2U, 3U}) {
@@ -187,21 +109,8 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
       relations.insert(r.sequence_counts.at("relations"));
     }
     EXPECT_EQ(plans.size(), 1u);
-    EXPECT_EQ(relations.size(), 1u) << "what was looked at ahead is not counted";
+    EXPECT_EQ(relations.size(), 1u) << "what was computed ahead is not counted";
   }
-}
-
-/// Where searches go on for some depth, proofs are begun long before they are asked for.
-TEST(Blocking, ProofsAheadChangeNothing) {
-  std::set<std::string> plans;
-  for (const unsigned threads : {1U, 2U, 3U}) {
-    RunResult r = take_apart(cased_pairs(2), threads, {}, &shallow);
-    EXPECT_EQ(r.sequence_counts["held"], 2);
-    for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
-    for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
-    plans.insert(to_json(r.plan));
-  }
-  EXPECT_EQ(plans.size(), 1u);
 }
 
 /// Two rails side by side in a channel that is open at one end. Before it stands a latch, whose round shaft turns in a
@@ -261,127 +170,6 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
       EXPECT_EQ(r.plan.unsolved.size(), 2u) << "the latch never leaves the channel";
       EXPECT_TRUE(check_plan(r.plan, assembly, RunOptions{}.verify, context).valid);
     }
-  }
-}
-
-TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
-  Rng rng(3);
-  for (int round = 0; round < 6; ++round) {
-    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
-    std::set<std::string> locked;
-    for (unsigned k = 0; k < 5; ++k) {
-      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
-      const std::string name = "block" + std::to_string(k);
-      parts.push_back({name, {box}});
-      if (rng.uniform() < 0.5) continue;
-      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
-      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
-      locked.insert(name);
-      locked.insert(name + "_twin");
-    }
-    Assembly assembly = fake::assembly_of(parts);
-    for (PartId a = 0; a < assembly.parts.size(); ++a)
-      for (PartId b = a + 1; b < assembly.parts.size(); ++b)
-        if (const double depth =
-                penetration_depth(*assembly.parts[a].mesh, Pose{}, *assembly.parts[b].mesh, Pose{}, 1e-4);
-            depth > 0)
-          assembly.overlaps.push_back({a, b, depth});
-    const RunResult r = take_apart(assembly);
-    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::exhausted);
-    std::set<std::string> told;
-    for (const auto& u : r.plan.unsolved) {
-      told.insert(u.part);
-      ASSERT_EQ(u.blocked_by.size(), 1u);
-      EXPECT_TRUE(u.message.find("locked") != std::string::npos) << u.message;
-      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
-    }
-    EXPECT_EQ(told, locked);
-    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
-  }
-}
-
-TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
-  using shapes::box;
-  Mesh tray = box({-3, -3, -2}, {3, 3, -1});
-  for (const double s : {-1.0, 1.0}) {
-    shapes::append(tray, box({std::min(2 * s, 3 * s), -3, -0.99}, {std::max(2 * s, 3 * s), 3, 2}));
-    shapes::append(tray, box({-1.99, std::min(2 * s, 3 * s), -0.99}, {1.99, std::max(2 * s, 3 * s), 2}));
-  }
-  for (const double opening : {0.3, 0.95}) {
-    const Assembly assembly =
-        shapes::assembly_of({tray, shapes::can(1, 0.6, 0.2, opening), shapes::tube(0.4, 0.8, -0.1, 0.1, 48),
-                             box({-0.5, -0.5, 0.7}, {0.5, 0.5, 1})});
-    RunOptions options;
-    options.constraints.base = {0};  // else it is the tray that leaves the two
-    RunResult r = take_apart(assembly, 1, options);
-    if (opening > 0.8) {
-      EXPECT_EQ(r.outcome, Outcome::solved) << "the ring fits through";
-      EXPECT_EQ(r.sequence_counts["held"], 0);
-      continue;
-    }
-    EXPECT_EQ(r.outcome, Outcome::exhausted);
-    EXPECT_EQ(r.sequence_counts["held"], 1);
-    ASSERT_EQ(r.plan.disassembly.size(), 2u);
-    EXPECT_EQ(r.plan.disassembly[1].separates[0].size(), 2u);
-    ASSERT_EQ(r.plan.unsolved.size(), 2u);
-    for (const auto& u : r.plan.unsolved) {
-      EXPECT_NE(u.message.find("hold each other"), std::string::npos) << u.message;
-      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part1" ? "part2" : "part1"});
-    }
-    BlockingParams without;
-    without.cages = false;
-    RunContext context;
-    const RunResult searched =
-        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), options, context);
-    EXPECT_GT(searched.counts.attempts, r.counts.attempts) << "searched instead";
-  }
-}
-
-TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) {
-  for (const double rim : {0.1, -0.01}) {
-    const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, rim, 0.15};
-    const Assembly assembly =
-        shapes::assembly_of({held.around(), held.block(), shapes::box({-0.2, -0.2, 0.5}, {0.2, 0.2, 0.7})});
-    RunResult r = take_apart(assembly);
-    ASSERT_FALSE(r.plan.disassembly.empty()) << "the loose one leaves";
-    if (rim < 0) {
-      EXPECT_EQ(r.outcome, Outcome::solved);
-      continue;
-    }
-    EXPECT_EQ(r.outcome, Outcome::exhausted);
-    EXPECT_EQ(r.sequence_counts["held"], 1);
-    EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
-    ASSERT_EQ(r.plan.unsolved.size(), 2u);
-    for (const auto& u : r.plan.unsolved) {
-      EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
-      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part0" ? "part1" : "part0"});
-    }
-  }
-}
-
-TEST(Blocking, AfterASearchInVainAFlatPieceInAChamberIsProvedToBeHeld) {
-  const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
-  RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
-  EXPECT_EQ(r.plan.disassembly.size(), 1u) << "the loose one leaves";
-  EXPECT_EQ(r.sequence_counts["held"], 1);
-  EXPECT_GT(r.counts.attempts, 0);
-  ASSERT_EQ(r.plan.unsolved.size(), 2u);
-  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("flat disc"), std::string::npos) << u.message;
-}
-
-TEST(Blocking, AfterAllSearchesThreeOfWhichNoTwoWouldDoAreProvedToHoldEachOther) {
-  const shapes::Keyed keyed{.play = 0.003};
-  RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
-  EXPECT_TRUE(r.plan.disassembly.empty());
-  EXPECT_EQ(r.sequence_counts["held"], 2) << "three became one";
-  EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
-  ASSERT_EQ(r.plan.unsolved.size(), 3u);
-  for (const auto& u : r.plan.unsolved) {
-    EXPECT_NE(u.message.find("hold each other in place"), std::string::npos) << u.message;
-    EXPECT_EQ(u.blocked_by.size(), 2u);
-    EXPECT_EQ(std::count(u.blocked_by.begin(), u.blocked_by.end(), u.part), 0);
   }
 }
 

@@ -43,7 +43,7 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle, immobility_.get(), straight_.get());
   if (immobility_)
-    immobility_->before_proof = [this](const GroupState& group, const HoldQuestion& question) {
+    immobility_->before_proof = [this](const GroupState& group, const ImmobilityQuestion& question) {
       return lookahead_->before_proof(group, question);
     };
   searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), immobility_.get());

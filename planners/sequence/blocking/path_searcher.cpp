@@ -1,21 +1,9 @@
 #include "blocking/path_searcher.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <string>
 
 namespace dismantle::blocking {
-namespace {
-
-double sum_of(const std::map<std::string, double>& counts, const std::string& name) {
-  double sum = 0;
-  for (const auto& [counted, value] : counts)
-    if (counted.ends_with(name)) sum += value;
-  return sum;
-}
-
-}  // namespace
 
 PathSearcher::PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead,
                            PathOracle& oracle, StraightMotion* straight, Immobility* immobility)
@@ -66,27 +54,28 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
   lookahead_.before_search(group, attempt, next);
   const AttemptResult& answer = oracle_.attempt(attempt, context);
   const PathResult& result = answer.result;
-  const double known = sum_of(result.counts, "resumed_nodes"), spared = sum_of(result.counts, "spared");
+  const std::uint64_t known = result.stats.resumed_nodes, spared = result.stats.spared;
   std::string line = "search for a path of '" + state_.assembly().parts[part].name + "' to depth " +
-                     std::to_string(depth) + ": " + std::string(to_string(result.outcome)) + ", " +
+                     std::to_string(depth) + ": " + std::string(to_string(result.outcome())) + ", " +
                      std::to_string(answer.seconds) + " s";
   if (known > 0)
-    line += ", from " + std::to_string(std::llround(known)) + " states known, " + std::to_string(std::llround(spared)) +
+    line += ", from " + std::to_string(known) + " states known, " + std::to_string(spared) +
             " steps and state checks spared";
   context.log(LogLevel::debug, line);
   if (known > 0) {
     state_.count("resumed");
-    state_.count("spared_steps", spared);
+    state_.count("spared_steps", static_cast<double>(spared));
   }
-  if (is_success(result.outcome)) {
+  if (is_success(result.outcome())) {
     lookahead_.after_success(group, attempt);
     state_.commit(group, {id}, attempt, answer, GroupChange::Kind::removed);
     state_.count("searched");
     return true;
   }
   if (!state_.stop() || state_.failure_of(part) == nullptr)
-    state_.set_failure({part, result.outcome, result.blocked_by, result.best_pose, result.message, answer.certificate});
-  history_.add(id, {depth, result.outcome, result.blocked_by, group.members.size(), &answer}, result);
+    state_.set_failure(
+        {part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate});
+  history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size(), &answer}, result);
   return false;
 }
 

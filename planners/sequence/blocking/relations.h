@@ -20,10 +20,10 @@ namespace dismantle::blocking {
 
 /// Two parts as they stand, and where one of them is to go.
 struct Pair {
-  PartId moving = 0, still = 0;
+  PartId moving = 0, fixed = 0;
   std::size_t direction = 0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
-  std::size_t turn_moving = 0, turn_still = 0;       ///< numbers of Orientations
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();           ///< translation of `moving` less that of `fixed`
+  std::size_t orientation_moving = 0, orientation_fixed = 0;  ///< numbers of Orientations
 };
 
 /// A pair, how the two stand to each other, and a direction; see Relations.
@@ -52,8 +52,8 @@ class Relations {
   void hint(const std::vector<std::vector<Pair>>& lists);
   /// Certainly apart all the way, by boxes alone.
   bool far(const Pair& pair) const;
-  /// Way along d after which `moving` is past `still`.
-  double way_past(const Pair& pair) const;
+  /// Way along d after which `moving` is past `fixed`.
+  double distance_past(const Pair& pair) const;
   /// Extent of a part along a direction, turned but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
   /// How many were asked for.
@@ -76,8 +76,8 @@ class Relations {
   const PairSweep& sweep_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
-  const Orientations& turns_;
-  mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
+  const Orientations& orientations_;
+  mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
   std::shared_ptr<Executor> executor_;
   Ahead blocks_ahead_;

@@ -58,7 +58,7 @@ Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
     (other == part ? attempt.moving : attempt.still).push_back({other, state_.pose(other)});
   const AttemptResult& answer = oracle_.attempt(attempt, state_.context());
   const PathResult& result = answer.result;
-  reason.outcome = is_success(result.outcome) ? Outcome::exhausted : result.outcome;
+  reason.outcome = is_success(result.outcome()) ? Outcome::exhausted : result.outcome();
   reason.blocked_by = result.blocked_by;
   reason.message = result.message;
   reason.certificate = answer.certificate;

@@ -62,10 +62,8 @@ unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_
 /// Simulated steps and state checks take the longer the more triangles the part has. Counts, not seconds: these are the
 /// same on every machine.
 int SearchHistory::cost_of(PartId part, const PathResult& result) const {
-  double work = 1;
-  for (const auto& [name, count] : result.counts)
-    if (name.ends_with("steps") || name.ends_with("looks")) work += count;
-  work *= static_cast<double>(state_.assembly().parts[part].mesh->triangles.size());
+  const double work =
+      (1 + result.stats.cost) * static_cast<double>(state_.assembly().parts[part].mesh->triangles.size());
   return static_cast<int>(std::log2(std::max(1.0, work)) / params_.cost_octaves);
 }
 

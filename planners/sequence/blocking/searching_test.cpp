@@ -25,8 +25,8 @@ TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
   EXPECT_GT(run.result.counts.at("postponed"), 0);
 }
 
-/// The oracle may resume the last search of the same part: it had at least the parts in its way that this one has, or it
-/// is the very question that was asked before.
+/// The oracle may resume the last search of the same part: it had at least the parts in its way that this one has, or
+/// it is the very question that was asked before.
 TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
   Rng rng(5);
   std::size_t again = 0;

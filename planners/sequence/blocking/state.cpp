@@ -136,7 +136,7 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   Removal removal;
   for (std::size_t i = 0; i < attempt.moving.size(); ++i) {
     removal.parts.push_back(attempt.moving[i].part);
-    set_pose(attempt.moving[i].part, answer.result.path.back()[i]);
+    set_pose(attempt.moving[i].part, answer.result.path()->poses().back()[i]);
   }
   removal.attempt = &answer;
   removals_.push_back(removal);

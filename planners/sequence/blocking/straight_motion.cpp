@@ -59,8 +59,8 @@ Subassemblies StraightMotion::blockers(const GroupState& group, SubassemblyId id
   relations_.compute(pairs);
   Subassemblies found;
   for (const Pair& pair : pairs)
-    if (relations_.blocks(pair) && (found.empty() || found.back() != state_.subassembly_of(pair.still)))
-      found.push_back(state_.subassembly_of(pair.still));
+    if (relations_.blocks(pair) && (found.empty() || found.back() != state_.subassembly_of(pair.fixed)))
+      found.push_back(state_.subassembly_of(pair.fixed));
   return found;
 }
 
@@ -192,8 +192,8 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
         if (!relations_.known_to_block(pair)) continue;
         return {other, {}};
       }
-      unknown.emplace_back(relations_.extent(pair.still, direction, pair.turn_still).first -
-                               relations_.extent(pair.moving, direction, pair.turn_moving).second -
+      unknown.emplace_back(relations_.extent(pair.fixed, direction, pair.orientation_fixed).first -
+                               relations_.extent(pair.moving, direction, pair.orientation_moving).second -
                                pair.offset.dot(directions_.all[direction]),
                            pair);
     }
@@ -312,14 +312,14 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
   const AttemptResult& answer = oracle_.propose(attempt, path, context);
   context.log(LogLevel::debug, "straight path of '" + state_.assembly().parts[first].name + "' and " +
                                    std::to_string(attempt.moving.size() - 1) +
-                                   " more: " + std::string(to_string(answer.result.outcome)) + ", " +
+                                   " more: " + std::string(to_string(answer.result.outcome())) + ", " +
                                    std::to_string(answer.seconds) + " s " + answer.result.message);
-  if (!is_success(answer.result.outcome)) {
+  if (!is_success(answer.result.outcome())) {
     const std::vector<PartId> parts = state_.parts_of(ids);
     refused_.insert({parts, direction});
     for (const PartId id : parts)
       state_.set_failure(
-          {id, answer.result.outcome, answer.result.blocked_by, {}, answer.result.message, answer.certificate});
+          {id, answer.result.outcome(), answer.result.blocked_by, {}, answer.result.message, answer.certificate});
     return false;
   }
   state_.commit(group, ids, attempt, answer, GroupChange::Kind::removed);

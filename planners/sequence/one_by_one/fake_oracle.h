@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dismantle/sequence_planner.h"
+#include "dismantle/testing/path_checking.h"
 
 namespace dismantle {
 
@@ -66,7 +67,7 @@ class FakeOracle final : public PathOracle {
     results_.emplace_back();
     PathResult& r = results_.back().result;
     if (context.should_stop()) {
-      r.outcome = Outcome::cancelled;
+      r.fail(Outcome::cancelled);
       return results_.back();
     }
     const PartId part = a.moving.at(0).part;
@@ -75,17 +76,15 @@ class FakeOracle final : public PathOracle {
         r.blocked_by.push_back(still.part);
     const bool deep_enough = a.max_depth == 0 || a.max_depth >= machine_.depth[part];
     if (!deep_enough) {
-      r.outcome = Outcome::depth_limit;
-      r.reached = std::make_shared<Reached>();
+      r.fail(Outcome::depth_limit);
+      r.state = std::make_shared<SearchState>();
     } else if (!r.blocked_by.empty()) {
-      r.outcome = Outcome::exhausted;
-      r.message = "blocked";
-      r.reached = std::make_shared<Reached>();
+      r.fail(Outcome::exhausted, "blocked");
+      r.state = std::make_shared<SearchState>();
       r.best_pose = {Pose{{0.5, 0, 0}, Eigen::Quaterniond::Identity()}};
     } else {
-      r.outcome = Outcome::solved;
-      r.depth = machine_.depth[part];
-      r.path = {{Pose{}}, {Pose{{100, 0, 0}, Eigen::Quaterniond::Identity()}}};
+      r.solve(fake::accept_all().verified({{Pose{}}, {Pose{{100, 0, 0}, Eigen::Quaterniond::Identity()}}}),
+              machine_.depth[part]);
     }
     ++counts_.attempts;
     answers.push_back(&results_.back());
@@ -94,7 +93,7 @@ class FakeOracle final : public PathOracle {
   void prefetch(std::span<const Attempt> attempts, RunContext&) override { hinted += attempts.size(); }
   const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
     results_.emplace_back();
-    results_.back().result.outcome = Outcome::exhausted;
+    results_.back().result.fail(Outcome::exhausted);
     return results_.back();
   }
   OracleCounts counts() const override { return counts_; }

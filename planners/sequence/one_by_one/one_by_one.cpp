@@ -61,7 +61,7 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
   }
   const AttemptResult& answer = oracle_.attempt(question(part, max_depth), context_);
   const PathResult& result = answer.result;
-  if (is_success(result.outcome)) {
+  if (is_success(result.outcome())) {
     std::erase(left_, part);
     last_[part].reset();
     removals_.push_back({{part}, &answer});
@@ -69,9 +69,9 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
     context_.progress("sequence", removals_.size(), assembly_.parts.size() - 1, assembly_.parts[part].name);
   } else if (!interrupted() || !last_[part]) {  // an interrupted attempt says less than the one before it
     last_[part] =
-        Unsolved{part, result.outcome, result.blocked_by, result.best_pose, result.message, answer.certificate};
+        Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate};
   }
-  return result.outcome;
+  return result.outcome();
 }
 
 // One word for why parts are left: a crash before all, then what all have in common, then what more effort could

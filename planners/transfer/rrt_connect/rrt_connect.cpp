@@ -11,7 +11,7 @@ namespace dismantle::rrt_connect {
 namespace {
 
 namespace ob = ompl::base;
-using sampling::Budget;
+using sampling::CheckBudget;
 using sampling::ConnectTrees;
 using sampling::Scene;
 
@@ -25,7 +25,7 @@ struct Parameters {
   double clearance = 0.1;
   double range = 2;
   double step = 0.05;
-  double max_penetration = 0.004;
+  double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t max_checks = 30'000;
 
@@ -41,8 +41,11 @@ struct Parameters {
            .min = 1e-5,
            .max = 1,
            .doc = "Extensions are checked every so far; largest way of any point of the part."});
-    s.add("max_penetration", &Parameters::max_penetration,
-          {.unit = "unit", .min = 0, .max = 1, .doc = "Depth at which a state counts as colliding."});
+    s.add("tolerance_share", &Parameters::tolerance_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
     s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
     s.add("max_checks", &Parameters::max_checks,
           {.unit = "1", .min = 0, .doc = "State checks for one transfer; 0 = no limit but those of the run."});
@@ -60,15 +63,14 @@ class RrtConnect final : public TransferPlanner {
     PathResult result;
     Pose goal;
     if (!displacement_to_goal(query, goal)) {
-      result.outcome = Outcome::unsupported;
-      result.message = "the group would have to change its shape on the way";
+      result.fail(Outcome::unsupported, "the group would have to change its shape on the way");
       return result;
     }
     if (parameters_.straight_first && goes_straight(query, context, result)) return result;
     const Capabilities has = query.simulator.capabilities();
     if (!has.distance || has.max_moving < query.cast.moving.size()) {
-      result.outcome = Outcome::unsupported;
-      result.message = "no straight way, and trees need a simulator with distance queries for all moving parts";
+      result.fail(Outcome::unsupported,
+                  "no straight way, and trees need a simulator with distance queries for all moving parts");
       return result;
     }
     grow(query, goal, context, result);
@@ -77,36 +79,34 @@ class RrtConnect final : public TransferPlanner {
 
  private:
   bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) const {
-    for (Path& path : straight_ways(query, parameters_.clearance)) {
+    for (const Path& path : straight_ways(query, parameters_.clearance)) {
       if (context.should_stop()) break;
-      ++result.counts["straight"];
-      const Verdict verdict = query.judge(path);
-      if (verdict.accepted) {
-        result.outcome = Outcome::solved;
-        result.depth = static_cast<unsigned>(path.size() - 1);
-        result.path = std::move(path);
-        result.message.clear();
+      ++result.stats.extra["straight"];
+      PathCheck check = query.checker.check(path);
+      if (check.accepted()) {
+        result.solve(std::move(*check.verified), static_cast<unsigned>(path.size() - 1));
         return true;
       }
-      result.message = verdict.reason;
+      result.message = check.reason;
     }
     return false;
   }
 
   void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
-    PathQuery removal{query.assembly, query.simulator, query.prepared, query.cast, query.effort, query.judge};
+    PathQuery removal{query.assembly, query.simulator, query.prepared, query.cast,
+                      query.budget,   query.tolerance, query.checker};
     const auto own = static_cast<std::uint64_t>(parameters_.max_checks);
-    std::uint64_t& most = removal.effort.max_steps;
+    std::uint64_t& most = removal.budget.max_steps;
     if (own > 0) most = most > 0 ? std::min(most, own) : own;
-    Budget budget(removal, context);
+    CheckBudget budget(removal, context);
 
     // Without a turn to make, a quarter of the budget goes to searching without turns.
     const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
-    result.outcome = Outcome::timeout;
+    result.fail(Outcome::timeout);
     for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
       if (motion == MotionSpace::translation && turns) continue;
       const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kFirstTurn;
-      Scene scene(removal, motion, parameters_.max_penetration, parameters_.step, budget, goal);
+      Scene scene(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget, goal);
       ConnectTrees trees(scene, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
       auto problem = std::make_shared<ob::ProblemDefinition>(scene.information());
       const auto start = scene.space().start();
@@ -123,18 +123,19 @@ class RrtConnect final : public TransferPlanner {
         status = trees.solve(stop);
         if (status != ob::PlannerStatus::EXACT_SOLUTION || accepted(scene, trees.solution(), query, result)) break;
       }
-      result.counts["nodes"] += static_cast<double>(trees.nodes());
-      if (result.outcome != Outcome::solved) result.blocked_by = scene.blockers();
-      if (result.outcome == Outcome::solved) break;
+      result.stats.nodes += trees.nodes();
+      if (result.outcome() != Outcome::solved) result.blocked_by = scene.blockers();
+      if (result.outcome() == Outcome::solved) break;
       if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
-        result.outcome = Outcome::invalid_start;
-        result.message = status == ob::PlannerStatus::INVALID_START ? "the part collides where it lies in the layout"
-                                                                    : "the part collides where it is to be put in";
+        result.fail(Outcome::invalid_start, status == ob::PlannerStatus::INVALID_START
+                                                ? "the part collides where it lies in the layout"
+                                                : "the part collides where it is to be put in");
         break;
       }
     }
-    if (result.outcome == Outcome::timeout && context.cancel.cancelled()) result.outcome = Outcome::cancelled;
-    result.counts["checks"] = static_cast<double>(budget.checks);
+    if (result.outcome() == Outcome::timeout && context.cancel.cancelled()) result.fail(Outcome::cancelled);
+    result.stats.state_checks = budget.checks;
+    result.stats.cost = static_cast<double>(budget.checks);
   }
 
   bool accepted(Scene& scene, const std::vector<Scene::StateType>& states, const TransferQuery& query,
@@ -145,17 +146,14 @@ class RrtConnect final : public TransferPlanner {
     for (const auto& form : forms) {
       Path path = scene.path(form);
       path.back() = query.goal;
-      const Verdict verdict = query.judge(path);
-      if (verdict.accepted) {
-        result.outcome = Outcome::solved;
-        result.depth = static_cast<unsigned>(form.size() - 1);
-        result.path = std::move(path);
-        result.message.clear();
+      PathCheck check = query.checker.check(path);
+      if (check.accepted()) {
+        result.solve(std::move(*check.verified), static_cast<unsigned>(form.size() - 1));
         result.blocked_by.clear();
         return true;
       }
-      ++result.counts["refused"];
-      result.message = verdict.reason;
+      ++result.stats.refused;
+      result.message = check.reason;
     }
     return false;
   }

@@ -5,9 +5,9 @@
 
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/samples.h"
+#include "dismantle/testing/shapes.h"
 #include "dismantle/verification/verifier.h"
 #include "simulator.h"
-#include "dismantle/testing/shapes.h"
 #include "world.h"
 
 namespace dismantle::mesh_collision {
@@ -170,7 +170,7 @@ TEST(FclDepth, ThinWallIsNoHole) {
 class FclWorld : public ::testing::Test {
  protected:
   std::unique_ptr<World> world(const Cast& cast) {
-    prepared = simulator.prepare(assembly, context);
+    prepared = simulator.prepare(assembly, 0.01, context);
     return simulator.world(assembly, *prepared, cast, MotionSpace::rigid);
   }
   static State at(const std::vector<Pose>& poses) {
@@ -226,7 +226,7 @@ TEST_F(FclWorld, AnswersDependOnTheStateAlone) {
 
 /// Equal parts share one hierarchy, wherever they stand.
 TEST_F(FclWorld, EqualPartsShare) {
-  prepared = simulator.prepare(assembly, context);
+  prepared = simulator.prepare(assembly, 0.01, context);
   const auto& bodies = dynamic_cast<const PreparedBodies&>(*prepared);
   EXPECT_EQ(bodies.placed[0].body, bodies.placed[1].body);
   EXPECT_NE(bodies.placed[0].body, bodies.placed[2].body);

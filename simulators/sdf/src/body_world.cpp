@@ -42,7 +42,7 @@ ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, const 
           options.margin,
           [&](PartId a, PartId b) { return prepared.allowed(a, b); },
           options.threshold,
-          kFacetAllowance,
+          prepared.facet_allowance,
           &prepared.rest};
 }
 

@@ -4,13 +4,15 @@
 
 namespace dismantle::sdf {
 
-std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options,
+std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options, double tolerance,
                                                RunContext& context) {
   auto prepared = std::make_shared<PreparedShapes>();
+  prepared->facet_allowance = kFacetShare * tolerance;
   prepared->placed = build_shapes(assembly, options, context);
   if (context.should_stop()) return prepared;
   for (const InitialOverlap& o : assembly.overlaps)
-    if (o.depth > 0) prepared->overlap[std::minmax(o.a, o.b)] = o.depth + std::min(0.5 * o.depth, kFacetAllowance);
+    if (o.depth > 0)
+      prepared->overlap[std::minmax(o.a, o.b)] = o.depth + std::min(0.5 * o.depth, prepared->facet_allowance);
   return prepared;
 }
 

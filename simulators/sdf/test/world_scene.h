@@ -74,7 +74,7 @@ struct Scene {
     assembly.overlaps = std::move(overlaps);
     simulator = registry().create<Simulator>(id, given);
     RunContext context;
-    prepared = simulator->prepare(assembly, context);
+    prepared = simulator->prepare(assembly, 0.01, context);
   }
 
   /// Parts that `moving` does not name stand still where they are assembled.

@@ -10,14 +10,12 @@ struct NeverParams {
   }
 };
 
-class Never : public dismantle::PathPlanner {
+class Never : public dismantle::FunctionPathPlanner {
  public:
   explicit Never(const NeverParams&) {}
-  dismantle::Capabilities needs() const noexcept override { return {}; }
+  dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
   dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext&) override {
-    dismantle::PathResult result;
-    result.outcome = dismantle::Outcome::exhausted;
-    return result;
+    return dismantle::PathResult::failure(dismantle::Outcome::exhausted);
   }
 };
 

@@ -137,7 +137,7 @@ class Stepper final : public dismantle::Simulator {
 
   dismantle::Capabilities capabilities() const noexcept override { return kProvides; }
 
-  std::shared_ptr<const dismantle::Prepared> prepare(const dismantle::Assembly& assembly,
+  std::shared_ptr<const dismantle::Prepared> prepare(const dismantle::Assembly& assembly, double /*tolerance*/,
                                                      dismantle::RunContext& context) override {
     auto trees = std::make_shared<Trees>();
     for (const auto& part : assembly.parts) {

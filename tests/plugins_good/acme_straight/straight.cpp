@@ -21,32 +21,28 @@ struct StraightParams {
 
 constexpr dismantle::Capabilities kNeeds{.dynamics = true};
 
-class Straight final : public dismantle::PathPlanner {
+class Straight final : public dismantle::FunctionPathPlanner {
  public:
   explicit Straight(const StraightParams& params) : params_(params) {}
 
-  dismantle::Capabilities needs() const noexcept override { return kNeeds; }
+  dismantle::PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
 
   dismantle::PathResult plan(const dismantle::PathQuery& query, dismantle::RunContext& context) override {
-    dismantle::PathResult result;
-    if (!query.simulator.capabilities().dynamics) {
-      result.outcome = dismantle::Outcome::unsupported;
-      result.message = "the simulator has no dynamics to push with";
-      return result;
-    }
+    if (!query.simulator.capabilities().dynamics)
+      return dismantle::PathResult::failure(dismantle::Outcome::unsupported,
+                                            "the simulator has no dynamics to push with");
     const auto world =
         query.simulator.world(query.assembly, query.prepared, query.cast, dismantle::MotionSpace::translation);
     const dismantle::State start = world->initial_state();
+    dismantle::PathResult result;
     if (world->separated(start)) {
-      result.outcome = dismantle::Outcome::start_is_goal;
-      result.path = {poses(start)};
+      result.start_is_goal();
       return result;
     }
-    const auto deadline = query.effort.timeout > 0
-                              ? context.deadline.earlier(dismantle::Deadline::after_seconds(query.effort.timeout))
+    const auto deadline = query.budget.timeout > 0
+                              ? context.deadline.earlier(dismantle::Deadline::after_seconds(query.budget.timeout))
                               : context.deadline;
-    std::uint64_t steps = 0;
-    result.outcome = dismantle::Outcome::exhausted;
+    result.fail(dismantle::Outcome::exhausted);
     for (int direction = 0; direction < 6; ++direction) {
       Eigen::Vector3d force = Eigen::Vector3d::Zero();
       force[direction / 2] = direction % 2 == 0 ? params_.force : -params_.force;
@@ -56,19 +52,18 @@ class Straight final : public dismantle::PathPlanner {
       dismantle::State state = start;
       dismantle::Path path = {poses(start)};
       for (std::int64_t n = 0; n < params_.max_pushes; ++n) {
-        const bool spent = query.effort.max_steps > 0 && steps >= query.effort.max_steps;
+        const bool spent = query.budget.max_steps > 0 && result.stats.steps >= query.budget.max_steps;
         if (context.cancel.cancelled() || deadline.passed() || spent) {
-          result.outcome = context.cancel.cancelled() ? dismantle::Outcome::cancelled : dismantle::Outcome::timeout;
+          result.fail(context.cancel.cancelled() ? dismantle::Outcome::cancelled : dismantle::Outcome::timeout);
           return result;
         }
         const dismantle::StepReport report = world->advance(state, push, params_.push_time, &path);
-        steps += report.steps;
-        result.counts["steps"] = static_cast<double>(steps);
+        result.stats.steps += report.steps;
+        result.stats.cost = static_cast<double>(result.stats.steps);
         if (world->separated(state)) {
-          if (!query.judge(path).accepted) break;  // the judge saw a collision: not this way
-          result.outcome = dismantle::Outcome::solved;
-          result.path = std::move(path);
-          result.depth = 1;
+          const dismantle::PathCheck check = query.checker.check(path);
+          if (!check.accepted()) break;  // the verifier saw a collision: not in this direction
+          result.solve(*check.verified, 1);
           return result;
         }
         if (report.stalled || !report.finite) break;

@@ -47,7 +47,7 @@ Maze hand_in_hand() {
 }
 
 void go(MazeRun& run, const Maze& maze, const std::vector<PartId>& leaving, const char* planner = "bfs",
-        const Effort& effort = {.max_depth = 1}) {
+        const Budget& effort = {.max_depth = 1}) {
   search(run, maze, {}, effort, accept, {}, 2, {true, true, true, 4}, planner, leaving);
 }
 
@@ -58,9 +58,9 @@ TEST(EachItsWay, WhoeverIsDrivenTheOtherIsDraggedAlong) {
         MazeRun run;
         const Maze maze = geared(ratio);
         go(run, maze, {out}, planner);
-        ASSERT_EQ(run.result.outcome, Outcome::solved) << planner << ratio;
+        ASSERT_EQ(run.result.outcome(), Outcome::solved) << planner << ratio;
         EXPECT_EQ(run.result.depth, 1u);
-        const std::vector<Pose>& end = run.result.path.back();
+        const std::vector<Pose>& end = run.result.path()->poses().back();
         EXPECT_NEAR(end[1].t.y(), ratio * end[0].t.x(), 1e-6);
         EXPECT_FALSE(maze.exit.contains(end[out].t)) << "it is out";
         if (ratio == 1.0) continue;
@@ -72,17 +72,17 @@ TEST(EachItsWay, AnyOfThoseThatMayLeaveWillDo) {
   MazeRun run;
   const Maze maze = geared(2.0);
   go(run, maze, {0, 1});
-  ASSERT_EQ(run.result.outcome, Outcome::solved);
-  EXPECT_FALSE(maze.exit.contains(run.result.path.back()[1].t)) << "the faster one";
-  EXPECT_TRUE(maze.exit.contains(run.result.path.back()[0].t));
+  ASSERT_EQ(run.result.outcome(), Outcome::solved);
+  EXPECT_FALSE(maze.exit.contains(run.result.path()->poses().back()[1].t)) << "the faster one";
+  EXPECT_TRUE(maze.exit.contains(run.result.path()->poses().back()[0].t));
 }
 
 TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
   for (const char* planner : {"bfs", "guided"}) {
     MazeRun run;
     go(run, hand_in_hand(), {0}, planner, {.max_depth = 2});
-    ASSERT_EQ(run.result.outcome, Outcome::solved) << planner;
-    const auto& end = run.result.path.back();
+    ASSERT_EQ(run.result.outcome(), Outcome::solved) << planner;
+    const auto& end = run.result.path()->poses().back();
     EXPECT_GT(std::abs(end[0].t.x()), 5);
     EXPECT_NEAR(end[0].t.x(), end[1].t.y(), 1e-6);
     ASSERT_EQ(run.judged.size(), 1u);
@@ -90,7 +90,7 @@ TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
   // As one group they go nowhere.
   MazeRun group;
   search(group, hand_in_hand(), {}, {.max_depth = 2}, accept, {}, 2);
-  EXPECT_NE(group.result.outcome, Outcome::solved);
+  EXPECT_NE(group.result.outcome(), Outcome::solved);
 }
 
 TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
@@ -99,12 +99,12 @@ TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
   for (const unsigned depth : {1U, 4U}) {
     MazeRun run;
     go(run, maze, {0, 1}, "guided", {.max_depth = depth});
-    EXPECT_EQ(run.result.outcome, Outcome::depth_limit);
-    EXPECT_EQ(run.result.counts.at("steps"), static_cast<double>(run.notes.steps));
+    EXPECT_EQ(run.result.outcome(), Outcome::depth_limit);
+    EXPECT_EQ(run.result.stats.steps, static_cast<double>(run.notes.steps));
     EXPECT_LE(run.notes.steps, 2 * (2000 * depth + 10)) << "in both motion spaces, and an advance is not cut short";
     MazeRun less;
     go(less, maze, {0, 1}, "guided", {.max_depth = depth, .max_steps = 300});
-    EXPECT_EQ(less.result.outcome, Outcome::timeout) << "the asker's budget is used up, not that of the depth";
+    EXPECT_EQ(less.result.outcome(), Outcome::timeout) << "the asker's budget is used up, not that of the depth";
     EXPECT_LE(less.notes.steps, 310u);
   }
 }
@@ -115,7 +115,7 @@ TEST(EachItsWay, SaysHowFarTheSecondHasCome) {
   maze.link = [](State& s, const Action&) { return s.bodies[1].pose.t.norm() < kTight; };
   MazeRun alone, both;
   go(alone, maze, {0, 1});
-  EXPECT_EQ(alone.result.outcome, Outcome::depth_limit);
+  EXPECT_EQ(alone.result.outcome(), Outcome::depth_limit);
   EXPECT_EQ(alone.result.best_pose[1].t, Vector3d::Zero());
   Maze rack = geared(1.0);
   rack.free = {tunnel(Vector3d(-3, 0, 0), Vector3d(3, 0, 0), 1e-4),

@@ -25,20 +25,20 @@ Maze winding(int bends) {
 }
 
 void expect_lawful(const MazeRun& run, const Maze& maze) {
-  EXPECT_EQ(run.result.counts.at("steps"), static_cast<double>(run.notes.steps));
+  EXPECT_EQ(run.result.stats.steps, static_cast<double>(run.notes.steps));
   for (const PartId p : run.result.blocked_by) EXPECT_EQ(p, 9u);
   ASSERT_EQ(run.result.best_pose.size(), 1u);
-  if (run.result.outcome != Outcome::solved) {
-    EXPECT_TRUE(run.result.path.empty() || run.result.outcome == Outcome::start_is_goal);
+  if (run.result.outcome() != Outcome::solved) {
+    EXPECT_TRUE(run.result.path()->poses().empty() || run.result.outcome() == Outcome::start_is_goal);
     return;
   }
-  ASSERT_GE(run.result.path.size(), 2u);
-  EXPECT_EQ(run.result.path.front()[0].t, Vector3d::Zero());
-  EXPECT_FALSE(maze.exit.contains(run.result.path.back()[0].t));
+  ASSERT_GE(run.result.path()->poses().size(), 2u);
+  EXPECT_EQ(run.result.path()->poses().front()[0].t, Vector3d::Zero());
+  EXPECT_FALSE(maze.exit.contains(run.result.path()->poses().back()[0].t));
   ASSERT_FALSE(run.judged.empty());
-  ASSERT_EQ(run.judged.back().size(), run.result.path.size());
-  for (std::size_t k = 0; k < run.result.path.size(); ++k)
-    EXPECT_EQ(run.judged.back()[k][0].t, run.result.path[k][0].t) << "what is returned is what was judged";
+  ASSERT_EQ(run.judged.back().size(), run.result.path()->poses().size());
+  for (std::size_t k = 0; k < run.result.path()->poses().size(); ++k)
+    EXPECT_EQ(run.judged.back()[k][0].t, run.result.path()->poses()[k][0].t) << "what is returned is what was judged";
 }
 
 TEST(BfsMaze, FindsTheWayWithTheFewestActions) {
@@ -46,7 +46,7 @@ TEST(BfsMaze, FindsTheWayWithTheFewestActions) {
     MazeRun run;
     const Maze maze = winding(bends);
     search(run, maze, kTranslation);
-    EXPECT_EQ(run.result.outcome, Outcome::solved) << bends;
+    EXPECT_EQ(run.result.outcome(), Outcome::solved) << bends;
     EXPECT_EQ(run.result.depth, static_cast<unsigned>(bends + 1));
     EXPECT_TRUE(run.result.message.empty());
     expect_lawful(run, maze);
@@ -61,7 +61,7 @@ TEST(BfsMaze, DepthLimitIsTheNumberOfActions) {
       ParamSet axes = kAxesOnly;
       axes["motion"] = std::string(motion);
       search(run, maze, axes, {.max_depth = limit});
-      EXPECT_EQ(run.result.outcome, limit < 3 ? Outcome::depth_limit : Outcome::solved) << motion << limit;
+      EXPECT_EQ(run.result.outcome(), limit < 3 ? Outcome::depth_limit : Outcome::solved) << motion << limit;
       EXPECT_LE(run.result.depth, limit);
       expect_lawful(run, maze);
     }
@@ -71,9 +71,9 @@ TEST(BfsMaze, OpenSpaceIsOneAction) {
   MazeRun run;
   const Maze maze{.free = {Aabb{Vector3d::Constant(-50), Vector3d::Constant(50)}}};
   search(run, maze);
-  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.result.depth, 1u);
-  EXPECT_EQ(run.result.path.size(), 2u) << "a straight way is two instants";
+  EXPECT_EQ(run.result.path()->poses().size(), 2u) << "a straight way is two instants";
   expect_lawful(run, maze);
 }
 
@@ -83,7 +83,7 @@ TEST(BfsMaze, AClosedRoomIsExhausted) {
       MazeRun run;
       const Maze maze{.free = {Aabb{Vector3d::Constant(-size), Vector3d::Constant(size)}}};
       search(run, maze, {{"motion", std::string(motion)}, {"diagonals", size < 0.1}}, {.max_steps = 1'000'000});
-      EXPECT_EQ(run.result.outcome, Outcome::exhausted) << motion << size;
+      EXPECT_EQ(run.result.outcome(), Outcome::exhausted) << motion << size;
       EXPECT_TRUE(run.judged.empty());
       EXPECT_EQ(run.result.blocked_by, std::vector<PartId>{9});
       expect_lawful(run, maze);
@@ -98,13 +98,13 @@ TEST(BfsMaze, DiagonalsAreTriedLastAndCanBeSwitchedOff) {
     maze.free.push_back(tunnel(0.01 * k * Vector3d(1, 1, 0), 0.01 * k * Vector3d(1, 1, 0), 0.007));
   MazeRun with, without;
   search(with, maze, kTranslation);
-  EXPECT_EQ(with.result.outcome, Outcome::solved);
+  EXPECT_EQ(with.result.outcome(), Outcome::solved);
   expect_lawful(with, maze);
   ParamSet off = kTranslation;
   off["diagonals"] = false;
   search(without, maze, off);
-  EXPECT_EQ(without.result.outcome, Outcome::exhausted);
-  EXPECT_LT(without.result.counts.at("steps"), with.result.counts.at("steps"));
+  EXPECT_EQ(without.result.outcome(), Outcome::exhausted);
+  EXPECT_LT(without.result.stats.steps, with.result.stats.steps);
 }
 
 TEST(BfsMaze, StatesInTheMiddleOfARunAreSearchedToo) {
@@ -113,7 +113,7 @@ TEST(BfsMaze, StatesInTheMiddleOfARunAreSearchedToo) {
       .free = {tunnel(Vector3d::Zero(), Vector3d(3, 0, 0)), tunnel(Vector3d(1.5, 0, 0), Vector3d(1.5, 9, 0), 0.2)}};
   MazeRun run;
   search(run, maze, kAxesOnly);
-  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.result.depth, 2u);
   expect_lawful(run, maze);
 }
@@ -123,10 +123,10 @@ TEST(BfsMaze, StartIsGoal) {
   Maze maze = straight();
   maze.exit = {Vector3d::Constant(1), Vector3d::Constant(2)};
   search(run, maze);
-  EXPECT_EQ(run.result.outcome, Outcome::start_is_goal);
+  EXPECT_EQ(run.result.outcome(), Outcome::start_is_goal);
   EXPECT_EQ(run.notes.advances, 0u);
-  ASSERT_FALSE(run.result.path.empty());
-  for (const auto& instant : run.result.path) EXPECT_TRUE(instant[0].is_identity());
+  ASSERT_TRUE(run.result.path());
+  for (const auto& instant : run.result.path()->poses()) EXPECT_TRUE(instant[0].is_identity());
 }
 
 TEST(BfsMaze, CancelledBeforeAndDuring) {
@@ -140,7 +140,7 @@ TEST(BfsMaze, CancelledBeforeAndDuring) {
     };
     const Maze maze = winding(4);
     search(run, maze, {}, {}, accept, context);
-    EXPECT_EQ(run.result.outcome, Outcome::cancelled);
+    EXPECT_EQ(run.result.outcome(), Outcome::cancelled);
     EXPECT_EQ(run.notes.advances, at) << "no further look once told to stop";
     expect_lawful(run, maze);
   }
@@ -151,7 +151,7 @@ TEST(BfsMaze, AfterTheDeadlineItIsATimeout) {
   context.deadline = Deadline::after_seconds(0);
   MazeRun run;
   search(run, straight(), {}, {}, accept, context);
-  EXPECT_EQ(run.result.outcome, Outcome::timeout);
+  EXPECT_EQ(run.result.outcome(), Outcome::timeout);
   EXPECT_EQ(run.notes.advances, 0u);
 }
 
@@ -159,28 +159,28 @@ TEST(BfsMaze, StepBudgetsAreKept) {
   MazeRun all;
   const Maze maze = winding(3);
   search(all, maze);
-  ASSERT_EQ(all.result.outcome, Outcome::solved);
+  ASSERT_EQ(all.result.outcome(), Outcome::solved);
   for (const std::uint64_t budget : {1u, 10u, 57u, 200u}) {
     MazeRun run;
     search(run, maze, {}, {.max_steps = budget});
     if (all.notes.steps > budget + maze.steps_per_advance) {
-      EXPECT_EQ(run.result.outcome, Outcome::timeout) << budget;
+      EXPECT_EQ(run.result.outcome(), Outcome::timeout) << budget;
     }
     EXPECT_LT(run.notes.steps, budget + maze.steps_per_advance) << "at most one look too far";
     expect_lawful(run, maze);
   }
   MazeRun enough;
   search(enough, maze, {}, {.max_steps = all.notes.steps + 1});
-  EXPECT_EQ(enough.result.outcome, Outcome::solved);
+  EXPECT_EQ(enough.result.outcome(), Outcome::solved);
 }
 
 TEST(BfsMaze, BothSearchesOfAutoShareOneStepBudget) {
   const Maze maze{.free = {Aabb{Vector3d::Constant(-0.05), Vector3d::Constant(0.05)}}};
   MazeRun translation, both;
   search(translation, maze, kTranslation);
-  ASSERT_EQ(translation.result.outcome, Outcome::exhausted);
+  ASSERT_EQ(translation.result.outcome(), Outcome::exhausted);
   search(both, maze, {}, {.max_steps = translation.notes.steps + 5});
-  EXPECT_EQ(both.result.outcome, Outcome::timeout);
+  EXPECT_EQ(both.result.outcome(), Outcome::timeout);
   EXPECT_LT(both.notes.steps, translation.notes.steps + 5 + maze.steps_per_advance);
 }
 
@@ -191,11 +191,11 @@ Maze two_ways() {
                                   tunnel(Vector3d::Zero(), Vector3d(0, 0, -7))}};
 }
 
-Verdict refuse_x(const Path& path, bool witness) {
-  Verdict v;
-  v.accepted = path.back()[0].t.x() < 1;
-  v.has_witness = witness && !v.accepted;
-  v.reason = v.accepted ? "" : "through the wall";
+Ruling refuse_x(const Path& path, bool witness) {
+  Ruling v;
+  v.accept = path.back()[0].t.x() < 1;
+  v.has_witness = witness && !v.accept;
+  v.reason = v.accept ? "" : "through the wall";
   return v;
 }
 
@@ -203,11 +203,11 @@ TEST(BfsMaze, LearnsFromARefusal) {
   MazeRun run;
   const Maze maze = two_ways();
   search(run, maze, {}, {}, [](const Path& p) { return refuse_x(p, true); });
-  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.notes.learned, 1u);
   EXPECT_EQ(run.judged.size(), 2u) << "the world holds now what the judge refused";
-  EXPECT_EQ(run.result.counts.at("refused"), 1);
-  EXPECT_LT(run.result.path.back()[0].t.z(), -4.9);
+  EXPECT_EQ(run.result.stats.refused, 1);
+  EXPECT_LT(run.result.path()->poses().back()[0].t.z(), -4.9);
   EXPECT_TRUE(run.result.message.empty());
   expect_lawful(run, maze);
 }
@@ -216,9 +216,9 @@ TEST(BfsMaze, GoesOnAfterARefusalWithoutWitness) {
   MazeRun run;
   const Maze maze = two_ways();
   search(run, maze, {}, {}, [](const Path& p) { return refuse_x(p, false); });
-  EXPECT_EQ(run.result.outcome, Outcome::solved);
+  EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.notes.learned, 0u);
-  EXPECT_LT(run.result.path.back()[0].t.z(), -4.9);
+  EXPECT_LT(run.result.path()->poses().back()[0].t.z(), -4.9);
   expect_lawful(run, maze);
 }
 
@@ -228,13 +228,13 @@ TEST(BfsMaze, WhatIsAlwaysRefusedIsNeverSolved) {
       MazeRun run;
       const Maze maze{.free = {Aabb{Vector3d::Constant(-50), Vector3d::Constant(50)}}};
       search(run, maze, {{"max_refusals", most}}, {}, [&](const Path&) {
-        Verdict v;
+        Ruling v;
         v.has_witness = witness;
         v.reason = "no";
         return v;
       });
-      EXPECT_FALSE(is_success(run.result.outcome));
-      EXPECT_TRUE(run.result.path.empty());
+      EXPECT_FALSE(is_success(run.result.outcome()));
+      EXPECT_FALSE(run.result.path());
       EXPECT_EQ(run.result.message, "no") << "the judge's reason is handed on";
       expect_lawful(run, maze);
     }
@@ -245,7 +245,7 @@ TEST(BfsMaze, RefusalsAreLimited) {
   const Maze maze{.free = {Aabb{Vector3d::Constant(-50), Vector3d::Constant(50)}}};
   ParamSet given = kTranslation;
   given["max_refusals"] = std::int64_t{3};
-  search(run, maze, given, {}, [](const Path&) { return Verdict{}; });
+  search(run, maze, given, {}, [](const Path&) { return Ruling{}; });
   EXPECT_EQ(run.judged.size(), 4u);
 }
 
@@ -258,10 +258,10 @@ TEST(BfsMaze, SameCallsSamePathWhateverTheSeed) {
     context.rng = Rng(seed);
     MazeRun run;
     search(run, maze, {}, {}, accept, context);
-    ASSERT_EQ(run.result.path.size(), first.result.path.size());
-    for (std::size_t k = 0; k < run.result.path.size(); ++k)
-      EXPECT_EQ(run.result.path[k][0].t, first.result.path[k][0].t);
-    EXPECT_EQ(run.result.counts, first.result.counts);
+    ASSERT_EQ(run.result.path()->poses().size(), first.result.path()->poses().size());
+    for (std::size_t k = 0; k < run.result.path()->poses().size(); ++k)
+      EXPECT_EQ(run.result.path()->poses()[k][0].t, first.result.path()->poses()[k][0].t);
+    EXPECT_EQ(run.result.stats, first.result.stats);
   }
 }
 
@@ -269,7 +269,7 @@ TEST(BfsMaze, NeedsDynamicsAndContactsForAllThatMove) {
   for (const Capabilities has : {Capabilities{false, true, true, 4}, {true, false, true, 4}, {true, true, true, 1}}) {
     MazeRun run;
     search(run, straight(), {}, {}, accept, {}, 2, has);
-    EXPECT_EQ(run.result.outcome, Outcome::unsupported);
+    EXPECT_EQ(run.result.outcome(), Outcome::unsupported);
     EXPECT_FALSE(run.result.message.empty());
     EXPECT_EQ(run.notes.advances, 0u);
   }
@@ -278,8 +278,8 @@ TEST(BfsMaze, NeedsDynamicsAndContactsForAllThatMove) {
 TEST(BfsMaze, SeveralPartsMoveAsOne) {
   MazeRun run;
   search(run, winding(2), {}, {}, accept, {}, 3);
-  ASSERT_EQ(run.result.outcome, Outcome::solved);
-  for (const auto& instant : run.result.path) {
+  ASSERT_EQ(run.result.outcome(), Outcome::solved);
+  for (const auto& instant : run.result.path()->poses()) {
     ASSERT_EQ(instant.size(), 3u);
     EXPECT_EQ(instant[0].t, instant[2].t);
   }
@@ -289,7 +289,7 @@ TEST(BfsMaze, TheBestPoseIsTheFurthest) {
   MazeRun run;
   const Maze maze{.free = {tunnel(Vector3d(-1, 0, 0), Vector3d(3, 0, 0))}};
   search(run, maze, {{"motion", std::string("translation")}, {"diagonals", false}}, {.max_steps = 1'000'000});
-  EXPECT_EQ(run.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(run.result.outcome(), Outcome::exhausted);
   ASSERT_EQ(run.result.best_pose.size(), 1u);
   EXPECT_NEAR(run.result.best_pose[0].t.x(), 3, 0.1);
 }

@@ -24,7 +24,7 @@ Assembly l_slot() {
 
 struct Bench : path::test::Table {
   using Table::Table;
-  PathResult plan(const std::vector<PartId>& moving, const ParamSet& given, const Effort& effort = {}) {
+  PathResult plan(const std::vector<PartId>& moving, const ParamSet& given, const Budget& effort = {}) {
     return Table::plan("bfs", given, 0, effort, moving);
   }
 };
@@ -32,26 +32,27 @@ struct Bench : path::test::Table {
 TEST(BfsPhysics, SolvesAnLSlotInTwoMoves) {
   Bench bench(l_slot());
   const PathResult translation = bench.plan({0}, {{"motion", std::string("translation")}});
-  ASSERT_EQ(translation.outcome, Outcome::solved) << translation.message;
+  ASSERT_EQ(translation.outcome(), Outcome::solved) << translation.message;
   EXPECT_EQ(translation.depth, 2u);
-  for (const auto& instant : translation.path)
+  for (const auto& instant : translation.path()->poses())
     EXPECT_EQ(instant[0].q.coeffs(), Eigen::Quaterniond::Identity().coeffs()) << "orientation is locked";
   double furthest = 0;
-  for (const auto& instant : translation.path) furthest = std::max(furthest, instant[0].t.x());
+  for (const auto& instant : translation.path()->poses()) furthest = std::max(furthest, instant[0].t.x());
   EXPECT_GE(furthest, 1.45);
-  EXPECT_GE(translation.path.back()[0].t.z(), 0.98);
+  EXPECT_GE(translation.path()->poses().back()[0].t.z(), 0.98);
 
   const PathResult automatic = bench.plan({0}, {});
-  ASSERT_EQ(automatic.outcome, Outcome::solved);
-  ASSERT_EQ(automatic.path.size(), translation.path.size()) << "auto tries translation first";
-  for (std::size_t k = 0; k < automatic.path.size(); ++k) EXPECT_EQ(automatic.path[k][0].t, translation.path[k][0].t);
+  ASSERT_EQ(automatic.outcome(), Outcome::solved);
+  ASSERT_EQ(automatic.path()->poses().size(), translation.path()->poses().size()) << "auto tries translation first";
+  for (std::size_t k = 0; k < automatic.path()->poses().size(); ++k)
+    EXPECT_EQ(automatic.path()->poses()[k][0].t, translation.path()->poses()[k][0].t);
 }
 
 TEST(BfsPhysics, DepthOneIsNotEnoughForAnLSlot) {
   Bench bench(l_slot());
   const ParamSet axes{{"diagonals", false}};
-  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 1}).outcome, Outcome::depth_limit);
-  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 2}).outcome, Outcome::solved);
+  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 1}).outcome(), Outcome::depth_limit);
+  EXPECT_EQ(bench.plan({0}, axes, {.max_depth = 2}).outcome(), Outcome::solved);
 }
 
 /// A room of 1.2 x 1 x 0.8 with walls of 0.03, and a block in it with `play` on all six sides.
@@ -68,10 +69,10 @@ TEST(BfsPhysics, AClosedBoxWithThinWallsIsExhausted) {
   Bench bench(closed_box(0.02));
   for (const char* motion : {"translation", "rotation", "auto"}) {
     const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 60'000});
-    EXPECT_EQ(r.outcome, Outcome::exhausted) << motion << ", " << r.counts.at("steps") << " steps";
-    EXPECT_EQ(r.counts.at("refused"), 0) << "the physics holds by itself";
+    EXPECT_EQ(r.outcome(), Outcome::exhausted) << motion << ", " << r.stats.steps << " steps";
+    EXPECT_EQ(r.stats.refused, 0) << "the physics holds by itself";
     EXPECT_EQ(r.blocked_by, std::vector<PartId>{1});
-    EXPECT_TRUE(r.path.empty());
+    EXPECT_FALSE(r.path());
   }
 }
 
@@ -79,8 +80,8 @@ TEST(BfsPhysics, NothingLeavesAClosedBoxHoweverLoose) {
   Bench bench(closed_box(0.15));
   for (const char* motion : {"translation", "rotation"}) {
     const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 6'000});
-    EXPECT_FALSE(is_success(r.outcome)) << motion;
-    EXPECT_EQ(r.counts.at("refused"), 0) << "the physics holds by itself";
+    EXPECT_FALSE(is_success(r.outcome())) << motion;
+    EXPECT_EQ(r.stats.refused, 0) << "the physics holds by itself";
   }
 }
 
@@ -88,9 +89,9 @@ TEST(BfsPhysics, ADepthLimitLimitsSimulatedSteps) {
   Bench bench(closed_box(0.15));
   for (const unsigned depth : {1u, 2u, 3u}) {
     const PathResult r = bench.plan({0}, {}, {.max_depth = depth});
-    EXPECT_EQ(r.outcome, Outcome::depth_limit) << depth;
+    EXPECT_EQ(r.outcome(), Outcome::depth_limit) << depth;
     // 2000 per level, once translating and from the second level on once turning; a run under way is ended.
-    EXPECT_LE(r.counts.at("steps"), (depth == 1 ? 1 : 2) * 2000.0 * depth + 2 * 500) << depth;
+    EXPECT_LE(r.stats.steps, (depth == 1 ? 1 : 2) * 2000.0 * depth + 2 * 500) << depth;
   }
 }
 
@@ -103,10 +104,10 @@ TEST(BfsPhysics, PartsThatMoveTogetherDoNotBlockEachOther) {
                           block(0.5 + c, -0.8, -c, 0.8, 0.8, 0.7), block(-0.5 - c, -0.8, -c, 0.5 + c, -0.5 - c, 0.7),
                           block(-0.5 - c, 0.5 + c, -c, 0.5 + c, 0.8, 0.7)})}));
   const PathResult both = bench.plan({0, 1}, {});
-  ASSERT_EQ(both.outcome, Outcome::solved);
+  ASSERT_EQ(both.outcome(), Outcome::solved);
   for (const PartId p : both.blocked_by) EXPECT_EQ(p, 2u) << "only what stands still blocks";
   const PathResult lower = bench.plan({0}, {{"motion", std::string("translation")}}, {.max_steps = 60'000});
-  EXPECT_EQ(lower.outcome, Outcome::exhausted);
+  EXPECT_EQ(lower.outcome(), Outcome::exhausted);
   ASSERT_FALSE(lower.blocked_by.empty());
   EXPECT_NE(std::find(lower.blocked_by.begin(), lower.blocked_by.end(), 1u), lower.blocked_by.end());
 }

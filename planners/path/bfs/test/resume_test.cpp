@@ -44,7 +44,7 @@ ParamSet translating() { return {{"motion", std::string("translation")}}; }
 struct Made {
   MazeRun run;
   Made(const RandomMaze& m, const char* planner, unsigned depth, const std::vector<PartId>& closed,
-       const Reached* reached = nullptr) {
+       const SearchState* reached = nullptr) {
     search(run, m.maze, translating(), {.max_depth = depth}, accept, {}, 1, {true, true, true, 4}, planner, {}, closed,
            reached);
   }
@@ -58,24 +58,24 @@ TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
       SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
       const RandomMaze m = random_maze(seed);
       const Made first(m, planner, 0, {kNear, kFar});
-      ASSERT_EQ(first.run.result.outcome, Outcome::exhausted) << "or it is no test";
-      ASSERT_NE(first.run.result.reached, nullptr);
-      const Made second(m, planner, 0, {kFar}, first.run.result.reached.get()), second_anew(m, planner, 0, {kFar});
-      ASSERT_EQ(second_anew.run.result.outcome, Outcome::exhausted);
-      EXPECT_EQ(second.run.result.outcome, Outcome::exhausted);
+      ASSERT_EQ(first.run.result.outcome(), Outcome::exhausted) << "or it is no test";
+      ASSERT_NE(first.run.result.state, nullptr);
+      const Made second(m, planner, 0, {kFar}, first.run.result.state.get()), second_anew(m, planner, 0, {kFar});
+      ASSERT_EQ(second_anew.run.result.outcome(), Outcome::exhausted);
+      EXPECT_EQ(second.run.result.outcome(), Outcome::exhausted);
       const auto far = [](const PathResult& r) { return r.best_pose.at(0).t.sum(); };
       EXPECT_GT(far(second_anew.run.result), far(first.run.result)) << "the gate was in the way";
       EXPECT_NEAR(far(second.run.result), far(second_anew.run.result), 0.3);
       EXPECT_EQ(second.run.result.blocked_by, second_anew.run.result.blocked_by)
           << "those that were touched before, too";
-      const Made third(m, planner, 0, {}, second.run.result.reached.get()), third_anew(m, planner, 0, {});
-      ASSERT_EQ(third_anew.run.result.outcome, Outcome::solved);
-      EXPECT_EQ(third.run.result.outcome, Outcome::solved);
-      EXPECT_EQ(third.run.result.path.front()[0].t, Vector3d::Zero());
-      EXPECT_GT(third.run.result.counts.at("resumed_nodes"), 0);
-      EXPECT_GT(third.run.result.counts.at("spared"), 0);
+      const Made third(m, planner, 0, {}, second.run.result.state.get()), third_anew(m, planner, 0, {});
+      ASSERT_EQ(third_anew.run.result.outcome(), Outcome::solved);
+      EXPECT_EQ(third.run.result.outcome(), Outcome::solved);
+      EXPECT_EQ(third.run.result.path()->poses().front()[0].t, Vector3d::Zero());
+      EXPECT_GT(third.run.result.stats.resumed_nodes, 0);
+      EXPECT_GT(third.run.result.stats.spared, 0);
       EXPECT_LT(third.run.notes.steps, third_anew.run.notes.steps);
-      EXPECT_EQ(third.run.result.reached, nullptr);
+      EXPECT_EQ(third.run.result.state, nullptr);
     }
 }
 
@@ -85,15 +85,15 @@ TEST(Resume, GoesDeeperWithoutDoingThingsTwice) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       SCOPED_TRACE(std::string(planner) + ", seed " + std::to_string(seed));
       const RandomMaze m = random_maze(seed);
-      std::shared_ptr<const Reached> reached;
+      std::shared_ptr<const SearchState> reached;
       std::uint64_t steps = 0, steps_anew = 0;
       for (unsigned depth = 1; depth <= m.bends + 1; ++depth) {
         const Made on(m, planner, depth, {}, reached.get()), anew(m, planner, depth, {});
-        EXPECT_EQ(on.run.result.outcome, anew.run.result.outcome) << "depth " << depth;
-        reached = on.run.result.reached;
+        EXPECT_EQ(on.run.result.outcome(), anew.run.result.outcome()) << "depth " << depth;
+        reached = on.run.result.state;
         steps += on.run.notes.steps;
         steps_anew = anew.run.notes.steps;
-        if (is_success(anew.run.result.outcome)) break;
+        if (is_success(anew.run.result.outcome())) break;
       }
       EXPECT_LT(steps, 1.2 * static_cast<double>(steps_anew));
     }
@@ -111,7 +111,7 @@ TEST(Resume, InPortionsAsInOneGo) {
           {"motion", std::string("translation")}, {"diagonals", false}, {"intermediate", std::int64_t{0}}};
       MazeRun whole;
       search(whole, m.maze, few, {}, accept, {}, 1, {true, true, true, 4}, "bfs", {}, closed);
-      std::shared_ptr<const Reached> reached;
+      std::shared_ptr<const SearchState> reached;
       Outcome end = Outcome::timeout;
       int portions = 0;
       double nodes = 0;
@@ -119,14 +119,14 @@ TEST(Resume, InPortionsAsInOneGo) {
         MazeRun run;
         search(run, m.maze, few, {.max_steps = 550 + 37 * seed}, accept, {}, 1, {true, true, true, 4}, "bfs", {},
                closed, reached.get());
-        reached = run.result.reached;
-        end = run.result.outcome;
-        nodes = run.result.counts.at("nodes");
+        reached = run.result.state;
+        end = run.result.outcome();
+        nodes = run.result.stats.nodes;
       }
       cut += portions > 1 ? 1 : 0;
-      EXPECT_EQ(end, whole.result.outcome);
+      EXPECT_EQ(end, whole.result.outcome());
       if (!open) {
-        EXPECT_EQ(nodes, whole.result.counts.at("nodes"));
+        EXPECT_EQ(nodes, whole.result.stats.nodes);
       }
     }
   EXPECT_GT(cut, 20);
@@ -136,7 +136,7 @@ TEST(Resume, InPortionsAsInOneGo) {
 TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const RandomMaze m = random_maze(seed);
-    const auto plan = [&](unsigned depth, const Reached* reached) {
+    const auto plan = [&](unsigned depth, const SearchState* reached) {
       MazeRun run;
       search(run, m.maze,
              {{"motion", std::string("auto")},
@@ -145,12 +145,12 @@ TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
              {.max_depth = depth}, accept, {}, 1, {true, true, true, 4}, "bfs", {}, {kFar}, reached);
       return run.result;
     };
-    const PathResult first = plan(6, nullptr), again = plan(6, first.reached.get()),
-                     more = plan(6, again.reached.get()), still_more = plan(6, more.reached.get());
-    EXPECT_EQ(first.counts.at("expanded"), 6 + 6);
-    EXPECT_EQ(again.counts.at("expanded"), 3 + 3);
-    EXPECT_EQ(more.counts.at("expanded"), 3 + 3);
-    EXPECT_EQ(still_more.counts.at("expanded"), 3 + 3) << "however much is known";
+    const PathResult first = plan(6, nullptr), again = plan(6, first.state.get()), more = plan(6, again.state.get()),
+                     still_more = plan(6, more.state.get());
+    EXPECT_EQ(first.stats.extra.at("expanded"), 6 + 6);
+    EXPECT_EQ(again.stats.extra.at("expanded"), 3 + 3);
+    EXPECT_EQ(more.stats.extra.at("expanded"), 3 + 3);
+    EXPECT_EQ(still_more.stats.extra.at("expanded"), 3 + 3) << "however much is known";
   }
 }
 
@@ -158,9 +158,9 @@ TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
 TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
   const RandomMaze m = random_maze(3);
   const Made first(m, "bfs", 0, {kFar});
-  ASSERT_EQ(first.run.result.outcome, Outcome::exhausted);
-  const Made again(m, "bfs", 0, {kFar}, first.run.result.reached.get());
-  EXPECT_EQ(again.run.result.outcome, Outcome::exhausted);
+  ASSERT_EQ(first.run.result.outcome(), Outcome::exhausted);
+  const Made again(m, "bfs", 0, {kFar}, first.run.result.state.get());
+  EXPECT_EQ(again.run.result.outcome(), Outcome::exhausted);
   EXPECT_EQ(again.run.notes.steps, 0U);
   EXPECT_EQ(again.run.result.blocked_by, first.run.result.blocked_by);
 }
@@ -169,13 +169,13 @@ TEST(Resume, WhereNothingHasChangedNothingIsSimulated) {
 TEST(Resume, WhatIsOutNowIsJudgedAtOnce) {
   const RandomMaze m = random_maze(5);
   const Made first(m, "bfs", 0, {kFar});
-  ASSERT_EQ(first.run.result.outcome, Outcome::exhausted);
+  ASSERT_EQ(first.run.result.outcome(), Outcome::exhausted);
   RandomMaze open = m;
   open.maze.exit = Aabb{Vector3d::Constant(-0.2), Vector3d::Constant(0.2)};
-  const Made again(open, "bfs", 0, {}, first.run.result.reached.get());
-  EXPECT_EQ(again.run.result.outcome, Outcome::solved);
+  const Made again(open, "bfs", 0, {}, first.run.result.state.get());
+  EXPECT_EQ(again.run.result.outcome(), Outcome::solved);
   EXPECT_EQ(again.run.notes.steps, 0U);
-  ASSERT_GE(again.run.result.path.size(), 2U);
+  ASSERT_GE(again.run.result.path()->poses().size(), 2U);
   EXPECT_GE(again.run.result.depth, 1U);
 }
 
@@ -185,9 +185,9 @@ TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
   const Made first(m, "bfs", 0, {kFar});
   RandomMaze open = m;
   open.maze.exit = Aabb{Vector3d::Constant(7), Vector3d::Constant(8)};
-  const Made again(open, "bfs", 0, {}, first.run.result.reached.get());
-  EXPECT_EQ(again.run.result.outcome, Outcome::start_is_goal);
-  EXPECT_EQ(again.run.result.path.size(), 2U);
+  const Made again(open, "bfs", 0, {}, first.run.result.state.get());
+  EXPECT_EQ(again.run.result.outcome(), Outcome::start_is_goal);
+  EXPECT_EQ(again.run.result.path()->poses().size(), 2U);
 }
 
 /// What the judge has taught is not forgotten, unless it was about what has left.
@@ -198,30 +198,30 @@ TEST(Resume, LessonsAreKept) {
     leaky.free.push_back(tunnel(Vector3d::Zero(), -12 * Vector3d::UnitX()));
     leaky.free_after_learning = m.maze.free;
     const Judge refuse_the_leak = [about_gate](const Path& path) {
-      Verdict v;
-      v.accepted = path.back()[0].t.x() > 0;
-      if (!v.accepted) v.has_witness = true, v.part = 0, v.other = about_gate ? kFar : 9;
+      Ruling v;
+      v.accept = path.back()[0].t.x() > 0;
+      if (!v.accept) v.has_witness = true, v.part = 0, v.other = about_gate ? kFar : 9;
       return v;
     };
     MazeRun first, again;
     search(first, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {kFar});
-    ASSERT_EQ(first.result.outcome, Outcome::exhausted);
+    ASSERT_EQ(first.result.outcome(), Outcome::exhausted);
     ASSERT_EQ(first.judged.size(), 1U);
     search(again, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {},
-           first.result.reached.get());
-    EXPECT_EQ(again.result.outcome, Outcome::solved);
+           first.result.state.get());
+    EXPECT_EQ(again.result.outcome(), Outcome::solved);
     EXPECT_EQ(again.notes.learned, about_gate ? again.judged.size() - 1 : 1U);
   }
 }
 
 /// What other planners have kept is none of its business.
 TEST(Resume, WhatIsNotItsOwnIsIgnored) {
-  class Strange final : public Reached {};
+  class Strange final : public SearchState {};
   const Strange strange;
   const RandomMaze m = random_maze(2);
   const Made with(m, "bfs", 0, {}, &strange), without(m, "bfs", 0, {});
-  EXPECT_EQ(with.run.result.outcome, Outcome::solved);
-  EXPECT_EQ(with.run.result.counts, without.run.result.counts);
+  EXPECT_EQ(with.run.result.outcome(), Outcome::solved);
+  EXPECT_EQ(with.run.result.stats, without.run.result.stats);
 }
 
 }  // namespace

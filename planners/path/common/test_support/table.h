@@ -1,4 +1,4 @@
-/// A small assembly with the simulator sdf_penalty and the verifier as its judge.
+/// A small assembly with the simulator sdf_penalty and the verifier.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/path_planner.h"
-#include "dismantle/verification/verdict.h"
+#include "dismantle/testing/path_checking.h"
 #include "solids.h"
 
 namespace dismantle::path::test {
@@ -34,7 +34,7 @@ struct Table {
 
   explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
     RunContext context;
-    prepared = simulator->prepare(assembly, context);
+    prepared = simulator->prepare(assembly, 0.01, context);
   }
 
   /// Part 0 leaves, by this path planner.
@@ -43,10 +43,10 @@ struct Table {
     return plan(planner, given, seed, {.max_depth = max_depth, .max_steps = max_steps}, {0});
   }
 
-  /// These parts leave as one; others may have left before. Goes on from what was `reached`.
-  PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Effort& effort,
+  /// These parts leave as one; others may have left before.
+  PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Budget& budget,
                   const std::vector<PartId>& moving, const std::vector<PartId>& left = {},
-                  const Reached* reached = nullptr) {
+                  const SearchState* resume_from = nullptr) {
     Cast cast;
     for (const auto& part : assembly.parts) {
       if (std::find(left.begin(), left.end(), part.id) != left.end()) continue;
@@ -56,16 +56,17 @@ struct Table {
     RunContext context;
     context.rng = Rng(seed);
     context.executor = executor;
-    const auto judge = [&](const Path& path) {
+    const fake::RuleChecker checker([&](const Path& path) {
       ++judged;
-      Verdict v = verdict_of(verifier.check_motion(moving, cast.still, path));
+      fake::Ruling ruling = fake::ruling_of(verifier.check_motion(moving, cast.still, path));
       std::vector<PlacedPart> group = cast.moving;
       for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = path.back()[i];
-      v.accepted = v.accepted && verifier.apart(group, cast.still);
-      return v;
-    };
-    const PathQuery query{assembly, *simulator, *prepared, cast, effort, judge, {}, reached};
-    return registry().create<PathPlanner>(planner, given)->plan(query, context);
+      ruling.accept = ruling.accept && verifier.apart(group, cast.still);
+      return ruling;
+    });
+    const PathQuery query{assembly, *simulator, *prepared,  cast, budget, verifier.options().max_penetration,
+                          checker,  {},         resume_from};
+    return plan_path(*registry().create<PathPlanner>(planner, given), query, context);
   }
 };
 

@@ -50,14 +50,14 @@ ParamSet led(std::int64_t looks) {
 TEST(LedWalk, TakesAPlateOutOfAMaze) {
   Table table(maze(0.75));
   const PathResult without = table.plan("guided", led(0), 1, 0, 2);
-  EXPECT_FALSE(is_success(without.outcome)) << "or it is no test";
+  EXPECT_FALSE(is_success(without.outcome())) << "or it is no test";
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const PathResult with = table.plan("guided", led(4000), seed, 0, 2);
-    ASSERT_EQ(with.outcome, Outcome::solved) << with.message;
-    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}}, with.path).valid);
+    ASSERT_EQ(with.outcome(), Outcome::solved) << with.message;
+    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}}, with.path()->poses()).valid);
     const PathResult again = table.plan("guided", led(4000), seed, 0, 2);
-    ASSERT_EQ(again.path.size(), with.path.size());
-    EXPECT_TRUE(again.path.back()[0].t == with.path.back()[0].t);
+    ASSERT_EQ(again.path()->poses().size(), with.path()->poses().size());
+    EXPECT_TRUE(again.path()->poses().back()[0].t == with.path()->poses().back()[0].t);
   }
 }
 
@@ -74,24 +74,24 @@ TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
   const ParamSet few{{"lead_looks", std::int64_t{1000}}, {"squeeze_looks", std::int64_t{1000}}};
   double nodes = 0, nodes_anew = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const auto plan = [&](const std::vector<PartId>& left, const Reached* reached) {
+    const auto plan = [&](const std::vector<PartId>& left, const SearchState* reached) {
       return table.plan("guided", few, seed, {.max_depth = 3}, {0}, left, reached);
     };
     const PathResult shut = plan({}, nullptr);
-    ASSERT_FALSE(is_success(shut.outcome));
-    ASSERT_NE(shut.reached, nullptr);
-    const PathResult open = plan({2}, shut.reached.get()), open_anew = plan({2}, nullptr);
-    ASSERT_EQ(open.outcome, Outcome::solved) << open.message;
-    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}, {3, Pose{}}}, open.path).valid);
-    EXPECT_EQ(open.path.front()[0].t, Eigen::Vector3d::Zero());
-    EXPECT_GT(open.counts.at("led_resumed_nodes"), 0);
-    EXPECT_EQ(open.counts.at("led_spared"), shut.counts.at("led_looks"));
-    nodes += open.counts.at("led_nodes") - open.counts.at("led_resumed_nodes");
-    nodes_anew += open_anew.counts.at("led_nodes");
-    const PathResult stuck = plan({3}, shut.reached.get());
-    EXPECT_FALSE(is_success(stuck.outcome));
-    EXPECT_FALSE(stuck.counts.contains("led_resumed_nodes"));
-    EXPECT_FALSE(stuck.counts.contains("squeeze_resumed_nodes"));
+    ASSERT_FALSE(is_success(shut.outcome()));
+    ASSERT_NE(shut.state, nullptr);
+    const PathResult open = plan({2}, shut.state.get()), open_anew = plan({2}, nullptr);
+    ASSERT_EQ(open.outcome(), Outcome::solved) << open.message;
+    EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}, {3, Pose{}}}, open.path()->poses()).valid);
+    EXPECT_EQ(open.path()->poses().front()[0].t, Eigen::Vector3d::Zero());
+    EXPECT_GT(open.stats.extra.at("led_resumed_nodes"), 0);
+    EXPECT_EQ(open.stats.extra.at("led_spared"), shut.stats.extra.at("led_state_checks"));
+    nodes += open.stats.extra.at("led_nodes") - open.stats.extra.at("led_resumed_nodes");
+    nodes_anew += open_anew.stats.extra.at("led_nodes");
+    const PathResult stuck = plan({3}, shut.state.get());
+    EXPECT_FALSE(is_success(stuck.outcome()));
+    EXPECT_FALSE(stuck.stats.extra.contains("led_resumed_nodes"));
+    EXPECT_FALSE(stuck.stats.extra.contains("squeeze_resumed_nodes"));
   }
   EXPECT_LT(nodes, nodes_anew);
 }
@@ -105,20 +105,21 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
       const PathResult alone = table.plan("guided", few, 1, 0, depth);
       table.executor = std::make_shared<Executor>(3);
       const PathResult helped = table.plan("guided", few, 1, 0, depth);
-      EXPECT_EQ(helped.outcome, alone.outcome);
-      EXPECT_EQ(helped.counts, alone.counts);
+      EXPECT_EQ(helped.outcome(), alone.outcome());
+      EXPECT_EQ(helped.stats, alone.stats);
       EXPECT_EQ(helped.blocked_by, alone.blocked_by);
       EXPECT_EQ(helped.message, alone.message);
-      ASSERT_EQ(helped.path.size(), alone.path.size());
-      for (std::size_t k = 0; k < alone.path.size(); ++k) EXPECT_EQ(helped.path[k][0].t, alone.path[k][0].t);
+      ASSERT_EQ(helped.path()->poses().size(), alone.path()->poses().size());
+      for (std::size_t k = 0; k < alone.path()->poses().size(); ++k)
+        EXPECT_EQ(helped.path()->poses()[k][0].t, alone.path()->poses()[k][0].t);
     }
 }
 
 TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
   Table table(maze(0));
   const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
-  EXPECT_FALSE(is_success(r.outcome));
-  EXPECT_FALSE(r.counts.contains("led_looks"));
+  EXPECT_FALSE(is_success(r.outcome()));
+  EXPECT_FALSE(r.stats.extra.contains("led_state_checks"));
 }
 
 /// A ring on a spool, with a little play: held where it is, however free the room around it.
@@ -134,15 +135,15 @@ TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
       block(x - a, y - out, lo, x + a, y - a, hi), block(x - a, y + a, lo, x + a, y + out, hi)};
   Table table(assembly_of({boxes(ring), boxes(still)}));
   const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
-  EXPECT_FALSE(is_success(r.outcome));
-  EXPECT_LT(r.counts.at("led_looks"), 500);
+  EXPECT_FALSE(is_success(r.outcome()));
+  EXPECT_LT(r.stats.extra.at("led_state_checks"), 500);
 }
 
 TEST(LedWalk, GivesUpWhereTheBodyDoesNotFit) {
   Table table(maze(0.3));
   const PathResult r = table.plan("guided", led(1000), 1, 0, 2);
-  EXPECT_FALSE(is_success(r.outcome));
-  EXPECT_GT(r.counts.at("led_looks"), 0);
+  EXPECT_FALSE(is_success(r.outcome()));
+  EXPECT_GT(r.stats.extra.at("led_state_checks"), 0);
 }
 
 /// Two holes in one wall: the near one lets balls through, but no plate.
@@ -156,9 +157,9 @@ TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
   walls.push_back(block(0.8, 1.2, 0, 0.9, kWidth, 0.5));  // makes the way to the other one longer
   Table table(assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)}));
   const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
-  ASSERT_TRUE(r.counts.contains("led_detours")) << "pushes were enough: it is no test";
-  EXPECT_EQ(r.outcome, Outcome::solved) << r.message;
-  EXPECT_GE(r.counts.at("led_detours"), 1);
+  ASSERT_TRUE(r.stats.extra.contains("led_detours")) << "pushes were enough: it is no test";
+  EXPECT_EQ(r.outcome(), Outcome::solved) << r.message;
+  EXPECT_GE(r.stats.extra.at("led_detours"), 1);
 }
 
 /// A wire wound wider than the hole in the wall before it: out by screwing, and by nothing else.
@@ -190,7 +191,7 @@ TEST(LedWalk, ScrewsASpringThroughAHole) {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
-    if (is_success(r.outcome)) ++solved;
+    if (is_success(r.outcome())) ++solved;
   }
   EXPECT_GE(solved, 2);
 }
@@ -204,10 +205,11 @@ TEST(LedWalk, DoesNotTakeAnOverlapThroughAWall) {
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
-    if (!is_success(r.outcome)) continue;
+    if (!is_success(r.outcome())) continue;
     ++solved;
     const DepthBody spring(scene.spring), wall(scene.wall);
-    for (const auto& instant : r.path) EXPECT_LT(penetration_depth(spring, instant[0], wall, Pose{}, 1e-3), 0.012);
+    for (const auto& instant : r.path()->poses())
+      EXPECT_LT(penetration_depth(spring, instant[0], wall, Pose{}, 1e-3), 0.012);
   }
   EXPECT_GE(solved, 2);
 }

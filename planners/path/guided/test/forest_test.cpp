@@ -26,14 +26,14 @@ TEST(GuidedForest, TakesARingOffAnOpenOneThatPushesDoNot) {
     const Pose turned{Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()), tunnel_forest::random_turn(rng)};
     Table table(assembly_of({linked_ring(), open_ring(0.6)}, k == 1 ? Pose{} : turned));
     const PathResult alone = table.plan("guided", forest(2000, 0), k, 20'000);
-    EXPECT_EQ(alone.outcome, Outcome::timeout) << "or it is no test";
-    EXPECT_FALSE(alone.counts.contains("forest_steps"));
+    EXPECT_EQ(alone.outcome(), Outcome::timeout) << "or it is no test";
+    EXPECT_FALSE(alone.stats.extra.contains("forest_steps"));
     const PathResult both = table.plan("guided", forest(2000, 1'000'000), k, 1'000'000);
-    ASSERT_EQ(both.outcome, Outcome::solved) << k;
-    EXPECT_GT(both.counts.at("forest_steps"), 0);
+    ASSERT_EQ(both.outcome(), Outcome::solved) << k;
+    EXPECT_GT(both.stats.extra.at("forest_steps"), 0);
     const PathResult again = table.plan("guided", forest(2000, 1'000'000), k, 1'000'000);
-    ASSERT_EQ(again.path.size(), both.path.size());
-    EXPECT_TRUE(again.path.back()[0].t == both.path.back()[0].t);
+    ASSERT_EQ(again.path()->poses().size(), both.path()->poses().size());
+    EXPECT_TRUE(again.path()->poses().back()[0].t == both.path()->poses().back()[0].t);
   }
 }
 
@@ -41,9 +41,9 @@ TEST(GuidedForest, BothLiveOnOneBudget) {
   for (const std::uint64_t steps : {500u, 3000u, 9000u}) {
     Table table(assembly_of({linked_ring(), open_ring(0.4)}));
     const PathResult r = table.plan("guided", forest(1000, 1'000'000), 1, steps);
-    EXPECT_EQ(r.outcome, Outcome::timeout);
-    double used = r.counts.at("steps") + r.counts.at("looks");
-    if (r.counts.contains("forest_steps")) used += r.counts.at("forest_steps");
+    EXPECT_EQ(r.outcome(), Outcome::timeout);
+    double used = r.stats.cost;  // state checks of the forest are not limited
+    if (r.stats.extra.contains("forest_state_checks")) used -= r.stats.extra.at("forest_state_checks");
     EXPECT_GE(used, 0.9 * static_cast<double>(steps));
     EXPECT_LE(used, static_cast<double>(steps) + 200);
   }
@@ -51,7 +51,7 @@ TEST(GuidedForest, BothLiveOnOneBudget) {
 
 TEST(GuidedForest, UnderADepthLimitThereIsNone) {
   Table table(assembly_of({linked_ring(), open_ring(0.6)}));
-  EXPECT_FALSE(table.plan("guided", forest(1, 1'000'000), 1, 20'000, 2).counts.contains("forest_steps"));
+  EXPECT_FALSE(table.plan("guided", forest(1, 1'000'000), 1, 20'000, 2).stats.extra.contains("forest_steps"));
 }
 
 }  // namespace

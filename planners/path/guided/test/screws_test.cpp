@@ -25,14 +25,14 @@ void expect_solved(const Assembly& assembly, const std::string& name, std::uint6
       std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const Part& p) { return p.name == name; });
   ASSERT_NE(part, assembly.parts.end());
   const PathResult result = table.plan("guided", {}, 0, {.max_steps = most_steps}, {part->id});
-  ASSERT_EQ(result.outcome, Outcome::solved) << result.message;
+  ASSERT_EQ(result.outcome(), Outcome::solved) << result.message;
   std::vector<PlacedPart> still;
   for (const Part& p : assembly.parts)
     if (p.id != part->id) still.push_back({p.id, Pose{}});
-  EXPECT_TRUE(table.verifier.check_motion({part->id}, still, result.path).valid);
+  EXPECT_TRUE(table.verifier.check_motion({part->id}, still, result.path()->poses()).valid);
   double turned = 0;
-  for (std::size_t k = 1; k < result.path.size(); ++k)
-    turned += angle_between(result.path[k - 1][0].q, result.path[k][0].q);
+  for (std::size_t k = 1; k < result.path()->poses().size(); ++k)
+    turned += angle_between(result.path()->poses()[k - 1][0].q, result.path()->poses()[k][0].q);
   EXPECT_GT(turned, 0.5) << "it takes a turn";
 }
 

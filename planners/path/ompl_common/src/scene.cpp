@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "dismantle/geometry/hull.h"
+#include "dismantle/path/shortcuts.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -31,17 +32,17 @@ void silence_ompl() {
 
 }  // namespace
 
-Budget::Budget(const PathQuery& query, const RunContext& run)
-    : max_checks(query.effort.max_steps),
+CheckBudget::CheckBudget(const PathQuery& query, const RunContext& run)
+    : max_checks(query.budget.max_steps),
       context(run),
-      deadline(query.effort.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.effort.timeout))
+      deadline(query.budget.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                         : run.deadline) {}
 
-bool Budget::spent() const {
+bool CheckBudget::spent() const {
   return (max_checks > 0 && checks >= max_checks) || context.cancel.cancelled() || deadline.passed();
 }
 
-Outcome Budget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
+Outcome CheckBudget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
 
 Surroundings::Surroundings(const PathQuery& query, const World& world, const Pose& goal) {
   const auto& moving = query.cast.moving;
@@ -97,7 +98,7 @@ class Scene::Validator final : public ompl::base::MotionValidator {
   Scene& scene_;
 };
 
-Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget,
+Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
              const Pose& goal)
     : query_(query),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
@@ -188,16 +189,8 @@ Path Scene::path(const std::vector<StateType>& states, std::vector<std::size_t>*
 }
 
 std::vector<StateType> Scene::shortcut(const std::vector<StateType>& states) {
-  std::vector<StateType> kept;
-  if (states.empty()) return kept;
-  kept.push_back(states.front());
-  for (std::size_t at = 0; at + 1 < states.size();) {
-    std::size_t to = states.size() - 1;
-    while (to > at + 1 && !motion_is_free(states[at], states[to])) to = at + (to - at + 1) / 2;
-    kept.push_back(states[to]);
-    at = to;
-  }
-  return kept;
+  return path::shortcut_by_halving(states,
+                                   [this](const StateType& a, const StateType& b) { return motion_is_free(a, b); });
 }
 
 void Scene::note_blocked(const StateType& state) {

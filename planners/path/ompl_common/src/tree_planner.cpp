@@ -3,8 +3,12 @@
 #include <ompl/base/ProblemDefinition.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
+#include <utility>
+
+#include "dismantle/path/candidates.h"
+#include "dismantle/path/ended_search.h"
+#include "dismantle/path/growing_turns.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -14,52 +18,55 @@ using StateType = Scene::StateType;
 /// Checks of the first turn of a tree where two grow in turn; each round doubles it.
 constexpr std::uint64_t kFirstTurn = 4'000;
 
-/// Shows a path to the judge.
-class Court {
+/// Shows a path to the checker, simplified and then as it is.
+class Candidates {
  public:
-  Court(const PathQuery& query, bool simplify) : query_(query), simplify_(simplify) {}
+  Candidates(const PathChecker& checker, bool simplify) : checker_(checker), simplify_(simplify) {}
 
   /// True: `result` holds the path. False: `edge` is that of `states` which is at fault.
   bool accepts(Scene& scene, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
+    std::vector<std::vector<StateType>> forms;
     if (simplify_ && states.size() > 2) {
-      const auto shorter = scene.shortcut(states);
-      if (shorter.size() < states.size() && shown(scene, shorter, result, edge)) return true;
+      forms.push_back(scene.shortcut(states));
+      if (forms.back().size() >= states.size()) forms.clear();
     }
-    return shown(scene, states, result, edge);
+    forms.push_back(states);
+    std::vector<std::size_t> edge_of;
+    std::size_t shown = 0;
+    return path::show_forms(
+               checker_, refused_,
+               [&](std::size_t k) -> std::optional<Path> {
+                 shown = k;
+                 return k < forms.size() ? std::optional(scene.path(forms[k], &edge_of)) : std::nullopt;
+               },
+               [&](const PathCheck& check, const Path&) {
+                 result.message = check.reason;
+                 // The instant is the last one before the fault: the edge that
+                 // follows is to blame. Without a place, the last.
+                 edge = check.has_witness ? edge_of[std::min(check.instant + 1, edge_of.size() - 1)]
+                                          : forms[shown].size() - 1;
+                 edge = std::max<std::size_t>(edge, 1);
+                 return true;
+               },
+               [&](VerifiedPath path) {
+                 result.solve(std::move(path), static_cast<unsigned>(forms[shown].size() - 1));
+               })
+        .accepted;
   }
   std::uint64_t refused() const { return refused_; }
 
  private:
-  bool shown(Scene& scene, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
-    std::vector<std::size_t> edge_of;
-    Path path = scene.path(states, &edge_of);
-    const Verdict verdict = query_.judge(path);
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.depth = static_cast<unsigned>(states.size() - 1);
-      result.path = std::move(path);
-      result.message.clear();
-      return true;
-    }
-    ++refused_;
-    result.message = verdict.reason;
-    // The instant is the last one before the fault: the edge that follows is to blame. Without a place, the last.
-    edge = verdict.has_witness ? edge_of[std::min(verdict.instant + 1, edge_of.size() - 1)] : states.size() - 1;
-    edge = std::max<std::size_t>(edge, 1);
-    return false;
-  }
-
-  const PathQuery& query_;
+  const PathChecker& checker_;
   bool simplify_;
   std::uint64_t refused_ = 0;
 };
 
 /// One tree in one state space.
-class Search {
+class Tree {
  public:
-  Search(const PathQuery& query, MotionSpace motion, const TreeParameters& p, const MakeRule& make_rule, Budget& budget,
-         const Rng& rng)
-      : scene_(query, motion, p.max_penetration, p.step, budget),
+  Tree(const PathQuery& query, MotionSpace motion, const TreeParameters& p, const MakeRule& make_rule,
+       CheckBudget& budget, const Rng& rng)
+      : scene_(query, motion, p.tolerance_share * query.tolerance, p.step, budget),
         tree_(scene_, {p.goal_bias, p.range}, make_rule(scene_, rng.fork(1)), rng.fork(2)) {
     auto problem = std::make_shared<ompl::base::ProblemDefinition>(scene_.information());
     const StateType start = scene_.space().start();
@@ -69,25 +76,27 @@ class Search {
   }
 
   Scene& scene() { return scene_; }
+  const Scene& scene() const { return scene_; }
   const TargetTree& tree() const { return tree_; }
 
-  /// Until a path is accepted, or `limit` checks have been made in all, or the budget is spent.
-  bool grow(Court& court, std::uint64_t limit, PathResult& result) {
+  /// Until a path is accepted, or `limit` checks have been made in all, or the
+  /// budget is spent.
+  bool grow(Candidates& candidates, std::uint64_t limit, PathResult& result) {
     const ompl::base::PlannerTerminationCondition stop(
         [&] { return scene_.budget().checks >= limit || scene_.budget().spent(); });
     while (tree_.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION) {
       std::vector<StateType> states;
       for (const auto n : tree_.solution()) states.push_back(tree_.state(n));
       std::size_t edge = 1;
-      if (court.accepts(scene_, states, result, edge)) return true;
+      if (candidates.accepts(scene_, states, result, edge)) return true;
       tree_.discard(tree_.solution()[edge]);
     }
     return false;
   }
 
   /// Straight on along each direction until out or blocked.
-  bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, Court& court, std::uint64_t limit,
-                 PathResult& result) {
+  bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, Candidates& candidates,
+                 std::uint64_t limit, PathResult& result) {
     const StateType start = scene_.space().start();
     const double far = 2 * scene_.surroundings().bounds.size().norm();
     for (const auto& direction : directions) {
@@ -102,7 +111,7 @@ class Search {
         way += range;
         if (!scene_.is_out(at)) continue;
         std::size_t edge = 1;
-        if (court.accepts(scene_, {start, at}, result, edge)) return true;
+        if (candidates.accepts(scene_, {start, at}, result, edge)) return true;
         break;
       }
     }
@@ -116,82 +125,108 @@ class Search {
   std::uint64_t lines_ = 0;
 };
 
-/// Checks that a limit of depth allows; 0 = no limit.
-std::uint64_t level_limit(const Effort& effort, const TreeParameters& p) {
-  if (effort.max_depth == 0) return 0;
-  const double checks =
-      std::ldexp(static_cast<double>(p.level_checks), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
-  return checks < 1e18 ? static_cast<std::uint64_t>(checks) : 0;
-}
+class TreesSearch final : public PathSearch {
+ public:
+  TreesSearch(const PathQuery& query, RunContext& context, const TreeParameters& parameters, const MakeRule& make_rule,
+              const MakeLines& make_lines)
+      : query_(query),
+        context_(context),
+        parameters_(parameters),
+        make_lines_(make_lines),
+        budget_(query, context),
+        level_(path::doubled_per_level(parameters.level_checks, query.budget.max_depth)),
+        candidates_(query.checker, parameters.simplify),
+        turns_(parameters.motion == Motion::automatic ? 2 : 1, kFirstTurn) {
+    const auto add = [&](MotionSpace motion, std::uint64_t stream) {
+      trees_.push_back(std::make_unique<Tree>(query, motion, parameters, make_rule, budget_, context.rng.fork(stream)));
+    };
+    // A motion without turns is a motion in SE(3), too: lines need no space of
+    // their own.
+    if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
+    if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
+  }
+
+  SearchStatus run(const Budget& portion) override {
+    if (is_success(result_.outcome())) return SearchStatus::solved;
+    const bool first = !begun_;
+    begun_ = true;
+    if (first && starts_out()) {
+      result_.start_is_goal();
+      return SearchStatus::solved;
+    }
+    const std::uint64_t until = path::end_of_portion(budget_.checks, portion.max_steps, level_);
+    const Deadline query_end = budget_.deadline;
+    if (portion.timeout > 0) budget_.deadline = query_end.earlier(Deadline::after_seconds(portion.timeout));
+    bool solved = false;
+    if (first && make_lines_)
+      solved = trees_.front()->try_lines(make_lines_(query_), parameters_.range, candidates_, level_, result_);
+    if (!solved)
+      turns_.run(
+          until, [&] { return budget_.checks; },
+          [&](std::size_t tree, std::uint64_t share) {
+            solved = trees_[tree]->grow(candidates_, share, result_);
+            return solved || budget_.spent();
+          });
+    budget_.deadline = query_end;
+    if (solved) return SearchStatus::solved;
+    result_.fail(budget_.spent() ? budget_.why() : Outcome::depth_limit);
+    if (budget_.spent() || budget_.checks >= level_) return status_of(result_.outcome());
+    return SearchStatus::paused;
+  }
+
+  PathResult result() override {
+    PathResult result = result_;
+    if (!is_success(result.outcome())) {
+      const Tree* furthest = nullptr;
+      double most = -1;
+      for (const auto& t : trees_) {
+        const TargetTree& tree = t->tree();
+        if (tree.size() == 0) continue;
+        const double way = (tree.state(tree.farthest()).center - tree.state(0).center).norm();
+        if (way > most) most = way, furthest = t.get();
+      }
+      if (furthest != nullptr)
+        result.best_pose = furthest->scene().poses(furthest->tree().state(furthest->tree().farthest()));
+      if (!context_.cancel.cancelled()) result.blocked_by = trees_.front()->scene().blockers();
+    }
+    for (const auto& tree : trees_) {
+      result.stats.nodes += tree->tree().size();
+      result.stats.extra["iterations"] += static_cast<double>(tree->tree().iterations());
+      if (make_lines_) result.stats.extra["lines"] += static_cast<double>(tree->lines());
+    }
+    result.stats.state_checks = budget_.checks;
+    result.stats.refused = candidates_.refused();
+    result.stats.cost = static_cast<double>(budget_.checks);
+    return result;
+  }
+
+ private:
+  bool starts_out() {
+    Scene& first = trees_.front()->scene();
+    return first.is_out(first.space().start());
+  }
+
+  const PathQuery& query_;
+  RunContext& context_;
+  const TreeParameters parameters_;
+  const MakeLines make_lines_;
+  CheckBudget budget_;
+  std::uint64_t level_;  ///< state checks that the depth limit allows
+  Candidates candidates_;
+  path::GrowingTurns turns_;
+  std::vector<std::unique_ptr<Tree>> trees_;
+  PathResult result_;
+  bool begun_ = false;
+};
 
 }  // namespace
 
-PathResult plan_by_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
-                         const MakeRule& make_rule, const MakeLines& make_lines) {
-  PathResult result;
+std::unique_ptr<PathSearch> start_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
+                                        const MakeRule& make_rule, const MakeLines& make_lines) {
   const Capabilities has = query.simulator.capabilities();
-  if (!has.distance || has.max_moving < query.cast.moving.size()) {
-    result.outcome = Outcome::unsupported;
-    result.message = "needs a simulator with distance queries for all moving parts";
-    return result;
-  }
-  Budget budget(query, context);
-  const std::uint64_t level = level_limit(query.effort, parameters);
-  const std::uint64_t limit = level > 0 ? level : std::numeric_limits<std::uint64_t>::max();
-  Court court(query, parameters.simplify);
-
-  std::vector<std::unique_ptr<Search>> searches;
-  const auto add = [&](MotionSpace motion, std::uint64_t stream) {
-    searches.push_back(
-        std::make_unique<Search>(query, motion, parameters, make_rule, budget, context.rng.fork(stream)));
-  };
-  // A motion without turns is a motion in SE(3), too: lines need no space of their own.
-  if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
-  if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
-
-  Scene& first = searches.front()->scene();
-  if (first.is_out(first.space().start())) {
-    const auto start = first.poses(first.space().start());
-    result.outcome = Outcome::start_is_goal;
-    result.path = {start, start};
-    return result;
-  }
-
-  bool solved = false;
-  if (make_lines) solved = searches.front()->try_lines(make_lines(query), parameters.range, court, limit, result);
-  for (std::uint64_t turn = kFirstTurn; !solved && budget.checks < limit && !budget.spent(); turn *= 2)
-    for (const auto& search : searches) {
-      const std::uint64_t share = searches.size() > 1 ? std::min(limit, budget.checks + turn) : limit;
-      if (solved = search->grow(court, share, result); solved) break;
-    }
-
-  if (!solved) {
-    result.outcome = budget.spent() ? budget.why() : Outcome::depth_limit;
-    std::size_t furthest = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < searches.size(); ++i) {
-      const auto& tree = searches[i]->tree();
-      if (tree.size() == 0) continue;
-      const double way = (tree.state(tree.farthest()).center - tree.state(0).center).norm();
-      if (way > most) most = way, furthest = i;
-    }
-    if (most >= 0)
-      result.best_pose =
-          searches[furthest]->scene().poses(searches[furthest]->tree().state(searches[furthest]->tree().farthest()));
-    if (!context.cancel.cancelled()) result.blocked_by = searches.front()->scene().blockers();
-  }
-  for (const auto& search : searches) {
-    result.counts["nodes"] += static_cast<double>(search->tree().size());
-    result.counts["iterations"] += static_cast<double>(search->tree().iterations());
-    if (make_lines) result.counts["lines"] += static_cast<double>(search->lines());
-  }
-  result.counts["checks"] = static_cast<double>(budget.checks);
-  result.counts["refused"] = static_cast<double>(court.refused());
-  std::string text = "trees:";
-  for (const auto& [name, count] : result.counts)
-    text += " " + name + " " + std::to_string(static_cast<std::uint64_t>(count));
-  context.log(LogLevel::debug, text);
-  return result;
+  if (!has.distance || has.max_moving < query.cast.moving.size())
+    return path::unsupported("needs a simulator with distance queries for all moving parts");
+  return std::make_unique<TreesSearch>(query, context, parameters, make_rule, make_lines);
 }
 
 }  // namespace dismantle::sampling

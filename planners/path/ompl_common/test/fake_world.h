@@ -42,7 +42,7 @@ struct FakeSimulator final : Simulator {
   std::function<double(const Pose&)> depth = [](const Pose&) { return 0.0; };
   std::function<bool(const Pose&)> out = [](const Pose&) { return false; };
   Capabilities capabilities() const noexcept override { return {.distance = true, .max_moving = 1}; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override {
+  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override {
     return std::make_shared<Prepared>();
   }
   std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace space) const override {

@@ -3,8 +3,9 @@
 
 #include "dismantle/sampling/nearest.h"
 #include "dismantle/sampling/scene.h"
-#include "fake_world.h"
+#include "dismantle/testing/path_checking.h"
 #include "dismantle/testing/shapes.h"
+#include "fake_world.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -111,10 +112,10 @@ TEST(Scene, ThinWallIsNeverJumped) {
     const double at = rng.uniform(0.2, 2);
     fake::FakeSimulator simulator;
     simulator.depth = [&](const Pose& p) { return std::abs(normal.dot(p.t) - at) <= kStep / 2 ? 1.0 : 0.0; };
-    const auto prepared = simulator.prepare(assembly, context);
-    const PathQuery query{
-        assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, [](const Path&) { return Verdict{}; }};
-    Budget budget(query, context);
+    const auto prepared = simulator.prepare(assembly, 0.01, context);
+    const fake::RuleChecker checker = fake::accept_all();
+    const PathQuery query{assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, 0.01, checker};
+    CheckBudget budget(query, context);
     Scene scene(query, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid, 0.004, kStep, budget);
     for (int k = 0; k < 20; ++k) {
       StateType a, b;

@@ -49,7 +49,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       bodies_(balls(*world_)),
       axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.cast, axes_),
-      stages_(!query.leaving.empty()              ? tactics.each_its_way
+      stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
               : space == MotionSpace::translation ? tactics.translating
                                                   : tactics.turning),
       seen_(bodies_, tactics.similarity_translation, tactics.similarity_rotation),
@@ -94,7 +94,7 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 unsigned Search::rank(const Node& node) const {
   unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
   // What one part does alone there are other means for.
-  if (!query_.leaving.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
+  if (!query_.goal.any_of.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
     stage += kAloneRank;
   if (!tactics_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
@@ -105,7 +105,7 @@ unsigned Search::rank(const Node& node) const {
 void Search::enqueue(std::int32_t id) {
   Node& node = nodes_[static_cast<std::size_t>(id)];
   node.may_wait = true;
-  if (query_.effort.max_depth > 0 && node.depth >= query_.effort.max_depth) {
+  if (query_.budget.max_depth > 0 && node.depth >= query_.budget.max_depth) {
     ++beyond_limit_;
     return;
   }
@@ -155,31 +155,24 @@ bool Search::out_of_budget() const {
 }
 
 /// The state of node `last` is out: is the way there valid?
-Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
+Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult& result) {
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
-    if (same_path(refused, path)) return RunEnd::blocked;  // what the judge said of it could not be learned
-  Verdict verdict = query_.judge(path);
-  if (!verdict.accepted && !query_.leaving.empty()) {
-    Path eased = with_room(path);
-    if (const Verdict again = query_.judge(eased); again.accepted) {
-      verdict = again;
-      path = std::move(eased);
-    }
-  }
-  if (verdict.accepted) {
+    if (same_path(refused, path)) return RunEnd::blocked;  // what the checker said of it could not be learned
+  PathCheck check = query_.checker.check(path);
+  if (!check.accepted() && !query_.goal.any_of.empty())
+    if (PathCheck again = query_.checker.check(with_room(path)); again.accepted()) check = std::move(again);
+  if (check.accepted()) {
     note_contacts(start);
-    result.outcome = Outcome::solved;
-    result.path = path;
-    result.depth = nodes_[static_cast<std::size_t>(last)].depth;
+    result.solve(std::move(*check.verified), nodes_[static_cast<std::size_t>(last)].depth);
     return RunEnd::solved;
   }
   ++refused_;
-  refusals_.push_back(path);
-  result.message = verdict.reason;
-  if (!verdict.has_witness) return RunEnd::refused;
-  world_->learn(verdict.part, verdict.other, verdict.point);
-  lessons_.push_back({verdict.part, verdict.other, verdict.point});
+  refusals_.push_back(std::move(path));
+  result.message = check.reason;
+  if (!check.has_witness) return RunEnd::refused;
+  world_->learn(check.part, check.other, check.point);
+  lessons_.push_back({check.part, check.other, check.point});
   return RunEnd::refused_learned;
 }
 
@@ -207,7 +200,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
     if (way.size() > before && out(state))
-      return judge(add_node(last, depth, state, std::move(way), false), start, result);
+      return verify(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
       // The start of the run is a past state too, but only once the run has left it.
@@ -251,15 +244,14 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
 }
 
 void Search::finish(PathResult& result) const {
-  result.counts = {{"nodes", static_cast<double>(nodes_.size())},
-                   {"expanded", static_cast<double>(expanded_before_ + expanded_)},
-                   {"steps", static_cast<double>(steps_)},
-                   {"looks", static_cast<double>(looks_)},
-                   {"refused", static_cast<double>(refused_)}};
-  if (resumed_ > 0) {
-    result.counts["resumed_nodes"] = static_cast<double>(resumed_);
-    result.counts["spared"] = static_cast<double>(spared_);
-  }
+  result.stats = {.steps = steps_,
+                  .state_checks = looks_,
+                  .nodes = nodes_.size(),
+                  .refused = refused_,
+                  .resumed_nodes = resumed_,
+                  .spared = spared_,
+                  .cost = static_cast<double>(steps_ + looks_),
+                  .extra = {{"expanded", static_cast<double>(expanded_before_ + expanded_)}}};
   result.blocked_by = path::most_touched(touched_, query_.cast.moving);
   result.best_pose = best_;
 }
@@ -319,10 +311,12 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
 }
 
 Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
-  const std::uint64_t end_at = expanded_ + expansions - std::min(kept_, expansions / 2);
+  if (!std::exchange(sweep_paused_, false) || expansions == 0)
+    sweep_end_ = expanded_ + expansions - std::min(kept_, expansions / 2);
   while (!waiting_.empty() || take_up_middles()) {
-    if (expansions > 0 && expanded_ >= end_at) return RunEnd::blocked;
+    if (expansions > 0 && expanded_ >= sweep_end_) return RunEnd::blocked;
     paused_ = limits_.pause_after > 0 && steps_ + looks_ >= pause_at_;
+    sweep_paused_ = paused_ && limits_.expansions > 0;
     if (paused_) return RunEnd::blocked;
     const Waiting next = *waiting_.begin();
     if (next.rank > limits_.rank) return RunEnd::blocked;
@@ -356,16 +350,14 @@ PathResult Search::run(const Limits& limits) {
   if (nodes_.empty()) reset();
   if (!std::exchange(begun_, true)) {
     if (out(nodes_.front().state)) {
-      result.outcome = Outcome::start_is_goal;
-      result.path = path_to(0);
-      result.path.push_back(result.path.front());
+      result.start_is_goal();
       finish(result);
       return result;
     }
   }
   RunEnd end = RunEnd::blocked;
   for (const std::int32_t node : out_by_now()) {
-    end = judge(node, nodes_[static_cast<std::size_t>(node)].state, result);
+    end = verify(node, nodes_[static_cast<std::size_t>(node)].state, result);
     if (end == RunEnd::refused_learned) reset();
     if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }
@@ -384,11 +376,11 @@ PathResult Search::run(const Limits& limits) {
   if (end == RunEnd::solved) {
     result.message.clear();
   } else if (end == RunEnd::stop) {
-    result.outcome = context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+    result.fail(context_.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout);
   } else if (refused_ > static_cast<std::uint64_t>(tactics_.max_refusals)) {
-    result.outcome = Outcome::exhausted;
+    result.fail(Outcome::exhausted);
   } else {
-    result.outcome = !waiting_.empty() || beyond_limit_ > 0 ? Outcome::depth_limit : Outcome::exhausted;
+    result.fail(!waiting_.empty() || beyond_limit_ > 0 ? Outcome::depth_limit : Outcome::exhausted);
   }
   finish(result);
   return result;

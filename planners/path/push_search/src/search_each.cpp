@@ -15,9 +15,9 @@ constexpr double kSmooth = 2e-3;
 
 /// Has one come apart from all others, or where nobody is to leave the group, the group from the rest?
 bool Search::out(const State& state) {
-  if (query_.leaving.empty()) return world_->separated(state);
+  if (query_.goal.any_of.empty()) return world_->separated(state);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto& leaving = query_.leaving;
+    const auto& leaving = query_.goal.any_of;
     if (std::find(leaving.begin(), leaving.end(), query_.cast.moving[i].part) != leaving.end() &&
         world_->leaves(state, i))
       return true;
@@ -33,10 +33,10 @@ double Search::way_from_start(const State& state) const {
     const Pose& start = query_.cast.moving[i].pose;
     const Pose& now = state.bodies[i].pose;
     ways.push_back((now * bodies_[i].center - start * bodies_[i].center).norm());
-    if (!query_.leaving.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
+    if (!query_.goal.any_of.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
   }
   std::sort(ways.begin(), ways.end());
-  return query_.leaving.empty() ? ways.back() : ways[ways.size() - 2];
+  return query_.goal.any_of.empty() ? ways.back() : ways[ways.size() - 2];
 }
 
 /// Parts that drive each other rub along their surfaces all the way, which is hard to prove harmless: the same path,

@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/path_planner.h"
 #include "dismantle/host/registry.h"
+#include "dismantle/path_planner.h"
+#include "dismantle/testing/path_checking.h"
 
 namespace dismantle::push::test {
 
@@ -142,7 +143,7 @@ class MazeSimulator final : public Simulator {
  public:
   MazeSimulator(Maze maze, Notes& notes) : maze_(std::move(maze)), notes_(notes) {}
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext&) override {
+  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override {
     return std::make_shared<Prepared>();
   }
   std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace space) const override {
@@ -180,40 +181,35 @@ struct MazeRun {
   Notes notes;
 };
 
-using Judge = std::function<Verdict(const Path&)>;
-inline Verdict accept(const Path&) {
-  Verdict v;
-  v.accepted = true;
-  return v;
+using fake::Ruling;
+using Rule = std::function<Ruling(const Path&)>;
+inline Ruling accept(const Path&) {
+  Ruling ruling;
+  ruling.accept = true;
+  return ruling;
 }
 
 /// `moving` points start at the origin; part 9 stands still, and the gates that are `closed`. With `leaving` each goes
 /// its own way. Goes on from what was `reached`.
-inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Effort& effort = {},
-                   const Judge& judge = accept, RunContext context = {}, std::size_t moving = 1,
+inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Budget& effort = {},
+                   const Rule& rule = accept, RunContext context = {}, std::size_t moving = 1,
                    Capabilities has = {true, true, true, 4}, const char* planner = "bfs",
                    const std::vector<PartId>& leaving = {}, const std::vector<PartId>& closed = {},
-                   const Reached* reached = nullptr) {
+                   const SearchState* reached = nullptr) {
   MazeSimulator simulator(maze, run.notes);
   simulator.has = has;
   const Assembly assembly;
-  const auto prepared = simulator.prepare(assembly, context);
+  const auto prepared = simulator.prepare(assembly, 0.01, context);
   Cast cast;
   for (std::size_t i = 0; i < moving; ++i) cast.moving.push_back({static_cast<PartId>(i), Pose{}});
   cast.still.push_back({9, Pose{}});
   for (const PartId gate : closed) cast.still.push_back({gate, Pose{}});
-  const PathQuery query{assembly,
-                        simulator,
-                        *prepared,
-                        cast,
-                        effort,
-                        [&](const Path& path) {
-                          run.judged.push_back(path);
-                          return judge(path);
-                        },
-                        leaving,
-                        reached};
-  run.result = registry().create<PathPlanner>(planner, given)->plan(query, context);
+  const fake::RuleChecker checker([&](const Path& path) {
+    run.judged.push_back(path);
+    return rule(path);
+  });
+  const PathQuery query{assembly, simulator, *prepared, cast, effort, 0.01, checker, {leaving}, reached};
+  run.result = plan_path(*registry().create<PathPlanner>(planner, given), query, context);
 }
 
 }  // namespace dismantle::push::test

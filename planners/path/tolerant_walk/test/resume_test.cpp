@@ -22,20 +22,21 @@ struct Scene {
   Rng rng{1};
   PartId blamed = 2;
   std::size_t judged = 0;
+  fake::RuleChecker checker{[this](const Path& path) {
+    ++judged;
+    fake::Ruling ruling;
+    ruling.has_witness = true;
+    ruling.part = 0, ruling.other = blamed;
+    ruling.point = Eigen::Vector3d(0.5, 0.5, 0.5);
+    ruling.instant = path.size() - 1;
+    return ruling;
+  }};
 
   PathQuery query(const std::vector<PartId>& still) {
     Cast cast;
     cast.moving.push_back({0, Pose{}});
     for (const PartId id : still) cast.still.push_back({id, Pose{}});
-    return {table.assembly, *table.simulator, *table.prepared, cast, {}, [this](const Path& path) {
-              ++judged;
-              Verdict v;
-              v.has_witness = true;
-              v.part = 0, v.other = blamed;
-              v.point = Eigen::Vector3d(0.5, 0.5, 0.5);
-              v.instant = path.size() - 1;
-              return v;
-            }};
+    return {table.assembly, *table.simulator, *table.prepared, cast, {}, 0.01, checker};
   }
   PoseTree tree(const PathQuery& query) {
     return PoseTree(parameters, query, context, rng, Overlap::everywhere, cache);
@@ -53,7 +54,7 @@ TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
     PoseTree tree = s.tree(all);
     const std::uint32_t a = tree.add(up(0.5), 0), b = tree.add(up(1.0), a), c = tree.add(up(0.7), 0);
     PathResult result;
-    EXPECT_FALSE(tree.judged(b, result));
+    EXPECT_FALSE(tree.verified(b, result));
     EXPECT_GT(s.judged, 0U);
     ASSERT_TRUE(tree[b].cut);
     ASSERT_FALSE(tree[c].cut);

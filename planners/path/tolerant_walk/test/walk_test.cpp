@@ -37,9 +37,9 @@ Assembly snapped(double bead, const Pose& turned) {
 TEST(Squeeze, TakesOutWhatSnapsWithinTheTolerance) {
   Table table(snapped(0.004, Pose{}));
   const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{100'000}}}, 1, 0);
-  ASSERT_EQ(r.outcome, Outcome::solved) << r.message;
+  ASSERT_EQ(r.outcome(), Outcome::solved) << r.message;
   EXPECT_GE(table.judged, 1U);
-  const MotionCheck check = table.verifier.check_motion({0}, {{1, Pose{}}}, r.path);
+  const MotionCheck check = table.verifier.check_motion({0}, {{1, Pose{}}}, r.path()->poses());
   EXPECT_TRUE(check.valid);
   EXPECT_GT(check.max_penetration, 1e-3) << "it used the tolerance";
 }
@@ -47,8 +47,8 @@ TEST(Squeeze, TakesOutWhatSnapsWithinTheTolerance) {
 TEST(Squeeze, NeverTakesOutWhatSnapsDeeper) {
   Table table(snapped(0.03, Pose{}));
   const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{1500}}}, 1, 0);
-  EXPECT_TRUE(r.outcome == Outcome::depth_limit || r.outcome == Outcome::exhausted);
-  EXPECT_TRUE(r.path.empty());
+  EXPECT_TRUE(r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted);
+  EXPECT_FALSE(r.path());
   ASSERT_FALSE(r.blocked_by.empty());
   EXPECT_EQ(r.blocked_by.front(), 1U);
 }
@@ -56,9 +56,9 @@ TEST(Squeeze, NeverTakesOutWhatSnapsDeeper) {
 TEST(Squeeze, KeepsToItsBudget) {
   Table table(snapped(0.03, Pose{}));
   const PathResult r = table.plan("squeeze", {}, 1, 500);
-  EXPECT_EQ(r.outcome, Outcome::timeout);
-  EXPECT_GE(r.counts.at("looks"), 500);
-  EXPECT_LE(r.counts.at("looks"), 500 + 400);  // a flight is not cut short
+  EXPECT_EQ(r.outcome(), Outcome::timeout);
+  EXPECT_GE(r.stats.state_checks, 500);
+  EXPECT_LE(r.stats.state_checks, 500 + 400);  // a flight is not cut short
 }
 
 TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
@@ -68,11 +68,11 @@ TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
         {"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
     return table.plan("guided", few, 1, 0, depth);
   };
-  EXPECT_FALSE(plan(2).counts.contains("squeeze_looks")) << "shallow searches are for many parts";
+  EXPECT_FALSE(plan(2).stats.extra.contains("squeeze_state_checks")) << "shallow searches are for many parts";
   const PathResult deep = plan(6);
-  EXPECT_FALSE(is_success(deep.outcome));
-  EXPECT_GE(deep.counts.at("squeeze_looks"), 1000);
-  EXPECT_LE(deep.counts.at("squeeze_looks"), 1000 + 400);
+  EXPECT_FALSE(is_success(deep.outcome()));
+  EXPECT_GE(deep.stats.extra.at("squeeze_state_checks"), 1000);
+  EXPECT_LE(deep.stats.extra.at("squeeze_state_checks"), 1000 + 400);
 }
 
 TEST(Squeeze, SharesTheBudgetOfGuidedUnderADepthLimit) {
@@ -80,11 +80,11 @@ TEST(Squeeze, SharesTheBudgetOfGuidedUnderADepthLimit) {
   const ParamSet whole{
       {"squeeze_looks", std::int64_t{100'000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
   const PathResult free = table.plan("guided", whole, 1, 0, 3);
-  const double pushes = free.counts.at("steps") + free.counts.at("looks");
+  const double pushes = free.stats.cost - free.stats.extra.at("squeeze_cost");
   const auto budget = static_cast<std::uint64_t>(pushes) + 700;
   const PathResult r = table.plan("guided", whole, 1, budget, 3);
-  EXPECT_EQ(r.outcome, Outcome::timeout) << "what ended for want of steps has not seen everything";
-  const double used = r.counts.at("steps") + r.counts.at("looks") + r.counts.at("squeeze_looks");
+  EXPECT_EQ(r.outcome(), Outcome::timeout) << "what ended for want of steps has not seen everything";
+  const double used = r.stats.cost;
   EXPECT_GE(used, static_cast<double>(budget));
   ASSERT_GT(pushes, 200) << "else what they used would not show";
   EXPECT_LE(used, static_cast<double>(budget) + 100);

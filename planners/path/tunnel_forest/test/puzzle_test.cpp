@@ -32,10 +32,11 @@ TEST(TunnelForest, FindsItsWayThroughCorridorsHoweverTheyLie) {
   for (std::uint64_t k = 1; k <= 4; ++k) {
     Table table(assembly_of(corridors(), k == 1 ? Pose{} : random_pose(rng)));
     const PathResult r = table.plan("tunnel_forest", {{"motion", std::string("translation")}}, k, 100'000);
-    EXPECT_EQ(r.outcome, Outcome::solved) << k;
+    EXPECT_EQ(r.outcome(), Outcome::solved) << k;
     EXPECT_GE(r.depth, 4u);
-    EXPECT_EQ(r.counts.at("tunnels"), 0) << "there are none in R3";
-    for (const auto& instant : r.path) EXPECT_LT(angle_between(instant[0].q, Eigen::Quaterniond::Identity()), 1e-9);
+    EXPECT_EQ(r.stats.extra.at("tunnels"), 0) << "there are none in R3";
+    for (const auto& instant : r.path()->poses())
+      EXPECT_LT(angle_between(instant[0].q, Eigen::Quaterniond::Identity()), 1e-9);
   }
 }
 
@@ -44,8 +45,8 @@ TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
   for (std::uint64_t k = 1; k <= 3; ++k) {
     Table table(assembly_of({linked_ring(), open_ring(0.6)}, k == 1 ? Pose{} : random_pose(rng)));
     const PathResult r = table.plan("tunnel_forest", {{"motion", std::string("rotation")}}, k, 300'000);
-    EXPECT_EQ(r.outcome, Outcome::solved) << k;
-    EXPECT_GT(r.counts.at("tunnels"), 0);
+    EXPECT_EQ(r.outcome(), Outcome::solved) << k;
+    EXPECT_GT(r.stats.extra.at("tunnels"), 0);
   }
 }
 
@@ -53,8 +54,8 @@ TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
 TEST(TunnelForest, ARingThatCannotLeaveDoesNot) {
   Table table(assembly_of({linked_ring(), open_ring(0.4)}));
   const PathResult r = table.plan("tunnel_forest", {}, 1, 40'000);
-  EXPECT_EQ(r.outcome, Outcome::timeout);
-  EXPECT_TRUE(r.path.empty());
+  EXPECT_EQ(r.outcome(), Outcome::timeout);
+  EXPECT_FALSE(r.path());
   ASSERT_EQ(r.blocked_by.size(), 1u);
   EXPECT_EQ(r.blocked_by[0], 1u);
   EXPECT_EQ(r.best_pose.size(), 1u);
@@ -64,10 +65,10 @@ TEST(TunnelForest, DepthIsABudgetThatDoubles) {
   Table table(assembly_of({linked_ring(), open_ring(0.4)}));
   for (unsigned depth = 1; depth <= 3; ++depth) {
     const PathResult r = table.plan("tunnel_forest", {{"level_steps", std::int64_t{1000}}}, 1, 0, depth);
-    EXPECT_EQ(r.outcome, Outcome::depth_limit);
+    EXPECT_EQ(r.outcome(), Outcome::depth_limit);
     const double limit = 1000 * std::ldexp(1.0, static_cast<int>(depth) - 1);
-    EXPECT_GE(r.counts.at("steps"), limit);
-    EXPECT_LE(r.counts.at("steps"), limit + 100);
+    EXPECT_GE(r.stats.steps, limit);
+    EXPECT_LE(r.stats.steps, limit + 100);
   }
 }
 
@@ -75,7 +76,7 @@ TEST(TunnelForest, WithoutTunnelsOnlyTheTreeAtTheStartGrows) {
   Table table(assembly_of({linked_ring(), open_ring(0.6)}));
   const PathResult r =
       table.plan("tunnel_forest", {{"motion", std::string("rotation")}, {"tunnels", std::int64_t{0}}}, 1, 5'000);
-  EXPECT_EQ(r.counts.at("tunnels"), 0);
+  EXPECT_EQ(r.stats.extra.at("tunnels"), 0);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "blocking/params.h"
+#include "blocking/rotation_axes.h"
 #include "blocking/straight_motion.h"
 #include "blocking/strategy.h"
-#include "blocking/turns.h"
 
 namespace dismantle::blocking {
 
@@ -29,14 +29,14 @@ class RotationInPlace final : public Strategy {
   /// A part on its way about an axis.
   struct Rotation {
     SubassemblyId id = 0;
-    TurningAxis axis;
+    RotationAxis axis;
     Pose start;
     int sense = 1;  ///< of the rotation about the axis, 1 or -1
 
     Pose at(double angle) const;  ///< rad
   };
   bool rotate_any(GroupState& group);
-  bool rotate(GroupState& group, SubassemblyId id, const TurningAxis& axis);
+  bool rotate(GroupState& group, SubassemblyId id, const RotationAxis& axis);
   bool step(const GroupState& group, const Rotation& rotation, unsigned stop, Path& path);
   double arc() const;  ///< rad, from one stop to the next
   bool sweeps_clear(const GroupState& group, SubassemblyId id, const Pose& from, const Pose& to);
@@ -53,7 +53,7 @@ class RotationInPlace final : public Strategy {
   const PairSweep& sweep_;
   const RotationParams& params_;
   PerGroup<bool> done_;
-  std::map<PartId, std::vector<TurningAxis>> axes_;
+  std::map<PartId, std::vector<RotationAxis>> axes_;
   /// Rotations that freed another part once: members of the group, part, orientation.
   std::set<std::pair<Subassemblies, std::pair<SubassemblyId, std::size_t>>> tried_;
   std::map<std::vector<double>, bool> arcs_;  // by two parts and three poses

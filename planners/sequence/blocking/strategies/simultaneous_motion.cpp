@@ -121,15 +121,15 @@ bool SimultaneousMotion::move(GroupState& group, const std::vector<Subassemblies
   for (const SubassemblyId s : ids)
     names += (names.empty() ? "'" : "', '") + state_.assembly().parts[state_.part_of(s)].name;
   context.log(LogLevel::debug, "simultaneous motion of " + names + "' to depth " + std::to_string(attempt->max_depth) +
-                                   ": " + std::string(to_string(result.outcome)) + ", " +
+                                   ": " + std::string(to_string(result.outcome())) + ", " +
                                    std::to_string(answer.seconds) + " s " + result.message);
-  if (is_success(result.outcome)) {
+  if (is_success(result.outcome())) {
     state_.commit(group, ids, *attempt, answer, GroupChange::Kind::one_removed);
     state_.count("at_once");
     return true;
   }
-  unsupported_ = unsupported_ || result.outcome == Outcome::unsupported;
-  last_[ids] = {attempt->max_depth, result.outcome, result.blocked_by, several_moved(*attempt, result.best_pose)};
+  unsupported_ = unsupported_ || result.outcome() == Outcome::unsupported;
+  last_[ids] = {attempt->max_depth, result.outcome(), result.blocked_by, several_moved(*attempt, result.best_pose)};
   return false;
 }
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/export.h"
-#include "dismantle/engine/layout.h"
 #include "dismantle/assembly.h"
+#include "dismantle/engine/layout.h"
+#include "dismantle/export.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/plan.h"
@@ -54,7 +54,7 @@ struct RunResult {
   Outcome outcome = Outcome::crashed;
   OracleCounts counts;
   std::map<std::string, double>
-      planner_counts;  ///< PathResult::counts of all attempts that were planned, summed by name
+      planner_counts;  ///< PathResult::stats of all attempts that were planned, summed by name
   std::map<std::string, double> sequence_counts;                ///< SequenceResult::counts
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
   double prepare_seconds = 0;                                   ///< simulator preparation

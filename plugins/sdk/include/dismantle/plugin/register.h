@@ -9,13 +9,15 @@
 namespace dismantle::abi {
 
 inline constexpr std::uint64_t kBoundaryLayout =
-    layout_hash<Mesh, Pose, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, RawPart, Importer,
-                Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport, World,
-                Prepared, Simulator, Effort, Verdict, Reached, PathQuery, PathResult, PathPlanner, TransferQuery,
-                TransferPlanner, Attempt, AttemptResult, OracleCounts, PathOracle, Removal, Unsolved, SequenceResult,
-                SequenceObserver, SequencePlanner, Certificate, ProverTraits, SeparationQuery, SeparationQuestion,
-                PartMemo, ImmobilityProver, Deadline, CancelToken, Rng, ProgressEvent, RunContext, ParamValue,
-                ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType, Registrar>();
+    layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, RawPart,
+                Importer, Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
+                World, Prepared, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal,
+                PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
+                FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
+                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate, ProverTraits,
+                SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
+                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType,
+                Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dismantle/engine/run.h"
+#include "dismantle/testing/path_checking.h"
 
 namespace dismantle::fake {
 
@@ -90,7 +91,7 @@ inline Assembly row(unsigned n) {
 class Physics final : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, RunContext& context) override {
+  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext& context) override {
     if (on_prepare) on_prepare(context);
     return std::make_shared<Prepared>();
   }
@@ -116,37 +117,52 @@ inline PathResult push(const PathQuery& query, RunContext& context) {
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {1.0, -1.0}) ways.push_back(sign * 30 * Eigen::Vector3d::Unit(axis));
   for (std::size_t n = ways.size(); n > 1; --n) std::swap(ways[n - 1], ways[context.rng.below(n)]);
-  const unsigned depth = query.effort.max_depth;
+  const unsigned depth = query.budget.max_depth;
   const std::size_t allowed = depth == 0 || depth > 3 ? 6 : 2 * depth;
-  PathResult result;
-  result.outcome = allowed < 6 ? Outcome::depth_limit : Outcome::exhausted;
+  PathResult result = PathResult::failure(allowed < 6 ? Outcome::depth_limit : Outcome::exhausted);
   for (std::size_t i = 0; i < allowed; ++i) {
     if (context.should_stop()) {
-      result.outcome = Outcome::cancelled;
+      result.fail(Outcome::cancelled);
       return result;
     }
-    const Path path = straight(query.cast, ways[i]);
-    const Verdict verdict = query.judge(path);
-    result.counts["judged"] += 1;
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.path = path;
-      result.depth = 1;
+    PathCheck check = query.checker.check(straight(query.cast, ways[i]));
+    result.stats.extra["checked"] += 1;
+    if (check.accepted()) {
+      result.solve(std::move(*check.verified), 1);
       return result;
     }
-    if (verdict.has_witness)
-      result.blocked_by.push_back(verdict.part == query.cast.moving[0].part ? verdict.other : verdict.part);
+    if (check.has_witness)
+      result.blocked_by.push_back(check.part == query.cast.moving[0].part ? check.other : check.part);
   }
+  return result;
+}
+
+/// Solved if the path is accepted.
+inline PathResult shown(const PathQuery& query, const Path& path) {
+  PathResult result;
+  PathCheck check = query.checker.check(path);
+  if (check.accepted())
+    result.solve(std::move(*check.verified), 1);
+  else
+    result.fail(Outcome::exhausted, check.reason);
+  return result;
+}
+
+/// Claims that `path` was accepted; it was, by another checker than the query's.
+inline PathResult forged(const Path& path) {
+  PathResult result;
+  result.solve(accept_all().verified(path), 1);
   return result;
 }
 
 using Script = std::function<PathResult(const PathQuery&, RunContext&)>;
 
-class Scripted final : public PathPlanner {
+class Scripted final : public FunctionPathPlanner {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
-  Capabilities needs() const noexcept override { return {.dynamics = true}; }
-  bool moves_each_its_way() const noexcept override { return true; }
+  PathPlannerTraits traits() const noexcept override {
+    return {.needs = {.dynamics = true}, .simultaneous_motion = true, .resumable = true};
+  }
   PathResult plan(const PathQuery& query, RunContext& context) override { return script_(query, context); }
 
  private:
@@ -163,10 +179,10 @@ inline Ingredients ingredients(Script script, std::shared_ptr<SequencePlanner> s
 }
 
 inline PathResult outcome(Outcome o, std::string message = {}) {
-  PathResult r;
-  r.outcome = o;
-  r.message = std::move(message);
-  return r;
+  if (o != Outcome::start_is_goal) return PathResult::failure(o, std::move(message));
+  PathResult result;
+  result.start_is_goal();
+  return result;
 }
 
 /// `part` leaves, all others stand.

@@ -29,13 +29,13 @@ class InTurn : public SequencePlanner {
       oracle.prefetch(round, context);
       for (std::size_t i = 0; i < left.size() && !removed; ++i) {
         const AttemptResult& r = oracle.attempt(question(left, left[i]), context);
-        if (is_success(r.result.outcome)) {
+        if (is_success(r.result.outcome())) {
           removed = true;
           result.removals.push_back({{left[i]}, &r});
           left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
           observer.removed(result.removals.back(), left.size());
         } else {
-          result.unsolved.push_back({left[i], r.result.outcome, r.result.blocked_by, {}, r.result.message});
+          result.unsolved.push_back({left[i], r.result.outcome(), r.result.blocked_by, {}, r.result.message});
         }
       }
     }

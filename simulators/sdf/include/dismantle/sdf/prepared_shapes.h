@@ -13,15 +13,15 @@
 
 namespace dismantle::sdf {
 
-/// What a pair may overlap beyond its depth when assembled; assembly units, a third of what the verifier lets pass
-/// by default.
-constexpr double kFacetAllowance = 0.003;
+/// What a pair may overlap beyond its depth when assembled, as a share of what the verifier tolerates.
+constexpr double kFacetShare = 0.3;
 
 /// Shapes, and the depth to which each pair overlaps when assembled.
 class PreparedShapes final : public Prepared {
  public:
   std::vector<Placed> placed;
   std::map<std::pair<PartId, PartId>, double> overlap;  ///< a < b; only pairs that overlap
+  double facet_allowance = 0;                           ///< kFacetShare of the verifier's tolerance; assembly units
   mutable RestContacts rest;                            ///< filled by the worlds as they need it
   double allowed(PartId a, PartId b) const {
     const auto found = overlap.find(std::minmax(a, b));
@@ -30,8 +30,9 @@ class PreparedShapes final : public Prepared {
 };
 
 /// What overlaps when assembled may overlap as deep while it moves, pair by pair (end of B.1). Round fits overlap by
-/// the facets of their meshes, more or less as they slide: they get half as much again, at most kFacetAllowance.
-std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options,
+/// the facets of their meshes, more or less as they slide: they get half as much again, at most
+/// PreparedShapes::facet_allowance. `tolerance`: as for Simulator::prepare.
+std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options, double tolerance,
                                                RunContext& context);
 
 /// The shapes in `prepared`. @throws InputError naming the first part of the cast that was not prepared.

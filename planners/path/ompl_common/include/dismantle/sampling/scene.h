@@ -15,10 +15,11 @@
 
 namespace dismantle::sampling {
 
-/// Budget of one call of PathPlanner::plan, shared by all its searches.
-struct Budget {
-  Budget(const PathQuery& query, const RunContext& context);
-  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or too many checks
+/// Budget of one search, shared by all its trees.
+struct CheckBudget {
+  CheckBudget(const PathQuery& query, const RunContext& context);
+  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or
+                        ///< too many checks
   Outcome why() const;  ///< when spent: cancelled or timeout
 
   std::uint64_t checks = 0;      ///< states looked at
@@ -46,7 +47,7 @@ class Scene {
 
   /// States penetrating no deeper than `max_penetration` (assembly units), or than the start does, are free; motions
   /// are looked at every `step` of the space's metric.
-  Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, Budget& budget,
+  Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
         const Pose& goal = {});
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
@@ -54,7 +55,7 @@ class Scene {
   const DisplacementSpace& space() const { return *space_; }
   const Surroundings& surroundings() const { return surroundings_; }
   const ompl::base::SpaceInformationPtr& information() const { return information_; }
-  Budget& budget() { return budget_; }
+  CheckBudget& budget() { return budget_; }
   double step() const { return step_; }
   double allowed() const { return allowed_; }
 
@@ -94,7 +95,7 @@ class Scene {
   Surroundings surroundings_;
   std::shared_ptr<DisplacementSpace> space_;
   ompl::base::SpaceInformationPtr information_;
-  Budget& budget_;
+  CheckBudget& budget_;
   double step_ = 0, allowed_ = 0;
   std::vector<Pose> start_;
   std::uint64_t blocked_ = 0;

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "dismantle/parameters.h"
+#include "dismantle/path/motion.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/sampling/target_tree.h"
 
 namespace dismantle::sampling {
 
-enum class Motion { translation, rotation, automatic };
+using path::Motion;
 
 /// Parameters that every tree planner has; a planner's own struct derives from this one.
 struct TreeParameters {
@@ -20,7 +21,7 @@ struct TreeParameters {
   double goal_bias = 0.05;
   double range = 1;
   double step = 0.01;
-  double max_penetration = 0.004;
+  double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t level_checks = 1'000;
 };
@@ -48,12 +49,13 @@ void describe_tree(Schema<P>& s, const std::string& goal_doc) {
          .max = 1,
          .doc = "Extensions go on in steps of this length, each of which is checked (table 7); largest way of any "
                 "point of the part."});
-  s.add("max_penetration", own(&TreeParameters::max_penetration),
-        {.unit = "unit",
-         .min = 0,
-         .max = 1,
-         .doc = "Depth above the initial overlap at which a state counts as colliding (table 7 has 0.01, all that the "
-                "verifier allows; a margin keeps it from refusing paths)."});
+  s.add(
+      "tolerance_share", own(&TreeParameters::tolerance_share),
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding (table "
+              "7 has all of it; the rest keeps the verifier from refusing paths)."});
   s.add("simplify", own(&TreeParameters::simplify),
         {.doc = "Replace detours by straight motions where these are free."});
   s.add("level_checks", own(&TreeParameters::level_checks),
@@ -68,15 +70,17 @@ using MakeRule = std::function<std::unique_ptr<TargetRule>(Scene& scene, Rng rng
 /// Straight lines to try before any tree, as unit directions in the world. May be empty.
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 
-/// Grows trees until a path passes the judge or the budget is spent. A path is simplified before it is shown to the
-/// judge. If it is refused, the path as it was found is shown; if that is refused too, the edge at fault is taken out
-/// of the tree with all that grew from it, and the search goes on.
+/// A search that grows trees until a path is accepted or the budget is spent;
+/// two trees take turns. A path is shown to the checker simplified, and as it
+/// was found if that is refused. If both are refused, the edge at fault is
+/// taken out of the tree with all that grew from it, and the search goes on.
 ///
-/// Counts: `nodes`, `iterations`, `checks` (of states), `refused` (paths shown to the judge in vain), `lines` (tried).
-PathResult plan_by_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
-                         const MakeRule& make_rule, const MakeLines& make_lines = {});
+/// Extra statistics: `iterations`, `lines` (tried). The cost is the number of
+/// state checks. The rules may be called as long as the search exists.
+std::unique_ptr<PathSearch> start_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
+                                        const MakeRule& make_rule, const MakeLines& make_lines = {});
 
-/// Needs of planners made with plan_by_trees.
+/// Needs of planners made with start_trees.
 constexpr Capabilities kTreeNeeds{.distance = true};
 
 }  // namespace dismantle::sampling

@@ -48,7 +48,7 @@ struct Tree {
   bool short_glides = false;
 };
 
-class Reached final : public dismantle::Reached {
+class Reached final : public SearchState {
  public:
   std::optional<Tree> translation, rigid;  ///< absent: nothing was searched there
 };

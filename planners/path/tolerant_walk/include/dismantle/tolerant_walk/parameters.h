@@ -6,7 +6,7 @@
 namespace dismantle::tolerant_walk {
 
 struct Parameters {
-  double max_penetration = 0.008;
+  double tolerance_share = 0.8;
   double step = 0.006;
   double outward = 0.6;
   std::int64_t looks = 25'000;
@@ -16,12 +16,12 @@ struct Parameters {
   std::int64_t max_refusals = 12;
 
   static void describe(Schema<Parameters>& s) {
-    s.add("max_penetration", &Parameters::max_penetration,
-          {.unit = "unit",
+    s.add("tolerance_share", &Parameters::tolerance_share,
+          {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Poses count as allowed up to this depth beyond what is there when assembled. A little less than "
-                  "verify.max_penetration: a simulator sees contact at samples."});
+           .doc = "Share of verify.max_penetration up to which poses may be deeper than when assembled. Less than all "
+                  "of it: depth is measured at samples."});
     s.add("step", &Parameters::step,
           {.unit = "unit",
            .min = 1e-5,

@@ -1,8 +1,12 @@
-// From a tree that holds the start and a way out to a path that the judge accepts.
+// From a tree that holds the start and a way out to a path that the checker
+// accepts.
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
+#include "dismantle/path/shortcuts.h"
 #include "forest.h"
 
 namespace dismantle::tunnel_forest {
@@ -10,8 +14,9 @@ namespace {
 
 /// Paths are eased instant by instant, so many to a way of this length (assembly units).
 constexpr double kEaseEvery = 0.1;
-/// So often a path is eased again after the judge has named a place where it cuts.
-constexpr int kRepairs = 6;
+/// So often a path is eased again after the checker has named a place where it
+/// cuts.
+constexpr std::size_t kRepairs = 6;
 /// What a straight motion may penetrate: easing takes it out again.
 constexpr double kFree = 0.002;
 /// A straight motion is looked at in steps of this (assembly units), and is worth it if it saves this share.
@@ -32,15 +37,11 @@ bool Forest::is_free(const std::vector<Pose>& poses) {
 /// and free.
 Path Forest::shortcut(const Path& path) {
   Path best = path;
-  for (std::int64_t k = 0; k < parameters_.shortcuts && best.size() > 2 && !halted_(); ++k) {
-    const auto n = static_cast<std::uint64_t>(best.size());
-    auto a = static_cast<std::size_t>(rng_.below(n)), b = static_cast<std::size_t>(rng_.below(n));
-    if (a > b) std::swap(a, b);
-    if (b - a < 2) continue;
+  const auto direct = [&](std::size_t a, std::size_t b, Path& between) {
     double around = 0;
     for (std::size_t i = a; i < b; ++i) around += guide_.distance(best[i], best[i + 1]);
     const double straight = guide_.distance(best[a], best[b]);
-    if (straight > kWorthWhile * around) continue;
+    if (straight > kWorthWhile * around) return false;
     const auto at = [&](double u) {
       std::vector<Pose> poses;
       for (std::size_t i = 0; i < best[a].size(); ++i) poses.push_back(screw_interpolate(best[a][i], best[b][i], u));
@@ -49,15 +50,14 @@ Path Forest::shortcut(const Path& path) {
     const int looks = static_cast<int>(std::ceil(straight / kLookEvery));
     bool free = looks < 2 || is_free(at(0.5));
     for (int i = 1; i < looks && free; ++i) free = is_free(at(static_cast<double>(i) / looks));
-    if (!free) continue;
+    if (!free) return false;
     double turn = 0;
     for (std::size_t i = 0; i < best[a].size(); ++i) turn = std::max(turn, angle_between(best[a][i].q, best[b][i].q));
     const int pieces = std::max(1, static_cast<int>(std::ceil(turn / kTurn)));
-    Path shorter(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(a) + 1);
-    for (int i = 1; i < pieces; ++i) shorter.push_back(at(static_cast<double>(i) / pieces));
-    shorter.insert(shorter.end(), best.begin() + static_cast<std::ptrdiff_t>(b), best.end());
-    best = std::move(shorter);
-  }
+    for (int i = 1; i < pieces; ++i) between.push_back(at(static_cast<double>(i) / pieces));
+    return true;
+  };
+  path::shortcut_at_random(best, parameters_.shortcuts, rng_, direct, halted_);
   return path::thin(best, guide_.bodies(), parameters_.thinning);
 }
 
@@ -82,28 +82,26 @@ Path Forest::eased(const Path& path) {
   return path::thin(dense, guide_.bodies(), parameters_.thinning);
 }
 
-/// True when the judge accepts the path, after easing it again where it cuts; then `result` holds it. Else `verdict` is
-/// the judge's last, about `shown`.
-bool Forest::passes(const Path& path, PathResult& result, Verdict& verdict, Path& shown) {
-  shown = eased(path);
-  for (int round = 0; round <= kRepairs && !halted_(); ++round) {
-    verdict = query_.judge(shown);
-    if (verdict.accepted) {
-      result.outcome = Outcome::solved;
-      result.path = std::move(shown);
-      result.message.clear();
-      return true;
-    }
-    ++refused_;
-    result.message = verdict.reason;
-    if (!verdict.has_witness) return false;
-    world_->learn(verdict.part, verdict.other, verdict.point);
-    if (round < kRepairs) shown = eased(shown);
-  }
-  return false;
+/// Eased, and again where the checker has named a place where it cuts. What is
+/// accepted goes to `result`.
+path::Shown Forest::show(const Path& path, unsigned depth, PathResult& result) {
+  Path form = path;
+  return path::show_forms(
+      query_.checker, refused_,
+      [&](std::size_t round) -> std::optional<Path> {
+        if (round > kRepairs) return std::nullopt;
+        form = eased(form);
+        return halted_() ? std::nullopt : std::optional(form);
+      },
+      [&](const PathCheck& check, const Path&) {
+        result.message = check.reason;
+        if (check.has_witness) world_->learn(check.part, check.other, check.point);
+        return check.has_witness;
+      },
+      [&](VerifiedPath verified) { result.solve(std::move(verified), depth); });
 }
 
-bool Forest::judged(PathResult& result) {
+bool Forest::verified(PathResult& result) {
   while (map_.tree(map_.node(0).tree).out > 0 && refused_ < static_cast<std::uint64_t>(parameters_.max_refusals)) {
     const std::vector<Index> edges = map_.way_out(0);
     if (edges.empty()) return false;
@@ -116,19 +114,17 @@ bool Forest::judged(PathResult& result) {
       ends.push_back(at);
     }
     const Path thinned = path::thin(full, guide_.bodies(), parameters_.thinning);
-    Verdict verdict;
-    Path shown;
     const Path shorter = shortcut(thinned);
-    if ((shorter.size() < thinned.size() && passes(shorter, result, verdict, shown)) ||
-        passes(thinned, result, verdict, shown)) {
-      result.depth = static_cast<unsigned>(edges.size());
-      return true;
-    }
+    const auto depth = static_cast<unsigned>(edges.size());
+    path::Shown shown;
+    if (shorter.size() < thinned.size()) shown = show(shorter, depth, result);
+    if (!shown.accepted) shown = show(thinned, depth, result);
+    if (shown.accepted) return true;
     if (halted_()) return false;
     // Easing moves instants by little: the edge at fault is the one that comes nearest to where it cuts.
     std::size_t guilty = edges.size() - 1;
-    if (verdict.has_witness) {
-      const auto& place = shown[std::min(verdict.instant, shown.size() - 1)];
+    if (shown.last.has_witness) {
+      const auto& place = shown.path[std::min(shown.last.instant, shown.path.size() - 1)];
       double least = std::numeric_limits<double>::infinity();
       Index at = 0;
       for (std::size_t e = 0; e < edges.size(); ++e) {

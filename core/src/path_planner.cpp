@@ -1,0 +1,172 @@
+#include "dismantle/path_planner.h"
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <utility>
+
+namespace dismantle {
+
+VerifiedPath::VerifiedPath(Path poses, double max_penetration, std::optional<PartId> released, std::uint64_t checker)
+    : poses_(std::move(poses)), max_penetration_(max_penetration), released_(released), checker_(checker) {}
+
+VerifiedPath VerifiedPath::reordered(const std::vector<std::size_t>& order) const {
+  std::vector<bool> seen(order.size(), false);
+  for (const std::size_t i : order) {
+    if (i >= order.size() || seen[i]) throw std::invalid_argument("not a permutation of the moving parts");
+    seen[i] = true;
+  }
+  VerifiedPath result = *this;
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if (poses_[k].size() != order.size()) throw std::invalid_argument("not a permutation of the moving parts");
+    for (std::size_t i = 0; i < order.size(); ++i) result.poses_[k][i] = poses_[k][order[i]];
+  }
+  return result;
+}
+
+PathChecker::PathChecker() {
+  static std::atomic<std::uint64_t> last{0};
+  id_ = ++last;
+}
+PathChecker::~PathChecker() = default;
+
+VerifiedPath PathChecker::accept(Path poses, double max_penetration, std::optional<PartId> released) const {
+  return {std::move(poses), max_penetration, released, id_};
+}
+
+SearchState::~SearchState() = default;
+
+SearchStats& SearchStats::operator+=(const SearchStats& other) {
+  steps += other.steps;
+  state_checks += other.state_checks;
+  nodes += other.nodes;
+  refused += other.refused;
+  resumed_nodes += other.resumed_nodes;
+  spared += other.spared;
+  cost += other.cost;
+  for (const auto& [name, value] : other.extra) extra[name] += value;
+  return *this;
+}
+
+std::map<std::string, double> SearchStats::by_name() const {
+  std::map<std::string, double> all = extra;
+  const auto add = [&](const char* name, std::uint64_t value) {
+    if (value > 0) all[name] = static_cast<double>(value);
+  };
+  add("steps", steps);
+  add("state_checks", state_checks);
+  add("nodes", nodes);
+  add("refused", refused);
+  add("resumed_nodes", resumed_nodes);
+  add("spared", spared);
+  if (cost > 0) all["cost"] = cost;
+  return all;
+}
+
+PathResult PathResult::failure(Outcome outcome, std::string message) {
+  PathResult result;
+  result.fail(outcome, std::move(message));
+  return result;
+}
+
+void PathResult::solve(VerifiedPath path, unsigned actions) {
+  outcome_ = Outcome::solved;
+  path_ = std::move(path);
+  depth = actions;
+  message.clear();
+}
+
+void PathResult::start_is_goal(std::optional<VerifiedPath> path) {
+  outcome_ = Outcome::start_is_goal;
+  path_ = std::move(path);
+  depth = 0;
+  message.clear();
+}
+
+void PathResult::fail(Outcome outcome, std::string why) {
+  if (is_success(outcome)) throw std::invalid_argument("a success needs a verified path");
+  outcome_ = outcome;
+  path_.reset();
+  if (!why.empty()) message = std::move(why);
+}
+
+SearchStatus status_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::solved:
+    case Outcome::start_is_goal:
+      return SearchStatus::solved;
+    case Outcome::depth_limit:
+    case Outcome::exhausted:
+    case Outcome::infeasible:
+      return SearchStatus::exhausted;
+    case Outcome::timeout:
+    case Outcome::invalid_start:
+    case Outcome::cancelled:
+    case Outcome::unsupported:
+    case Outcome::crashed:
+      break;
+  }
+  return SearchStatus::failed;
+}
+
+PathSearch::~PathSearch() = default;
+PathPlanner::~PathPlanner() = default;
+
+PathResult run_to_end(PathSearch& search) {
+  while (search.run({}) == SearchStatus::paused) {
+  }
+  return search.result();
+}
+
+PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context) {
+  return run_to_end(*planner.start(query, context));
+}
+
+namespace {
+
+/// The smaller of two limits of which 0 is none.
+template <class T>
+T tighter(T a, T b) {
+  return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
+}
+
+class FunctionSearch final : public PathSearch {
+ public:
+  FunctionSearch(FunctionPathPlanner& planner, const PathQuery& query, RunContext& context)
+      : planner_(planner), query_(query), context_(context), deadline_(deadline_of(query)) {}
+
+  SearchStatus run(const Budget& portion) override {
+    if (over_) return status_of(result_.outcome());
+    PathQuery query = query_;
+    query.budget.max_steps = tighter(query.budget.max_steps, portion.max_steps);
+    RunContext context = context_;
+    context.deadline = context.deadline.earlier(deadline_);
+    query.budget.timeout = tighter(query.budget.timeout, portion.timeout);
+    const bool whole = query.budget.max_steps == query_.budget.max_steps && portion.timeout <= 0;
+    result_ = planner_.plan(query, context);
+    const bool cut_short = !whole && result_.outcome() == Outcome::timeout && !context.deadline.passed();
+    over_ = !cut_short;
+    return cut_short ? SearchStatus::paused : status_of(result_.outcome());
+  }
+  PathResult result() override { return result_; }
+
+ private:
+  static Deadline deadline_of(const PathQuery& query) {
+    return query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline();
+  }
+
+  FunctionPathPlanner& planner_;
+  const PathQuery& query_;
+  RunContext& context_;
+  Deadline deadline_;
+  PathResult result_;
+  bool over_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<PathSearch> FunctionPathPlanner::start(const PathQuery& query, RunContext& context) {
+  return std::make_unique<FunctionSearch>(*this, query, context);
+}
+
+}  // namespace dismantle
