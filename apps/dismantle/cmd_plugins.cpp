@@ -1,4 +1,4 @@
-// dismantle plugins list | describe ID
+// dismantle plugins list | describe ID | check FILE
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/host/describe.h"
+#include "dismantle/plugins_check.h"
 #include "dismantle/settings.h"
 
 namespace dismantle::app {
@@ -24,6 +25,12 @@ void scan(const Plugins& options, Registry& registry) {
     registry.scan();
 }
 
+/// The file that a type comes from.
+std::string origin_of(const RegisteredType& type) {
+  if (!type.preset_of.empty()) return fmt::format("preset of {}, {}", type.preset_of, type.preset_file.string());
+  return fmt::format("{} {}, {}", type.file->id, type.file->version, type.file->path.string());
+}
+
 int list(const Plugins& options) {
   Console console(ConsoleOptions{});
   Registry registry;
@@ -34,9 +41,8 @@ int list(const Plugins& options) {
     for (const RegisteredType* type : registry.types(kind)) width = std::max(width, type->type.id.size());
   for (const PluginKind kind : kPluginKinds)
     for (const RegisteredType* type : registry.types(kind))
-      out += fmt::format("{:<{}}  {:<16}  {}\n{:<{}}  {:<16}  {} {}, {}\n", type->type.id, width, to_string(kind),
-                         type->type.summary, "", width, "", type->file->id, type->file->version,
-                         type->file->path.string());
+      out += fmt::format("{:<{}}  {:<16}  {}\n{:<{}}  {:<16}  {}\n", type->type.id, width, to_string(kind),
+                         type->type.summary, "", width, "", origin_of(*type));
   if (out.empty()) {
     out = "no plugins found; searched:\n";
     for (const auto& path : registry.search_paths()) out += fmt::format("  {}\n", path.string());
@@ -54,11 +60,11 @@ int describe(const Plugins& options) {
   const RegisteredType& type = registry.find(options.id);
   std::string out;
   if (options.format == "markdown")
-    out = describe_markdown(type.type, *type.file);
+    out = describe_markdown(type, registry);
   else if (options.format == "json")
-    out = describe_json(type.type, *type.file);
+    out = describe_json(type);
   else
-    out = describe_text(type.type, *type.file);
+    out = describe_text(type, registry);
   if (out.empty() || out.back() != '\n') out += '\n';
   Console(ConsoleOptions{}).text(out);
   return kComplete;
@@ -91,6 +97,24 @@ void add_plugins(CLI::App& app, Action& action) {
   described->config.add_file_and_set(*describe_command);
   describe_command->footer("Example:\n  dismantle plugins describe sdf_penalty --format markdown");
   describe_command->callback([&action, described] { action = [described] { return describe(*described); }; });
+
+  struct Checked {
+    std::vector<std::string> plugins;
+    bool verbose = false;
+  };
+  auto checked = std::make_shared<Checked>();
+  auto* check_command = command->add_subcommand("check", "Do plugins obey the laws of their kind?");
+  check_command->add_option("FILE", checked->plugins, "Plugin files (.so), or ids as in 'plugins list'")
+      ->required()
+      ->option_text(" ");
+  check_command->add_flag("-v,--verbose", checked->verbose, "Names each law that is tried");
+  check_command->footer(
+      "Tries the contract tests on all types of these plugins, with partners from the plugins that are found.\n"
+      "Exit status: 0 all laws hold, 1 some do not, 2 a plugin is refused.\n"
+      "Example:\n  dismantle plugins check build/libacme_straight.so");
+  check_command->callback([&action, checked] {
+    action = [checked]() -> int { check_plugins(checked->plugins, checked->verbose); };
+  });
 }
 
 }  // namespace dismantle::app

@@ -66,6 +66,8 @@ ParamValue value_of(const ParamSpec& spec, const std::string& text) {
       return number_of<double>(spec.name, text);
     case ParamType::text:
     case ParamType::choice:
+    case ParamType::plugin:   // no sample has them, and complete() says so
+    case ParamType::plugins:
       break;
   }
   return text;

@@ -1,10 +1,10 @@
 #include "dismantle/parameters.h"
 
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
+
 #include "text.h"
 
 namespace dismantle {
@@ -22,6 +22,10 @@ const char* noun(ParamType type) {
       return "text";
     case ParamType::choice:
       return "one of its choices";
+    case ParamType::plugin:
+      return "a choice of a plugin";
+    case ParamType::plugins:
+      return "a list of choices of plugins";
   }
   return "a value";
 }
@@ -76,7 +80,47 @@ void check_numeric(const ParamSpec& spec, std::vector<std::string>& problems) {
   if (empty) problems.push_back(text::join("parameter '", spec.name, "' has an empty range ", spec.range_text()));
 }
 
+/// A member of a flow map: text in quotes, as it may hold anything.
+std::string in_map(const ParamValue& value) {
+  const auto* s = std::get_if<std::string>(&value);
+  if (s == nullptr) return to_text(value);
+  std::string quoted = "\"";
+  for (const char c : *s) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+/// The values of `given`, completed with defaults; `what` is "parameter" or "option".
+ParamSet completed(const std::vector<ParamSpec>& specs, const ParamSet& given, const char* what) {
+  ParamSet values;
+  for (const auto& spec : specs) {
+    const auto it = given.find(spec.name);
+    if (it == given.end() && spec.required)
+      throw std::invalid_argument(text::join(what, " '", spec.name, "' has to be given"));
+    const ParamValue& value = it == given.end() ? spec.fallback : it->second;
+    if (const auto problem = spec.problem_with(value))
+      throw std::invalid_argument(text::join(what, " '", spec.name, "' ", *problem));
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    ParamValue& out = values[spec.name];
+    if (spec.type == ParamType::number && integer != nullptr)
+      out = static_cast<double>(*integer);
+    else
+      out = value;
+    if (auto* choices = std::get_if<std::vector<PluginChoice>>(&out))
+      for (PluginChoice& choice : *choices) choice.options = completed(spec.options, choice.options, "option");
+  }
+  for (const auto& [name, value] : given)
+    if (!values.contains(name)) throw std::invalid_argument(text::join("unknown ", what, " '", name, "'"));
+  return values;
+}
+
 }  // namespace
+
+bool PluginChoice::operator==(const PluginChoice& other) const {
+  return type == other.type && parameters == other.parameters && options == other.options;
+}
 
 std::string to_text(const ParamValue& value) {
   struct Visitor {
@@ -84,6 +128,17 @@ std::string to_text(const ParamValue& value) {
     std::string operator()(std::int64_t i) const { return text::join(i); }
     std::string operator()(double d) const { return text::join(d); }
     std::string operator()(const std::string& s) const { return s; }
+    std::string operator()(const PluginChoice& choice) const {
+      std::string out = "{type: " + in_map(choice.type);
+      for (const ParamSet* set : {&choice.options, &choice.parameters})
+        for (const auto& [name, held] : *set) out += ", " + name + ": " + in_map(held);
+      return out + "}";
+    }
+    std::string operator()(const std::vector<PluginChoice>& choices) const {
+      std::string out;
+      for (const auto& choice : choices) out += (out.empty() ? "" : ", ") + (*this)(choice);
+      return "[" + out + "]";
+    }
   };
   return std::visit(Visitor{}, value);
 }
@@ -110,6 +165,20 @@ std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) cons
           s != nullptr && std::any_of(choices.begin(), choices.end(), [&](const auto& c) { return c.name == *s; });
       if (known) return std::nullopt;
       return text::join("must be one of ", listed(choices), "; got ", shown(value, ""));
+    }
+    case ParamType::plugin: {
+      const auto* choice = std::get_if<PluginChoice>(&value);
+      if (choice == nullptr) return mistyped();
+      if (choice->type.empty()) return "has to name a plugin";
+      return std::nullopt;
+    }
+    case ParamType::plugins: {
+      const auto* list = std::get_if<std::vector<PluginChoice>>(&value);
+      if (list == nullptr) return mistyped();
+      if (list->empty()) return "has to name a plugin";
+      const bool unnamed = std::any_of(list->begin(), list->end(), [](const auto& c) { return c.type.empty(); });
+      if (unnamed) return "has an item that names no plugin";
+      return std::nullopt;
     }
     case ParamType::integer: {
       const auto* i = std::get_if<std::int64_t>(&value);
@@ -146,31 +215,16 @@ std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs)
     if (spec.doc.empty()) problems.push_back(text::join("parameter '", spec.name, "' has no doc"));
     if (spec.type == ParamType::integer || spec.type == ParamType::number) check_numeric(spec, problems);
     if (spec.type == ParamType::choice) check_choices(spec, problems);
-    if (const auto problem = spec.problem_with(spec.fallback))
+    for (const auto& problem : problems_of_schema(spec.options))
+      problems.push_back(text::join("in the items of '", spec.name, "': ", problem));
+    if (const auto problem = spec.required ? std::nullopt : spec.problem_with(spec.fallback))
       problems.push_back(text::join("default of parameter '", spec.name, "' ", *problem));
   }
   return problems;
 }
 
 ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given) {
-  ParamSet values;
-  for (const auto& spec : specs) {
-    const auto it = given.find(spec.name);
-    if (it == given.end()) {
-      values.emplace(spec.name, spec.fallback);
-      continue;
-    }
-    if (const auto problem = spec.problem_with(it->second))
-      throw std::invalid_argument(text::join("parameter '", spec.name, "' ", *problem));
-    const auto* integer = std::get_if<std::int64_t>(&it->second);
-    if (spec.type == ParamType::number && integer != nullptr)
-      values.emplace(spec.name, static_cast<double>(*integer));
-    else
-      values.emplace(spec.name, it->second);
-  }
-  for (const auto& [name, value] : given)
-    if (!values.contains(name)) throw std::invalid_argument(text::join("unknown parameter '", name, "'"));
-  return values;
+  return completed(specs, given, "parameter");
 }
 
 }  // namespace dismantle

@@ -7,6 +7,10 @@
 
 namespace dismantle {
 
+void RunContext::pause_point() const {
+  if (speculative && executor) executor->pause_point();
+}
+
 namespace {
 
 /// Finaliser and increment of SplitMix64 (Steele, Lea, Flood 2014).

@@ -55,6 +55,78 @@ TEST(Schema, DefaultsComeFromTheStruct) {
   EXPECT_EQ(s.motion, Motion::rotation);
 }
 
+struct Child {
+  PluginRef<PathPlanner> plugin;
+  double share = 0.5;
+  static void describe(Schema<Child>& s) {
+    s.add("share", &Child::share, {.unit = "1", .min = 0, .max = 1, .doc = "Share."});
+  }
+};
+
+struct Holder {
+  PluginRef<PathPlanner> one{"inner"};
+  PluginRef<Simulator> needed;
+  std::vector<PluginRef<PathPlanner>> some{PluginRef<PathPlanner>("a"), PluginRef<PathPlanner>("b")};
+  std::vector<Child> of;
+  static void describe(Schema<Holder>& s) {
+    s.add("one", &Holder::one, {.doc = "One."});
+    s.add("needed", &Holder::needed, {.doc = "Needed."});
+    s.add("some", &Holder::some, {.doc = "Some."});
+    s.add("of", &Holder::of, {.doc = "Children."});
+  }
+};
+
+// Law: what a parameter names is what its reference makes, each time anew, through the host's maker alone.
+TEST(Schema, BindsPlugins) {
+  const Schema<Holder> schema;
+  EXPECT_EQ(problems_of_schema(schema.specs()), std::vector<std::string>{});
+  EXPECT_THROW(complete(schema.specs(), {}), std::invalid_argument);  // `needed` and `of` have no default
+  const PluginChoice child{"c", {{"depth", std::int64_t{3}}}, {{"share", 0.25}}};
+  const ParamSet given{{"needed", PluginChoice{"sim", {}, {}}},
+                       {"of", std::vector<PluginChoice>{child, {"d", {}, {}}}}};
+  const ParamSet values = complete(schema.specs(), given);
+  EXPECT_EQ(std::get<double>(std::get<std::vector<PluginChoice>>(values.at("of"))[1].options.at("share")), 0.5);
+  std::vector<std::pair<PluginKind, PluginChoice>> made;
+  const Holder h = schema.bind(values, [&](PluginKind kind, const PluginChoice& choice) -> std::shared_ptr<void> {
+    made.emplace_back(kind, choice);
+    return nullptr;
+  });
+  EXPECT_TRUE(made.empty());
+  EXPECT_EQ(h.one.type(), "inner");
+  ASSERT_EQ(h.some.size(), 2u);
+  EXPECT_EQ(h.some[1].type(), "b");
+  ASSERT_EQ(h.of.size(), 2u);
+  EXPECT_EQ(h.of[0].share, 0.25);
+  EXPECT_EQ(h.of[1].share, 0.5);
+  h.needed.create();
+  h.of[0].plugin.create();
+  h.of[0].plugin.create();
+  ASSERT_EQ(made.size(), 3u);
+  EXPECT_EQ(made[0].first, PluginKind::simulator);
+  EXPECT_EQ(made[1].first, PluginKind::path_planner);
+  EXPECT_EQ(made[2].second, child);
+  EXPECT_EQ(to_text(child), "{type: \"c\", share: 0.25, depth: 3}");
+}
+
+TEST(Schema, RefusesBadPlugins) {
+  const Schema<Holder> schema;
+  const ParamSet good{{"needed", PluginChoice{"sim", {}, {}}}, {"of", std::vector<PluginChoice>{{"d", {}, {}}}}};
+  EXPECT_NO_THROW(complete(schema.specs(), good));
+  const std::pair<const char*, ParamValue> bad[] = {
+      {"of", std::vector<PluginChoice>{}},
+      {"of", std::vector<PluginChoice>{{"", {}, {}}}},
+      {"of", std::vector<PluginChoice>{{"d", {}, {{"share", 2.0}}}}},
+      {"of", std::vector<PluginChoice>{{"d", {}, {{"shire", 0.5}}}}},
+      {"of", PluginChoice{"d", {}, {}}},
+      {"one", std::string("d")},
+      {"one", PluginChoice{}}};
+  for (const auto& [name, value] : bad) {
+    ParamSet given = good;
+    given[name] = value;
+    EXPECT_THROW(complete(schema.specs(), given), std::invalid_argument) << name << ": " << to_text(value);
+  }
+}
+
 TEST(Schema, BindsWhatIsGiven) {
   const Schema<Sample> schema;
   const Sample s = schema.bind(complete(schema.specs(), {{"range", std::int64_t{1}},

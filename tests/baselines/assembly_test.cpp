@@ -34,13 +34,13 @@ Planned plan(const std::string& sample, const ParamSet& parameters, Settings set
   Planned out;
   out.assembly = prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
   Ingredients ingredients;
-  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.params);
-  ingredients.path_planner = [&] { return registry.create<PathPlanner>("mv_t_rrt", config.path_planner.params); };
+  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
+  ingredients.path_planner = [&] { return registry.create<PathPlanner>("mv_t_rrt", config.path_planner.parameters); };
   ingredients.sequence_planner =
-      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.params);
+      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   ingredients.path_planner_id = "mv_t_rrt";
   ingredients.transfer_planner = [&] {
-    return registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.params);
+    return registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.parameters);
   };
   ingredients.transfer_planner_id = config.transfer_planner.type;
   RunOptions options;

@@ -40,7 +40,7 @@ class Isolation(BenchTest):
         self.assertEqual([r["outcome"] for r in self.rows(database="asleep/results.db")], ["wall_limit"])
 
     def test_the_judge_has_the_last_word(self):
-        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, verify.max_penetration: 0.1}}\n",
+        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive, verify.max_penetration: 0.1}}\n",
                    more="seeds: 1\njudge: {max_penetration: 1.0e-9}\n")
         self.assertEqual(self.bench()["solved"], 0)
         row, = self.rows()
@@ -126,7 +126,7 @@ class Resuming(BenchTest):
 
 
 class Repeating(BenchTest):
-    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n"
+    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n"
 
     def test_a_row_again_gives_the_same_plan(self):
         self.suite(self.PLANNERS, assemblies="  - {sample: l_slot}\n  - {sample: stacked_box, name: stacked_box, set: {count: 1}}\n",
@@ -162,7 +162,7 @@ class PaperLayout(BenchTest):
             self.write(f"data/joint_assembly/00001/{i}.obj", self.read("whole", name)) if i < 2 else None
             offsets.append(f'"{i}": [{8 * i}, -16, 32]')
         self.write("data/multi_assembly/00007/translation.json", "{" + ", ".join(offsets) + "}")
-        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n",
+        self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n",
                    assemblies="  - {glob: 'data/joint_assembly/*/', category: two_part}\n"
                               "  - {glob: 'data/multi_assembly/*/', category: multi_part}\n")
         self.bench("--jobs", "2")

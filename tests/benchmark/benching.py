@@ -26,7 +26,7 @@ class BenchTest(unittest.TestCase):
     def write_evil(self):
         self.write("evil.yaml", f"schema: 1\nplugins: {{search_paths: [{EVIL}]}}\nsimulator: {{type: fcl}}\n"
                                 "sequence_planner: {type: progressive}\n"  # asks the path planner for every way
-                                "path_planner: {type: evil.none}\n")
+                                "path_planner: {type: evil.none}\nsequence_planner: {type: progressive}\n")
 
     def path(self, *names):
         return os.path.join(self.folder, *names)

@@ -13,7 +13,7 @@ from benching import BenchTest
 
 
 class Report(BenchTest):
-    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt}}\n"
+    PLANNERS = "  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive}}\n"
     TRIALS = 2 * 2 * 3  # assemblies, planners, seeds
 
     shared = None  # one suite, run once, for all tests

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <regex>
+#include <string>
+#include <vector>
 
 #include "dismantle/host/config.h"
 
@@ -16,9 +20,34 @@ namespace fs = std::filesystem;
 std::vector<fs::path> config_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(CONFIGS_FOLDER))
-    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench")  // suites: tests/benchmark
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "bench" &&  // suites: tests/benchmark
+        entry.path().string().find("/presets/") == std::string::npos)
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The plugin that this build leaves out and the configuration names; empty when it can be loaded.
+std::string missing_type(const fs::path& file) {
+  std::ifstream stream(file);
+  const std::regex type(R"(^\s*(?:- )?(?:type|extends):\s*([\w.]+))");
+  const std::string all = std::string(";") + MISSING_TYPES + ";";
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch named;
+    if (!std::regex_search(line, named, type)) continue;
+    if (all.find(";" + named[1].str() + ";") != std::string::npos) return named[1];
+  }
+  return "";
+}
+
+/// All files but those that name a plugin that is left out.
+std::vector<fs::path> usable_files() {
+  std::vector<fs::path> files = config_files();
+  std::erase_if(files, [](const fs::path& file) {
+    const std::string type = missing_type(file);
+    if (!type.empty()) std::cout << "left out: " << file.filename() << " needs " << type << '\n';
+    return !type.empty();
+  });
   return files;
 }
 
@@ -30,7 +59,7 @@ RunConfig load(const fs::path& file) {
 TEST(Configs, AreThere) { EXPECT_GE(config_files().size(), 4u); }
 
 TEST(Configs, EachLoads) {
-  for (const auto& file : config_files()) {
+  for (const auto& file : usable_files()) {
     try {
       load(file);
     } catch (const ConfigError& e) {
@@ -41,16 +70,16 @@ TEST(Configs, EachLoads) {
 
 TEST(Configs, EachResolvedFileLoads) {
   const fs::path scratch = fs::temp_directory_path() / ("dismantle_configs_" + std::to_string(getpid()) + ".yaml");
-  for (const auto& file : config_files()) {
+  for (const auto& file : usable_files()) {
     Registry registry;
     const RunConfig config = load_config({file, {}, {}}, registry);
     std::ofstream(scratch) << resolved_yaml(config, registry, scratch.parent_path());
     const RunConfig again = load(scratch);
     EXPECT_EQ(config.sections, again.sections) << file;
-    EXPECT_EQ(config.simulator.params, again.simulator.params) << file;
-    EXPECT_EQ(config.path_planner.params, again.path_planner.params) << file;
-    EXPECT_EQ(config.sequence_planner.params, again.sequence_planner.params) << file;
-    EXPECT_EQ(config.transfer_planner.params, again.transfer_planner.params) << file;
+    EXPECT_EQ(config.simulator.parameters, again.simulator.parameters) << file;
+    EXPECT_EQ(config.path_planner.parameters, again.path_planner.parameters) << file;
+    EXPECT_EQ(config.sequence_planner.parameters, again.sequence_planner.parameters) << file;
+    EXPECT_EQ(config.transfer_planner.parameters, again.transfer_planner.parameters) << file;
     ASSERT_EQ(config.layout.poses.size(), again.layout.poses.size()) << file;
     for (const auto& [part, pose] : config.layout.poses) {
       EXPECT_EQ(pose.t, again.layout.poses.at(part).t) << file;
@@ -60,6 +89,24 @@ TEST(Configs, EachResolvedFileLoads) {
   fs::remove(scratch);
 }
 
+// Law: each file in configs/presets is a preset that can be used, and made.
+TEST(Configs, EachPresetIsAType) {
+  Registry registry;
+  registry.scan();
+  for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
+  const fs::path folder = fs::path(CONFIGS_FOLDER) / "presets";
+  for (const PluginKind kind : kPluginKinds) {
+    if (!fs::is_directory(folder / to_string(kind))) continue;
+    for (const auto& entry : fs::directory_iterator(folder / to_string(kind))) {
+      const RegisteredType* type = registry.lookup(kind, entry.path().stem().string());
+      ASSERT_NE(type, nullptr) << entry.path();
+      EXPECT_FALSE(type->preset_of.empty()) << entry.path();
+      EXPECT_TRUE(fs::equivalent(type->preset_file, entry.path())) << type->preset_file;
+      if (kind == PluginKind::path_planner) EXPECT_NE(registry.create<PathPlanner>(type->type.id), nullptr);
+    }
+  }
+}
+
 // default.yaml documents the defaults: it must not differ from them.
 TEST(Configs, DefaultSaysWhatIsTheDefault) {
   Registry registry;
@@ -67,13 +114,13 @@ TEST(Configs, DefaultSaysWhatIsTheDefault) {
   const RunConfig file = load(fs::path(CONFIGS_FOLDER) / "default.yaml");
   EXPECT_EQ(none.sections, file.sections);
   EXPECT_EQ(none.simulator.type, file.simulator.type);
-  EXPECT_EQ(none.simulator.params, file.simulator.params);
+  EXPECT_EQ(none.simulator.parameters, file.simulator.parameters);
   EXPECT_EQ(none.path_planner.type, file.path_planner.type);
-  EXPECT_EQ(none.path_planner.params, file.path_planner.params);
+  EXPECT_EQ(none.path_planner.parameters, file.path_planner.parameters);
   EXPECT_EQ(none.sequence_planner.type, file.sequence_planner.type);
-  EXPECT_EQ(none.sequence_planner.params, file.sequence_planner.params);
+  EXPECT_EQ(none.sequence_planner.parameters, file.sequence_planner.parameters);
   EXPECT_EQ(none.transfer_planner.type, file.transfer_planner.type);
-  EXPECT_EQ(none.transfer_planner.params, file.transfer_planner.params);
+  EXPECT_EQ(none.transfer_planner.parameters, file.transfer_planner.parameters);
 }
 
 }  // namespace

@@ -79,10 +79,61 @@ struct TRrtParams {
   }
 };
 
+class NoProof final : public ImmobilityProver {
+ public:
+  ProverTraits traits() const noexcept override { return {}; }
+  std::optional<Certificate> prove(const SeparationQuery&, const RunContext&) const override { return std::nullopt; }
+};
+
+struct RingParams {
+  std::int64_t max_rings = 2;
+  static void describe(Schema<RingParams>& s) {
+    s.add("max_rings", &RingParams::max_rings, {.unit = "1", .min = 1, .doc = "Rings tried."});
+  }
+};
+
 struct RandomParams {
   std::int64_t attempts = 3;
   static void describe(Schema<RandomParams>& s) {
     s.add("attempts", &RandomParams::attempts, {.unit = "1", .min = 1, .doc = "Attempts per part."});
+  }
+};
+
+struct Child {
+  PluginRef<PathPlanner> plugin;
+  std::int64_t after = 0;
+  static void describe(Schema<Child>& s) {
+    s.add("after", &Child::after, {.unit = "1", .min = 0, .doc = "Steps before it begins."});
+  }
+};
+
+struct TeamParams {
+  std::vector<Child> of;
+  PluginRef<PathPlanner> last{"bfs"};
+  bool fair = true;
+  static void describe(Schema<TeamParams>& s) {
+    s.add("of", &TeamParams::of, {.doc = "Who takes part."});
+    s.add("last", &TeamParams::last, {.doc = "Who comes last."});
+    s.add("fair", &TeamParams::fair, {.doc = "All alike."});
+  }
+};
+
+/// Makes what it holds, as a planner with children does.
+class Team : public NoPath {
+ public:
+  explicit Team(const TeamParams& params) : last_(params.last.create()) {
+    for (const Child& child : params.of) children_.push_back(child.plugin.create());
+  }
+
+ private:
+  std::shared_ptr<PathPlanner> last_;
+  std::vector<std::shared_ptr<PathPlanner>> children_;
+};
+
+struct AfterParams {
+  std::int64_t after = 1;
+  static void describe(Schema<AfterParams>& s) {
+    s.add("after", &AfterParams::after, {.unit = "1", .doc = "The same name as an option of Child."});
   }
 };
 
@@ -97,8 +148,12 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<PathPlanner, NoPath, BfsParams>("guided", "Breadth first, with proposals.", {.needs = {.dynamics = true}});
   r.add<PathPlanner, NoPath, TRrtParams>("t_rrt", "Targetless RRT.", {.needs = {.distance = true}});
   r.add<PathPlanner, NoPath>("pairs", "Moves two parts.", {.needs = {.distance = true, .max_moving = 2}});
+  r.add<PathPlanner, Team, TeamParams>("team", "Holds others.");
+  r.add<PathPlanner, NoPath, AfterParams>("clash", "Cannot be held by a team.");
   r.add<SequencePlanner, NoSequence>("blocking", "By who is in whose way.");
   r.add<SequencePlanner, NoSequence>("progressive", "Deepens by and by.", {.source = "Algorithm 2"});
   r.add<SequencePlanner, NoSequence, RandomParams>("random", "Any order.");
   r.add<TransferPlanner, NoTransfer>("rrt_connect", "Two trees.");
+  r.add<ImmobilityProver, NoProof>("overlap_lock", "A point in both.");
+  r.add<ImmobilityProver, NoProof, RingParams>("ring", "A ring in a chamber.");
 }

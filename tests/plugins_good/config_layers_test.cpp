@@ -17,8 +17,8 @@ TEST_F(Layers, DeepMergeAndOrigins) {
   const RunConfig config = load("top.yaml");
   EXPECT_EQ(config.run.seed, 2);
   EXPECT_EQ(config.run.timeout, 10);
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("goal_bias")), 0.1);
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("range")), 0.3);
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("goal_bias")), 0.1);
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("range")), 0.3);
   EXPECT_EQ(config.origins.at("run.seed"), "base/middle.yaml:3");
   EXPECT_EQ(config.origins.at("run.timeout"), "base/base.yaml:2");
   EXPECT_EQ(config.origins.at("path_planner.range"), "top.yaml:3");
@@ -58,13 +58,13 @@ TEST_F(Layers, ChangedTypeDropsTheParametersOfTheOther) {
   write("top.yaml", "schema: 1\nextends: base.yaml\npath_planner: {type: t_rrt, range: 0.3}\n");
   const RunConfig config = load("top.yaml");
   EXPECT_EQ(config.path_planner.type, "t_rrt");
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("range")), 0.3);
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("range")), 0.3);
   write("same.yaml", "schema: 1\nextends: base.yaml\npath_planner: {type: bfs}\n");
-  EXPECT_EQ(std::get<double>(load("same.yaml").path_planner.params.at("similarity_translation")), 0.1);
+  EXPECT_EQ(std::get<double>(load("same.yaml").path_planner.parameters.at("similarity_translation")), 0.1);
   write("implied.yaml", "schema: 1\npath_planner: {similarity_translation: 0.1}\n");  // guided by default
   EXPECT_EQ(load("implied.yaml", {}, {{"--path-planner", "path_planner.type", "t_rrt"}}).path_planner.type, "t_rrt");
   EXPECT_EQ(std::get<double>(
-                load("implied.yaml", {"path_planner.type=guided"}).path_planner.params.at("similarity_translation")),
+                load("implied.yaml", {"path_planner.type=guided"}).path_planner.parameters.at("similarity_translation")),
             0.1);
 }
 
@@ -74,8 +74,8 @@ TEST_F(Layers, SetAndOptions) {
                    {"path_planner.goal_bias=0.25", "assembly={subdivide: 0.125}", "path_planner.note='1'"},
                    {{"--path-planner", "path_planner.type", "t_rrt"}, {"--seed", "run.seed", "9"}}},
                   registry_);
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("goal_bias")), 0.25);
-  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("note")), "1");
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("goal_bias")), 0.25);
+  EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("note")), "1");
   EXPECT_EQ(config.assembly.subdivide, 0.125);
   EXPECT_EQ(config.run.seed, 9);
   EXPECT_EQ(config.origins.at("path_planner.goal_bias"), "<--set>:1");

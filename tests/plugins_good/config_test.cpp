@@ -23,7 +23,7 @@ TEST_F(Config, DefaultsWithoutAnyFile) {
   EXPECT_EQ(config.run.timeout, 7200);
   EXPECT_EQ(config.verify.max_penetration, 0.01);
   EXPECT_EQ(config.assembly.subdivide, PrepareOptions{}.subdivide);
-  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("motion")), "auto");
+  EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("motion")), "auto");
   EXPECT_EQ(config.origins.at("run.seed"), "default");
 }
 
@@ -38,17 +38,54 @@ verify: {max_penetration: 0.001}
 )");
   EXPECT_EQ(config.assembly.subdivide, 0.25);
   EXPECT_FALSE(config.assembly.drop_duplicates);
-  EXPECT_EQ(std::get<double>(config.simulator.params.at("contact_stiffness")), 2e6);
-  EXPECT_EQ(std::get<double>(config.path_planner.params.at("goal_bias")), 0.2);
-  EXPECT_EQ(std::get<std::int64_t>(config.path_planner.params.at("max_nodes")), 77);
-  EXPECT_EQ(std::get<std::string>(config.path_planner.params.at("note")), "a: b # c");
-  EXPECT_EQ(std::get<std::int64_t>(config.sequence_planner.params.at("attempts")), 9);
+  EXPECT_EQ(std::get<double>(config.simulator.parameters.at("contact_stiffness")), 2e6);
+  EXPECT_EQ(std::get<double>(config.path_planner.parameters.at("goal_bias")), 0.2);
+  EXPECT_EQ(std::get<std::int64_t>(config.path_planner.parameters.at("max_nodes")), 77);
+  EXPECT_EQ(std::get<std::string>(config.path_planner.parameters.at("note")), "a: b # c");
+  EXPECT_EQ(std::get<std::int64_t>(config.sequence_planner.parameters.at("attempts")), 9);
   EXPECT_EQ(config.run.seed, 5);
   EXPECT_EQ(config.run.threads, 2u);
   EXPECT_EQ(config.run.path_steps, 1000);
   EXPECT_EQ(config.run.timeout, 2.5);
   EXPECT_EQ(config.verify.max_penetration, 0.001);
   EXPECT_EQ(config.origins.at("run.seed"), "run.yaml:6");
+}
+
+std::vector<std::string> ids_of(const std::vector<PluginChoice>& choices) {
+  std::vector<std::string> ids;
+  for (const auto& c : choices) ids.push_back(c.type);
+  return ids;
+}
+
+TEST_F(Config, ProversAreAListOfIdsOrOfMapsWithParameters) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(ids_of(load_config({}, registry_).provers), (Ids{"overlap_lock", "ring"})) << "those that are there";
+  EXPECT_EQ(ids_of(load_text("schema: 1\nimmobility: {provers: [ring, overlap_lock]}\n").provers),
+            (Ids{"ring", "overlap_lock"}))
+      << "in that order";
+  EXPECT_TRUE(load_text("schema: 1\nimmobility: {provers: []}\n").provers.empty());
+  EXPECT_TRUE(load_text("schema: 1\n", {"immobility.provers=[]"}).provers.empty());
+  const RunConfig config = load_text("schema: 1\nimmobility: {provers: [{type: ring, max_rings: 7}, overlap_lock]}\n");
+  EXPECT_EQ(ids_of(config.provers), (Ids{"ring", "overlap_lock"}));
+  EXPECT_EQ(std::get<std::int64_t>(config.provers[0].params.at("max_rings")), 7);
+  EXPECT_EQ(config.origins.at("immobility.provers"), "run.yaml:2");
+}
+
+TEST_F(Config, WhatIsWrongWithProvers) {
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: [rings, ring, bfs, ring, {max_rings: 1}, {type: ring}], prove: 1}\n"),
+            R"(run.yaml:2:24: error: unknown immobility_prover 'rings'; did you mean 'ring'?
+run.yaml:2:37: error: 'bfs' is a path_planner, not a immobility_prover
+run.yaml:2:42: error: immobility.provers lists 'ring' twice
+run.yaml:2:48: error: an entry of immobility.provers must be the id of an immobility prover, or a map with its type and parameters
+run.yaml:2:71: error: immobility.provers lists 'ring' twice
+run.yaml:2:79: error: unknown key 'prove' in immobility; did you mean 'provers'?
+)");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: [{type: ring, max_rings: 0}]}\n"),
+            "run.yaml:2:48: error: immobility.provers.ring.max_rings must be >= 1, got 0 [ring 0.1.0, libfixture.so]\n");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: ring}\n"),
+            "run.yaml:2:23: error: immobility.provers must be a list of immobility provers, not a value\n");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: [ring]\n"),
+            "run.yaml:2:13: error: immobility must be a map of keys, not a list\n");
 }
 
 TEST_F(Config, AllErrorsAtOnce) {
@@ -134,16 +171,17 @@ TEST_F(Config, Capabilities) {
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
 }
 
-TEST_F(Config, WhoNamesAPathPlannerHasItAskedForEveryWay) {
-  const auto sequence = [&](const std::string& text) {
-    write("run.yaml", "schema: 1\n" + text);
-    return load_config({"run.yaml", {}, {}}, registry_).sequence_planner.type;
-  };
-  EXPECT_EQ(sequence(""), "blocking");
-  EXPECT_EQ(sequence("path_planner: {type: guided}\n"), "blocking");
-  EXPECT_EQ(sequence("path_planner: {type: bfs}\n"), "progressive");
-  EXPECT_EQ(sequence("path_planner: {type: bfs}\nsequence_planner: {type: blocking}\n"), "blocking");
-  EXPECT_EQ(sequence("sequence_planner: {type: random}\n"), "random");
+// Law: naming one plugin never changes another.
+TEST_F(Config, SectionsDoNotDependOnEachOther) {
+  registry_.scan();
+  const RunConfig plain = load_config({}, registry_);
+  for (const RegisteredType* type : registry_.types(PluginKind::path_planner)) {
+    if (type->type.id == "team") continue;  // it has no default
+    const RunConfig config = load_text("schema: 1\npath_planner: {type: " + type->type.id + "}\n");
+    EXPECT_EQ(config.path_planner.type, type->type.id);
+    EXPECT_EQ(config.sequence_planner, plain.sequence_planner) << type->type.id;
+    EXPECT_EQ(config.transfer_planner, plain.transfer_planner) << type->type.id;
+  }
 }
 
 TEST_F(Config, Choices) {

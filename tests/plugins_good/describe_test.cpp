@@ -21,8 +21,8 @@ class Describe : public testing_support::Scratch {
 TEST_F(Describe, EveryParameterInEveryFormat) {
   for (const char* id : {"t_rrt", "bfs", "sdf_penalty", "random"}) {
     const RegisteredType& t = type(id);
-    const std::string text = describe_text(t.type, *t.file), markdown = describe_markdown(t.type, *t.file);
-    const Json json = Json::parse(describe_json(t.type, *t.file));
+    const std::string text = describe_text(t, registry_), markdown = describe_markdown(t, registry_);
+    const Json json = Json::parse(describe_json(t));
     ASSERT_EQ(json["parameters"].size(), t.type.params.size());
     for (std::size_t i = 0; i < t.type.params.size(); ++i) {
       const ParamSpec& spec = t.type.params[i];
@@ -37,7 +37,7 @@ TEST_F(Describe, EveryParameterInEveryFormat) {
 
 TEST_F(Describe, TextOfAPlanner) {
   const RegisteredType& t = type("bfs");
-  const std::string text = describe_text(t.type, *t.file);
+  const std::string text = describe_text(t, registry_);
   for (const char* part : {"bfs (path_planner)", "Algorithm 1", "dynamics", "dismantle.fixture 0.1.0 (MIT), built in",
                            "similarity_translation = 0.05 assembly units   (number, >= 0)",
                            "motion = auto   (choice, translation | rotation | auto)", "rotation: Twelve actions."})
@@ -46,7 +46,7 @@ TEST_F(Describe, TextOfAPlanner) {
 
 TEST_F(Describe, MarkdownHoldsNoPathOfThisMachine) {
   const RegisteredType& t = type("t_rrt");
-  const std::string text = describe_markdown(t.type, *t.file);
+  const std::string text = describe_markdown(t, registry_);
   EXPECT_EQ(text.find(GOOD_FOLDER), std::string::npos);
   EXPECT_NE(text.find("Free text \\| with a bar."), std::string::npos) << text;
   EXPECT_NE(describe_sections_markdown().find("`max_penetration`"), std::string::npos);
@@ -58,15 +58,42 @@ TEST_F(Describe, JsonSchema) {
   EXPECT_EQ(schema["additionalProperties"], false);
   EXPECT_EQ(schema["properties"]["run"]["properties"]["seed"]["minimum"], 0.0);
   const Json& planners = schema["properties"]["path_planner"]["oneOf"];
-  ASSERT_EQ(planners.size(), 4u);
+  ASSERT_EQ(planners.size(), 8u);  // bfs, clash, guided, pairs, t_rrt, team, and the presets duo, solo
   EXPECT_EQ(planners[0]["properties"]["type"]["const"], "bfs");
   EXPECT_EQ(planners[0]["required"], Json::array({"type"}));
-  EXPECT_EQ(planners[1]["properties"]["type"]["const"], "guided");
-  EXPECT_FALSE(planners[1].contains("required"));  // the default
-  EXPECT_EQ(planners[1]["properties"]["motion"]["enum"], Json::array({"translation", "rotation", "auto"}));
-  EXPECT_EQ(planners[3]["properties"]["type"]["const"], "t_rrt");
-  EXPECT_EQ(planners[3]["required"], Json::array({"type"}));
-  EXPECT_EQ(planners[3]["properties"]["range"]["exclusiveMinimum"], 0.0);
+  EXPECT_EQ(planners[3]["properties"]["type"]["const"], "guided");
+  EXPECT_FALSE(planners[3].contains("required"));  // the default
+  EXPECT_EQ(planners[3]["properties"]["motion"]["enum"], Json::array({"translation", "rotation", "auto"}));
+  EXPECT_EQ(planners[6]["properties"]["type"]["const"], "t_rrt");
+  EXPECT_EQ(planners[6]["required"], Json::array({"type"}));
+  EXPECT_EQ(planners[6]["properties"]["range"]["exclusiveMinimum"], 0.0);
+}
+
+TEST_F(Describe, JsonSchemaOfPluginsThatHoldOthers) {
+  const Json schema = Json::parse(json_schema(registry_));
+  const Json& team = schema["properties"]["path_planner"]["oneOf"][7];
+  EXPECT_EQ(team["properties"]["type"]["const"], "team");
+  EXPECT_EQ(team["required"], Json::array({"type", "of"}));
+  const Json& item = team["properties"]["of"]["anyOf"][0]["items"]["anyOf"][1];
+  EXPECT_EQ(item["$ref"], "#/$defs/team.of");
+  const Json& held = schema["$defs"]["team.of"]["oneOf"];
+  ASSERT_EQ(held.size(), 8u);
+  for (const Json& alternative : held) EXPECT_TRUE(alternative["properties"].contains("after"));
+  EXPECT_EQ(held[7]["properties"]["of"]["anyOf"][0]["items"]["anyOf"][1]["$ref"], "#/$defs/team.of");  // a team in a team
+  EXPECT_FALSE(schema["$defs"]["team.last"]["oneOf"][0]["properties"].contains("after"));
+}
+
+TEST_F(Describe, APresetShowsWhatItStandsFor) {
+  const std::string text = describe_text(type("duo"), registry_);
+  for (const char* part : {"duo (path_planner preset)", "preset of team",
+                           "    of:\n      - type: bfs\n        after: 0\n        motion: rotation\n",
+                           "      - type: t_rrt\n        after: 7\n", "of = [bfs, t_rrt]   (list of path_planner)",
+                           "of[].after = 0   (integer, >= 0)"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  const Json json = Json::parse(describe_json(type("duo")));
+  EXPECT_EQ(json["preset"]["of"], "team");
+  EXPECT_EQ(json["parameters"][0]["default"][1]["goal_bias"], 0.25);
+  EXPECT_NE(describe_text(type("team"), registry_).find("of = none: required"), std::string::npos);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(Registry, FindsWhatWasRegistered) {
   registry.scan();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
   EXPECT_EQ(ids(registry, PluginKind::path_planner),
-            (std::vector<std::string>{"acme.straight", "bfs", "guided", "pairs", "t_rrt"}));
+            (std::vector<std::string>{"acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo", "t_rrt", "team"}));
   EXPECT_EQ(ids(registry, PluginKind::simulator),
             (std::vector<std::string>{"acme.stepper", "geometry_only", "sdf_penalty"}));
   const RegisteredType& bfs = registry.find(PluginKind::path_planner, "bfs");
@@ -85,8 +85,10 @@ TEST(Registry, BareIdsBelongToTheBuiltInFolder) {
   Registry registry{fs::path()};  // the same files, but from elsewhere
   registry.add_search_path(kBuiltIn);
   registry.scan();
-  ASSERT_EQ(registry.problems().size(), 1u);
+  ASSERT_EQ(registry.problems().size(), 3u);  // the plugin, and two presets
   EXPECT_NE(registry.problems()[0].message.find("needs an id with a dot"), std::string::npos);
+  for (const std::size_t k : {1u, 2u})
+    EXPECT_NE(registry.problems()[k].message.find("must carry a dot"), std::string::npos);
   Registry dotted(kAcme);  // and dots do not belong there
   dotted.scan();
   ASSERT_EQ(dotted.problems().size(), 2u);
@@ -152,7 +154,7 @@ TEST(Examples, StraightPlannerOnStepper) {
   ASSERT_GE(result.path()->poses().size(), 2u);
   EXPECT_TRUE(result.path()->poses().front()[0].is_identity());
   EXPECT_GT(result.path()->poses().back()[0].t.x(), 0.0);
-  EXPECT_EQ(result.path.back()[0].t.y(), 0.0);
+  EXPECT_EQ(result.path()->poses().back()[0].t.y(), 0.0);
 }
 
 std::string content(const fs::path& file) {

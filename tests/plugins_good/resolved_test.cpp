@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "dismantle/host/config.h"
 #include "dismantle/run_context.h"
@@ -19,13 +20,14 @@ class Resolved : public testing_support::Scratch {
   }
   static void expect_same(const RunConfig& a, const RunConfig& b) {
     EXPECT_EQ(a.simulator.type, b.simulator.type);
-    EXPECT_EQ(a.simulator.params, b.simulator.params);
+    EXPECT_EQ(a.simulator.parameters, b.simulator.parameters);
     EXPECT_EQ(a.path_planner.type, b.path_planner.type);
-    EXPECT_EQ(a.path_planner.params, b.path_planner.params);
+    EXPECT_EQ(a.path_planner.parameters, b.path_planner.parameters);
     EXPECT_EQ(a.sequence_planner.type, b.sequence_planner.type);
-    EXPECT_EQ(a.sequence_planner.params, b.sequence_planner.params);
+    EXPECT_EQ(a.sequence_planner.parameters, b.sequence_planner.parameters);
     EXPECT_EQ(a.transfer_planner.type, b.transfer_planner.type);
-    EXPECT_EQ(a.transfer_planner.params, b.transfer_planner.params);
+    EXPECT_EQ(a.transfer_planner.parameters, b.transfer_planner.parameters);
+    EXPECT_EQ(a.provers, b.provers);
     ASSERT_EQ(a.layout.poses.size(), b.layout.poses.size());
     for (const auto& [part, pose] : a.layout.poses) {
       EXPECT_EQ(pose.t, b.layout.poses.at(part).t);
@@ -71,6 +73,9 @@ ParamValue random_value(const ParamSpec& spec, Rng& rng) {
       for (std::uint64_t n = rng.below(8); n > 0; --n) text += pieces[rng.below(std::size(pieces))];
       return text;
     }
+    case ParamType::plugin:
+    case ParamType::plugins:
+      break;  // drawn by the test itself
   }
   return false;
 }
@@ -120,9 +125,9 @@ TEST_F(Resolved, RandomValuesRoundTrip) {
       }
     };
     for (const auto& [name, specs] : fixed_sections()) fill(specs, config.sections[name]);
-    fill(registry_.find("sdf_penalty").type.params, config.simulator.params);
-    fill(registry_.find(config.path_planner.type).type.params, config.path_planner.params);
-    fill(registry_.find(config.sequence_planner.type).type.params, config.sequence_planner.params);
+    fill(registry_.find("sdf_penalty").type.params, config.simulator.parameters);
+    fill(registry_.find(config.path_planner.type).type.params, config.path_planner.parameters);
+    fill(registry_.find(config.sequence_planner.type).type.params, config.sequence_planner.parameters);
     for (auto n = rng.below(3); n > 0; --n)
       config.layout.poses["part \"" + std::to_string(rng.below(9)) + "\"\n: x"] = {
           {rng.normal(), 1e9 * rng.normal(), rng.normal()},
@@ -144,6 +149,56 @@ TEST_F(Resolved, RandomValuesRoundTrip) {
     expect_same(config, again);
     EXPECT_EQ(without_comments(resolved(again)), without_comments(text));
     if (HasFailure()) FAIL() << text;
+  }
+}
+
+// Law: whatever plugins hold each other, the resolved file names every value, and gives the same configuration.
+TEST_F(Resolved, NestedChoicesRoundTrip) {
+  const RunConfig preset = load_text("schema: 1\npath_planner: {type: duo, of: {t_rrt: {range: 0.75}}}\n");
+  const std::string text = resolved(preset);
+  const std::pair<const char*, const char*> rows[] = {{"  type: duo ", "# run.yaml:2"},
+                                                      {"  # preset of team, sha256 ", "libfixture.so"},
+                                                      {"      # plugin dismantle.fixture 0.1.0", ""},
+                                                      {"    - type: t_rrt ", "# preset duo"},
+                                                      {"      range: 0.75 ", "# run.yaml:2"},
+                                                      {"      goal_bias: 0.25 ", "# preset duo"},
+                                                      {"      note: \"none\" ", "# preset duo"},
+                                                      {"  last:", ""},
+                                                      {"    similarity_translation: 0.05 ", "# preset duo"}};
+  for (const auto& [begin, end] : rows) {
+    const std::size_t at = text.find(std::string("\n") + begin);
+    ASSERT_NE(at, std::string::npos) << begin << "\n" << text;
+    const std::string line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    EXPECT_NE(line.find(end), std::string::npos) << line;
+  }
+  expect_same(preset, load_text(text));
+  EXPECT_EQ(without_comments(resolved(load_text(text))), without_comments(text));
+
+  Rng rng(29);
+  const std::vector<std::string> plain = {"bfs", "t_rrt", "guided"};
+  const std::function<PluginChoice(int)> draw = [&](int depth) {
+    PluginChoice choice{depth > 0 && rng.below(2) == 0 ? "team" : plain[rng.below(plain.size())], {}, {}};
+    for (const auto& spec : registry_.find(choice.type).type.params) {
+      if (spec.type == ParamType::plugin) {
+        choice.parameters[spec.name] = draw(depth - 1);
+      } else if (spec.type == ParamType::plugins) {
+        std::vector<PluginChoice> list;
+        for (auto n = 1 + rng.below(3); n > 0; --n) {
+          list.push_back(draw(depth - 1));
+          for (const auto& option : spec.options) list.back().options[option.name] = random_value(option, rng);
+        }
+        choice.parameters[spec.name] = list;
+      } else {
+        choice.parameters[spec.name] = random_value(spec, rng);
+      }
+    }
+    return choice;
+  };
+  for (int round = 0; round < 100; ++round) {
+    RunConfig config = load_config({}, registry_);
+    config.path_planner = draw(3);
+    expect_same(config, load_text(resolved(config)));
+    if (HasFailure()) FAIL() << resolved(config);
   }
 }
 

@@ -5,22 +5,21 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "dismantle/export.h"
+#include "dismantle/param_value.h"
+#include "dismantle/plugin_ref.h"
 
 namespace dismantle {
 
-using ParamValue = std::variant<bool, std::int64_t, double, std::string>;
-using ParamSet = std::map<std::string, ParamValue>;
-
-enum class ParamType { boolean, integer, number, text, choice };
+/// `plugin`: one PluginChoice; `plugins`: a list of them.
+enum class ParamType { boolean, integer, number, text, choice, plugin, plugins };
 
 struct ParamChoice {
   std::string name;
@@ -36,17 +35,21 @@ struct ParamSpec {
   bool min_open = false, max_open = false;  ///< true: the bound itself is not allowed
   std::vector<ParamChoice> choices;
   std::string doc;
+  PluginKind plugin_kind = PluginKind::path_planner;  ///< of `plugin` and `plugins`
+  std::vector<ParamSpec> options{};  ///< `plugins`: keys that each item has beside the parameters of its own type
+  bool required = false;             ///< there is no default: `fallback` is not a value
+  bool may_be_empty = false;         ///< `plugins`: an empty list is a value
 
-  /// What is wrong with `value`, or nothing. Checks type, range and choice.
+  /// What is wrong with `value`, or nothing. Checks type, range and choice; of plugins not their own parameters.
   DISMANTLE_API std::optional<std::string> problem_with(const ParamValue& value) const;
   DISMANTLE_API std::string range_text() const;  ///< "[0, 1)", ">= 0", "" when unbounded
 };
 
-DISMANTLE_API std::string to_text(const ParamValue& value);  ///< round-trips; locale-independent
 /// Everything wrong with the declarations themselves (no doc, no unit, default out of range, bad name, twice).
 DISMANTLE_API std::vector<std::string> problems_of_schema(const std::vector<ParamSpec>& specs);
-/// `given` completed with the defaults. Unknown names and bad values throw std::invalid_argument
-/// (the YAML binder has found them before, with their places).
+/// `given` completed with the defaults; of a choice of plugins its options, not its parameters, which only the host
+/// knows. Unknown names, bad values and required ones that are absent throw std::invalid_argument (the YAML binder has
+/// found them before, with their places).
 DISMANTLE_API ParamSet complete(const std::vector<ParamSpec>& specs, const ParamSet& given);
 
 /// How a number is declared: {.unit = "s", .min = 0, .doc = "..."}.
@@ -67,6 +70,9 @@ struct EnumChoice {
 /// Collects the declarations of a parameter struct. Defaults are read from a default-constructed T,
 /// the only place where they are written:
 ///   struct P { double range = 0.05; static void describe(Schema<P>& s) { s.add("range", &P::range, {...}); } };
+/// Plugins: a member `PluginRef<PathPlanner>`, or a vector of them, or a vector of a struct with a member
+/// `PluginRef<...> plugin` and a `describe` that declares what else each item of the list holds (then the default has to
+/// be empty). A reference without a default type, and an empty list, make the parameter required.
 template <class T>
 class Schema {
  public:
@@ -86,7 +92,7 @@ class Schema {
     if constexpr (std::is_same_v<M, bool>) {
       spec.type = ParamType::boolean;
       spec.fallback = defaults.*member;
-      setters_.emplace_back([name, member](T& t, const ParamSet& p) { t.*member = std::get<bool>(p.at(name)); });
+      set<bool>(name, member);
     } else if constexpr (std::is_integral_v<M>) {
       spec.type = ParamType::integer;
       spec.fallback = static_cast<std::int64_t>(defaults.*member);
@@ -94,16 +100,21 @@ class Schema {
       if (std::is_unsigned_v<M> && !spec.min) spec.min = 0;
       if (sizeof(M) < sizeof(std::int64_t) && !spec.max) spec.max = static_cast<double>(std::numeric_limits<M>::max());
       if (sizeof(M) < sizeof(std::int64_t) && !spec.min) spec.min = static_cast<double>(std::numeric_limits<M>::min());
-      setters_.emplace_back([name, member](T& t, const ParamSet& p) { t.*member = static_cast<M>(std::get<std::int64_t>(p.at(name))); });
+      set<std::int64_t>(name, member);
     } else if constexpr (std::is_floating_point_v<M>) {
       spec.type = ParamType::number;
       spec.fallback = static_cast<double>(defaults.*member);
-      setters_.emplace_back([name, member](T& t, const ParamSet& p) { t.*member = static_cast<M>(std::get<double>(p.at(name))); });
+      set<double>(name, member);
+    } else if constexpr (is_plugin_ref<M>) {
+      add_plugin(spec, member, defaults.*member);
+    } else if constexpr (is_plugin_list<M>) {
+      add_plugins(spec, member, defaults.*member);
     } else {
-      static_assert(std::is_same_v<M, std::string>, "parameters are bool, integer, floating point, string or an enum with choices");
+      static_assert(std::is_same_v<M, std::string>,
+                    "parameters are bool, integer, floating point, string, an enum with choices, or plugins");
       spec.type = ParamType::text;
       spec.fallback = defaults.*member;
-      setters_.emplace_back([name, member](T& t, const ParamSet& p) { t.*member = std::get<std::string>(p.at(name)); });
+      set<std::string>(name, member);
     }
     specs_.push_back(std::move(spec));
   }
@@ -119,7 +130,7 @@ class Schema {
       spec.choices.push_back({c.name, c.doc});
       if (c.value == defaults.*member) spec.fallback = c.name;
     }
-    setters_.emplace_back([name, member, choices](T& t, const ParamSet& p) {
+    setters_.emplace_back([name, member, choices](T& t, const ParamSet& p, const PluginMaker&) {
       for (const auto& c : choices)
         if (c.name == std::get<std::string>(p.at(name))) t.*member = c.value;
     });
@@ -127,16 +138,82 @@ class Schema {
   }
 
   const std::vector<ParamSpec>& specs() const { return specs_; }
-  /// `values` must be complete (see dismantle::complete).
-  T bind(const ParamSet& values) const {
+  /// `values` must be complete (see dismantle::complete). Plugins that they name are made by `make`.
+  T bind(const ParamSet& values, const PluginMaker& make = {}) const {
     T t{};
-    for (const auto& set : setters_) set(t, values);
+    for (const auto& set : setters_) set(t, values, make);
     return t;
   }
 
  private:
+  template <class M>
+  struct ListItem {
+    static constexpr bool is_plugin = false;
+  };
+  template <class Interface>
+  struct ListItem<std::vector<PluginRef<Interface>>> {
+    static constexpr bool is_plugin = true;
+  };
+  template <class Item>
+    requires is_plugin_ref<decltype(Item::plugin)>
+  struct ListItem<std::vector<Item>> {
+    static constexpr bool is_plugin = true;
+  };
+  template <class M>
+  static constexpr bool is_plugin_list = ListItem<M>::is_plugin;
+
+  template <class Held, class M>
+  void set(const std::string& name, M T::* member) {
+    setters_.emplace_back([name, member](T& t, const ParamSet& p, const PluginMaker&) {
+      t.*member = static_cast<M>(std::get<Held>(p.at(name)));
+    });
+  }
+
+  template <class M>
+  void add_plugin(ParamSpec& spec, M T::* member, const M& fallback) {
+    spec.type = ParamType::plugin;
+    spec.plugin_kind = M::kind;
+    spec.fallback = fallback.choice();
+    spec.required = fallback.type().empty();
+    setters_.emplace_back([name = spec.name, member](T& t, const ParamSet& p, const PluginMaker& make) {
+      t.*member = M(std::get<PluginChoice>(p.at(name)), make);
+    });
+  }
+
+  template <class M>
+  void add_plugins(ParamSpec& spec, M T::* member, const M& fallback) {
+    using Item = typename M::value_type;
+    std::vector<PluginChoice> choices;
+    spec.type = ParamType::plugins;
+    if constexpr (is_plugin_ref<Item>) {
+      spec.plugin_kind = Item::kind;
+      for (const Item& item : fallback) choices.push_back(item.choice());
+      setters_.emplace_back([name = spec.name, member](T& t, const ParamSet& p, const PluginMaker& make) {
+        (t.*member).clear();
+        for (const PluginChoice& choice : std::get<std::vector<PluginChoice>>(p.at(name)))
+          (t.*member).emplace_back(choice, make);
+      });
+    } else {
+      using Ref = decltype(Item::plugin);
+      const Schema<Item> items;
+      spec.plugin_kind = Ref::kind;
+      spec.options = items.specs();
+      if (!fallback.empty()) throw std::logic_error("a list of plugins with options has no default: " + spec.name);
+      setters_.emplace_back([name = spec.name, member, items](T& t, const ParamSet& p, const PluginMaker& make) {
+        (t.*member).clear();
+        for (const PluginChoice& choice : std::get<std::vector<PluginChoice>>(p.at(name))) {
+          Item item = items.bind(choice.options, make);
+          item.plugin = Ref(choice, make);
+          (t.*member).push_back(std::move(item));
+        }
+      });
+    }
+    spec.required = choices.empty();
+    spec.fallback = std::move(choices);
+  }
+
   std::vector<ParamSpec> specs_;
-  std::vector<std::function<void(T&, const ParamSet&)>> setters_;
+  std::vector<std::function<void(T&, const ParamSet&, const PluginMaker&)>> setters_;
 };
 
 }  // namespace dismantle

@@ -64,6 +64,8 @@ struct PlanPart {
   unsigned id = 0;
   std::string name;
   std::string file;
+  std::optional<Rgba> colour{};        ///< opaque
+  std::vector<std::string> parents{};  ///< assemblies of its file that it is in, outermost first
 };
 
 struct PlanOverlap {
@@ -77,6 +79,8 @@ struct PlanAssembly {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
   Aabb box;                                          ///< input units
   SurfaceRepair repair;
+  ImportParams import_params;
+  std::string unit;                                  ///< input unit; empty when the files do not say
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
   std::vector<PlanOverlap> overlaps;

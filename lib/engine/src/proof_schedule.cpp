@@ -20,7 +20,7 @@ constexpr unsigned kDepthForHigh = 4;  // likewise of high effort
 constexpr double kLastShare = 0.5;     // of the tolerance: with half of it more is proved than with all of it
 constexpr double kWhole = 1 - 1e-9;
 
-bool contains(const std::vector<PlacedPart>& group, PartId part) {
+bool has_part(const std::vector<PlacedPart>& group, PartId part) {
   return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
 }
 
@@ -33,7 +33,7 @@ bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome
 PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt) {
   PathResult result = PathResult::failure(Outcome::infeasible, certificate.text);
   for (const PartId id : certificate.parts)
-    if (contains(attempt.still, id)) result.blocked_by.push_back(id);
+    if (has_part(attempt.still, id)) result.blocked_by.push_back(id);
   return result;
 }
 
@@ -134,7 +134,7 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
   if (!attempt.goal.any_of.empty()) {
     const Certificate* found = nullptr;
     for (const PartId id : attempt.goal.any_of) {
-      const auto here = [&](PartId other) { return contains(attempt.moving, other) || contains(attempt.still, other); };
+      const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.still, other); };
       const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
         return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
       });
@@ -144,8 +144,8 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
     return found;
   }
   const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
-    return (contains(attempt.moving, c->parts[0]) && contains(attempt.still, c->parts[1])) ||
-           (contains(attempt.moving, c->parts[1]) && contains(attempt.still, c->parts[0]));
+    return (has_part(attempt.moving, c->parts[0]) && has_part(attempt.still, c->parts[1])) ||
+           (has_part(attempt.moving, c->parts[1]) && has_part(attempt.still, c->parts[0]));
   });
   return lock == locks_.end() ? nullptr : *lock;
 }

@@ -25,7 +25,12 @@ Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   a.center = assembly.normalization.center;
   a.box = assembly.input_box;
   a.repair = assembly.repair;
-  for (const auto& part : assembly.parts) a.parts.push_back({part.id, part.name, part.file});
+  a.import_params = assembly.import_params;
+  a.unit = assembly.unit;
+  for (const auto& part : assembly.parts) {
+    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents});
+    if (part.colour) a.parts.back().colour->a = 255;
+  }
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)
     a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth});

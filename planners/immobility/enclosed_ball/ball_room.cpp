@@ -114,14 +114,15 @@ bool leaves_straight(const Vec3& start, const Bounds& bounds, double step) {
   return false;
 }
 
-enum class Flood { closed, open, too_many };
+enum class Flood { closed, open, given_up };
 
-Flood flood(const Vec3& start, const Bounds& bounds, double edge, std::size_t most_cells, Room& room) {
+Flood flood(const Vec3& start, const Bounds& bounds, double edge, std::size_t most_cells, const RunContext& context,
+            Room& room) {
   const double reach = kHalfDiagonal * edge;
   using Waiting = std::pair<double, Cell>;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> open;  // what is nearest to the outside first
   Seen seen(bounds.all, start, edge);
-  if (!seen.usable()) return Flood::too_many;
+  if (!seen.usable()) return Flood::given_up;
   seen.insert(Cell{});
   std::vector<std::size_t> stopped(bounds.placed.size(), 0);
   std::size_t reached = 0;
@@ -130,7 +131,7 @@ Flood flood(const Vec3& start, const Bounds& bounds, double edge, std::size_t mo
     const auto [inside, cell] = open.top();
     open.pop();
     if (inside < reach) return Flood::open;
-    if (++reached > most_cells) return Flood::too_many;
+    if (++reached > most_cells || (reached % 256 == 0 && context.should_stop())) return Flood::given_up;
     for (int k = 0; k < 6; ++k) {
       Cell next = cell;
       (k < 2 ? next.x : k < 4 ? next.y : next.z) += k % 2 == 0 ? 1 : -1;
@@ -179,7 +180,7 @@ Ball large_ball(const Solid& solid, std::uint64_t most_cubes) {
   return best;
 }
 
-Room room_of(const Vec3& start, const std::vector<Wall>& walls, std::size_t most_cells) {
+Room room_of(const Vec3& start, const std::vector<Wall>& walls, std::size_t most_cells, const RunContext& context) {
   Room room;
   double least = std::numeric_limits<double>::infinity();
   for (const Wall& w : walls) least = std::min(least, w.distance);
@@ -187,16 +188,17 @@ Room room_of(const Vec3& start, const std::vector<Wall>& walls, std::size_t most
   const Bounds bounds(walls);
   if (leaves_straight(start, bounds, kCells.back() * least)) return room;
   for (const double share : kCells)
-    if (flood(start, bounds, share * least, most_cells, room) != Flood::open) break;
+    if (context.should_stop() || flood(start, bounds, share * least, most_cells, context, room) != Flood::open) break;
   return room;
 }
 
-Room room_of_cells(const Vec3& start, const std::vector<Wall>& walls, double edge, std::size_t most_cells) {
+Room room_of_cells(const Vec3& start, const std::vector<Wall>& walls, double edge, std::size_t most_cells,
+                   const RunContext& context) {
   Room room;
   if (walls.empty()) return room;
   const Bounds bounds(walls);
   if (!(bounds.inside(start) >= 0) || bounds.too_near(start, kHalfDiagonal * edge) < walls.size()) return room;
-  flood(start, bounds, edge, most_cells, room);
+  flood(start, bounds, edge, most_cells, context, room);
   return room;
 }
 

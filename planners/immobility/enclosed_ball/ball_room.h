@@ -9,6 +9,7 @@
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/pose.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 
@@ -36,14 +37,15 @@ struct Room {
 };
 
 /// Can the centre get from `start` to the outside? Floods cells, of which none is left out where it may be. Cells too
-/// coarse for that are halved a few times.
+/// coarse for that are halved a few times. Not closed when told to stop.
 ///
 /// `closed` proves that it cannot. All the centre's places then lie in a bounded piece of the space that keeps its
 /// distance to all walls. Such a piece lies in the convex hull of the walls: a point outside the hull could leave
 /// straight away from it, and would come nearer to none of them.
-Room room_of(const Eigen::Vector3d& start, const std::vector<Wall>& walls, std::size_t most_cells = 1'000'000);
+Room room_of(const Eigen::Vector3d& start, const std::vector<Wall>& walls, std::size_t most_cells,
+             const RunContext& context);
 /// The same with cells of one edge; assembly units, > 0.
-Room room_of_cells(const Eigen::Vector3d& start, const std::vector<Wall>& walls, double edge,
-                   std::size_t most_cells = 1'000'000);
+Room room_of_cells(const Eigen::Vector3d& start, const std::vector<Wall>& walls, double edge, std::size_t most_cells,
+                   const RunContext& context);
 
 }  // namespace dismantle::immobility

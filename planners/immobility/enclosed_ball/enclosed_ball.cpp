@@ -70,15 +70,15 @@ ProverTraits EnclosedBall::traits() const noexcept {
   return {ProofEffort::low, 2, std::numeric_limits<std::size_t>::max(), true};
 }
 
-std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const RunContext& /*context*/) const {
+std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const RunContext& context) const {
   if (query.moving.empty() || query.fixed.empty()) return std::nullopt;
-  if (auto found = prove(query, query.moving, query.fixed)) return found;
+  if (auto found = prove(query, query.moving, query.fixed, context)) return found;
   // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
-  return query.moving.size() == 1 ? prove(query, query.fixed, query.moving) : std::nullopt;
+  return query.moving.size() == 1 ? prove(query, query.fixed, query.moving, context) : std::nullopt;
 }
 
 std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const std::vector<PlacedPart>& inner,
-                                               const std::vector<PlacedPart>& outer) const {
+                                               const std::vector<PlacedPart>& outer, const RunContext& context) const {
   Ball ball;
   PlacedPart holder;
   for (const auto& p : inner)
@@ -89,14 +89,14 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
   const auto most_cells = static_cast<std::size_t>(params_.max_cells);
   const Eigen::Vector3d center = holder.pose * ball.center;
   const Walls walls = walls_of(query, holder.part, ball.radius, outer);
-  const Room room = room_of(center, walls.all, most_cells);
+  const Room room = room_of(center, walls.all, most_cells, context);
   if (!room.closed) return std::nullopt;
   std::vector<PartId> around;
   for (const std::size_t w : room.bounds) around.push_back(walls.of[w]);
   around = distinct(around);
   // The claim is about the parts that bound the room, if these alone close it.
   const Walls bounding = walls_of(query, holder.part, ball.radius, those(outer, around));
-  if (!room_of_cells(center, bounding.all, room.cell, most_cells).closed) around = distinct(walls.of);
+  if (!room_of_cells(center, bounding.all, room.cell, most_cells, context).closed) around = distinct(walls.of);
 
   Certificate found;
   found.parts = {holder.part};
@@ -113,7 +113,7 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
 }
 
 std::string EnclosedBall::objection(const Certificate& certificate, const SeparationQuery& query,
-                                    const RunContext& /*context*/) const {
+                                    const RunContext& context) const {
   const auto number = [&](const std::string& name, std::size_t count) -> std::vector<double> {
     const auto found = certificate.numbers.find(name);
     return found != certificate.numbers.end() && found->second.size() == count ? found->second : std::vector<double>{};
@@ -131,8 +131,9 @@ std::string EnclosedBall::objection(const Certificate& certificate, const Separa
     return fmt::format("{} holds a ball of radius {:.4g} there and no larger one", name_of(query, holder.part), depth);
   const Walls walls = walls_of(query, holder.part, radius[0], query.fixed);
   const auto most_cells = static_cast<std::size_t>(params_.max_cells);
-  if (!room_of_cells(holder.pose * c, walls.all, cell[0], most_cells).closed)
-    return "there is a way out for the ball, or its room has too many cells";
+  if (!room_of_cells(holder.pose * c, walls.all, cell[0], most_cells, context).closed)
+    return context.should_stop() ? "the check was stopped"
+                                 : "there is a way out for the ball, or its room has too many cells";
   return {};
 }
 

@@ -28,7 +28,7 @@ class EnclosedBall final : public ImmobilityProver {
 
  private:
   std::optional<Certificate> prove(const SeparationQuery& query, const std::vector<PlacedPart>& inner,
-                                   const std::vector<PlacedPart>& outer) const;
+                                   const std::vector<PlacedPart>& outer, const RunContext& context) const;
   EnclosedBallParams params_;
 };
 

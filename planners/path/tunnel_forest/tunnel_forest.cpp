@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "dismantle/path/ended_search.h"
@@ -11,14 +12,15 @@ namespace {
 class TunnelForest final : public PathPlanner {
  public:
   explicit TunnelForest(const Parameters& parameters) : parameters_(parameters) {}
-  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds, .concurrent = true}; }
 
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const Capabilities has = query.simulator.capabilities();
     if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
       return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
-    return std::make_unique<Growth>(parameters_, query, context,
-                                    path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));
+    std::uint64_t most = path::doubled_per_level(parameters_.level_steps, query.budget.max_depth);
+    if (parameters_.max_steps > 0) most = std::min(most, static_cast<std::uint64_t>(parameters_.max_steps));
+    return std::make_unique<Growth>(parameters_, query, context, most);
   }
 
  private:

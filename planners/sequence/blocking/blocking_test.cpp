@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "barred_shaft.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "run_blocking.h"
 
 namespace dismantle {

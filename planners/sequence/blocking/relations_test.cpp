@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "barred_shaft.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {

@@ -24,14 +24,19 @@ inline PathResult shallow(const PathQuery& query, RunContext&) {
 
 /// The plan is valid, whatever else it is.
 inline RunResult take_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {},
-                            Script planner = &helpless, std::vector<NamedProver> provers = {},
+                            Script planner = &helpless, const std::vector<NamedProver>& provers = {},
                             const BlockingParams& params = {}) {
   RunContext context;
   context.threads = threads;
+  const auto prover_of = [&](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+    for (const NamedProver& named : provers)
+      if (named.id == kind) return named.prover;
+    return nullptr;
+  };
   Ingredients used = ingredients(std::move(planner), std::make_shared<Blocking>(params));
-  used.provers = std::move(provers);
+  used.provers = provers;
   RunResult r = run(assembly, used, options, context);
-  const PlanCheck check = check_plan(r.plan, assembly, options.verify, context);
+  const PlanCheck check = check_plan(r.plan, assembly, options.verify, context, prover_of);
   EXPECT_TRUE(check.valid) << (check.problems.empty() ? "" : check.problems.front().message);
   return r;
 }

@@ -23,8 +23,9 @@ std::map<std::string, std::string> pages(const dismantle::Registry& registry) {
     index += "\n## " + name + "\n\n";
     for (const auto* type : types) {
       const std::string file = name + "_" + type->type.id + ".md";
-      index += "- [" + type->type.id + "](" + file + "): " + type->type.summary + "\n";
-      all[file] = dismantle::describe_markdown(type->type, *type->file);
+      const std::string preset = type->preset_of.empty() ? "" : " (preset of `" + type->preset_of + "`)";
+      index += "- [" + type->type.id + "](" + file + ")" + preset + ": " + type->type.summary + "\n";
+      all[file] = dismantle::describe_markdown(*type, registry);
     }
   }
   index += "\n## configuration\n\n- [sections](sections.md): `assembly`, `layout`, `run`, `verify`\n";

@@ -44,6 +44,24 @@ std::string text_of(const RunConfig& config, const Registry& registry, const fs:
   return text;
 }
 
+/// A choice and the plugins that its parameters hold, each under the name of its place.
+void add_uses(const std::string& place, PluginKind kind, const PluginChoice& choice, const Registry& registry,
+              std::map<fs::path, std::string>& hashes, std::vector<PluginUse>& out) {
+  const RegisteredType& type = registry.find(kind, choice.type);
+  std::string& hash = hashes[type.file->path];
+  if (hash.empty()) hash = sha256_of_file(type.file->path);
+  out.push_back({place, choice.type, type.file->id, type.file->version, type.file->path.filename().string(), hash});
+  for (const ParamSpec& spec : type.type.params) {
+    const std::string inner = place + "." + spec.name;
+    const ParamValue& value = choice.parameters.at(spec.name);
+    if (const auto* one = std::get_if<PluginChoice>(&value))
+      add_uses(inner, spec.plugin_kind, *one, registry, hashes, out);
+    if (const auto* many = std::get_if<std::vector<PluginChoice>>(&value))
+      for (std::size_t k = 0; k < many->size(); ++k)
+        add_uses(inner + "." + std::to_string(k), spec.plugin_kind, (*many)[k], registry, hashes, out);
+  }
+}
+
 std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& registry,
                                   std::map<fs::path, std::string>& hashes) {
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
@@ -51,10 +69,7 @@ std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& regis
   std::vector<PluginUse> out;
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) {
     const auto& section = plugin_sections()[i];
-    const PluginFile& file = *registry.find(section.kind, choices[i]->type).file;
-    std::string& hash = hashes[file.path];
-    if (hash.empty()) hash = sha256_of_file(file.path);
-    out.push_back({section.name, choices[i]->type, file.id, file.version, file.path.filename().string(), hash});
+    add_uses(section.name, section.kind, *choices[i], registry, hashes, out);
   }
   return out;
 }

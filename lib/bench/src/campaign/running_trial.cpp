@@ -115,13 +115,14 @@ void RunningTrial::take_result() {
     row_.prepare_seconds = r.at("prepare_seconds").get<double>();
     row_.plan_seconds = r.at("plan_seconds").get<double>();
     row_.solve_seconds = r.at("solve_seconds").get<double>();
+    row_.proof_seconds = r.at("proof_seconds").get<double>();
     row_.attempts = r.at("attempts").get<std::int64_t>();
     row_.memoised = r.at("memoised").get<std::int64_t>();
     const nlohmann::json& counts = r.at("counts");
     row_.counts = counts.dump();
     row_.simulated_steps = count(counts, "steps");
     row_.nodes = count(counts, "nodes");
-    row_.collision_checks = count(counts, "checks");
+    row_.collision_checks = count(counts, "state_checks");
     if (const double peak = r.at("peak_rss_mb").get<double>(); peak > 0) row_.peak_rss_mb = peak;
     row_.outcome = r.at("outcome").get<std::string>();
     const auto outcome = outcome_from_string(row_.outcome);

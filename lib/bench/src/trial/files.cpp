@@ -30,7 +30,15 @@ nlohmann::json read_json(const std::filesystem::path& file) {
 void write_request(const TrialRequest& r, const std::filesystem::path& folder) {
   nlohmann::json values = nlohmann::json::object();
   for (const auto& [name, value] : r.sample_values)
-    std::visit([&, key = name](const auto& v) { values[key] = v; }, value);
+    std::visit(
+        [&, key = name](const auto& v) {
+          using V = std::decay_t<decltype(v)>;
+          if constexpr (std::is_same_v<V, PluginChoice> || std::is_same_v<V, std::vector<PluginChoice>>)
+            throw std::logic_error("samples hold no plugins: " + key);
+          else
+            values[key] = v;
+        },
+        value);
   const nlohmann::json json = {{"config", r.config.string()},
                                {"input", r.input.string()},
                                {"sample", r.sample},

@@ -12,6 +12,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {
@@ -59,6 +60,14 @@ class Place {
     std::vector<std::pair<std::string, Place>> out;
     for (const auto& item : value_.items()) out.emplace_back(item.key(), at(item.key()));
     return out;
+  }
+
+  ParamValue parameter() const {
+    if (value_.is_boolean()) return value_.get<bool>();
+    if (value_.is_number_integer()) return value_.get<std::int64_t>();
+    if (value_.is_number()) return value_.get<double>();
+    if (!value_.is_string()) fail("expected a number, a string, true or false");
+    return value_.get<std::string>();
   }
 
   std::string text() const {
@@ -156,8 +165,16 @@ std::vector<std::string> read_group(const Place& place, const Names& parts) {
   return out;
 }
 
+ImportParams read_import(const Place& place) {
+  ImportParams out;
+  for (const auto& [importer, values] : place.members())
+    for (const auto& [name, value] : values.members()) out[importer][name] = value.parameter();
+  return out;
+}
+
 PlanAssembly read_assembly(const Place& place, Names& parts) {
-  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"}, {"repair"});
+  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"},
+               {"repair", "unit", "import"});
   PlanAssembly a;
   a.source = place.at("source").text();
   a.sha256 = place.at("sha256").text();
@@ -171,8 +188,14 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     if (a.box.empty()) box.fail("the first corner is above the second");
   }
   for (const Place& item : place.at("parts").items()) {
-    item.object({"id", "name", "file"});
+    item.object({"id", "name", "file"}, {"color", "parents"});
     PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
+    if (item.has("color")) {
+      p.colour = rgba_from_hex(item.at("color").text());
+      if (!p.colour) item.at("color").fail("expected a colour as in \"#rrggbb\"");
+    }
+    if (item.has("parents"))
+      for (const Place& parent : item.at("parents").items()) p.parents.push_back(parent.text());
     if (p.id != a.parts.size())
       item.at("id").fail(fmt::format("expected {}: parts are numbered in order", a.parts.size()));
     if (!parts.insert(p.name).second) item.at("name").fail(fmt::format("there are two parts '{}'", p.name));
@@ -188,6 +211,8 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     if (o.a == o.b) item.fail("a part cannot overlap itself");
     a.overlaps.push_back(std::move(o));
   }
+  if (place.has("unit")) a.unit = place.at("unit").name();
+  if (place.has("import")) a.import_params = read_import(place.at("import"));
   if (place.has("repair")) {
     const Place repair = place.at("repair");
     repair.object({"weld", "repair", "max_hole"});

@@ -2,6 +2,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
+#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {
@@ -59,9 +60,27 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
   return out;
 }
 
+Json import_json(const ImportParams& params) {
+  Json out;
+  for (const auto& [importer, values] : params)
+    for (const auto& [name, value] : values) std::visit(
+          [&](const auto& v) {
+            if constexpr (std::is_constructible_v<Json, decltype(v)>)
+              out[importer][name] = v;
+            else
+              out[importer][name] = to_text(value);  // a choice of plugins
+          },
+          value);
+  return out;
+}
+
 Json assembly_json(const PlanAssembly& a) {
   Json parts = Json::array(), excluded = Json::array(), overlaps = Json::array();
-  for (const PlanPart& p : a.parts) parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
+  for (const PlanPart& p : a.parts) {
+    parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
+    if (p.colour) parts.back()["color"] = to_hex(*p.colour);
+    if (!p.parents.empty()) parts.back()["parents"] = p.parents;
+  }
   for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
   for (const PlanOverlap& o : a.overlaps) overlaps.push_back({{"a", o.a}, {"b", o.b}, {"depth", o.depth}});
   Json out;
@@ -75,6 +94,8 @@ Json assembly_json(const PlanAssembly& a) {
   out["overlaps"] = std::move(overlaps);
   if (a.repair != SurfaceRepair{})
     out["repair"] = {{"weld", a.repair.weld}, {"repair", a.repair.repair}, {"max_hole", a.repair.max_hole}};
+  if (!a.unit.empty()) out["unit"] = a.unit;
+  if (!a.import_params.empty()) out["import"] = import_json(a.import_params);
   return out;
 }
 

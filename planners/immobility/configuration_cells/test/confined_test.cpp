@@ -2,12 +2,10 @@
 // they have and wherever the assembly stands.
 #include <gtest/gtest.h>
 
-#include "dismantle/executor.h"
-#include "dismantle/testing/held_shapes.h"
-#include "dismantle/verification/explanations.h"
-#include "dismantle/verification/verifier.h"
+#include "configuration_cells/configuration_cells.h"
+#include "prover_rig.h"
 
-namespace dismantle {
+namespace dismantle::immobility {
 namespace {
 
 using shapes::append;
@@ -29,19 +27,32 @@ Cased any_case(Rng& rng, double rim) {
           rng.uniform(0.1, 0.2)};
 }
 
-Verifier judge_of(const Cased& c, const Pose& turned, double allowed = kWaysMay) {
-  return Verifier(assembly_of({moved(c.block(), turned), moved(c.around(), turned)}), {allowed});
+ProverRig rig_of(const Cased& c, const Pose& turned) {
+  return {assembly_of({moved(c.block(), turned), moved(c.around(), turned)}), kWaysMay};
+}
+
+Verifier verifier_of(const ProverRig& rig, double allowed = kWaysMay) { return Verifier(rig.assembly(), {allowed}); }
+
+/// What was proved, for motions that cut in half as deep as the tolerance.
+struct Confined {
+  std::vector<PartId> parts;
+  double depth = 0, shift = 0, turn = 0, cells = 0;
+};
+std::optional<Confined> confined(const ProverRig& rig, PartId a = 0, PartId b = 1, const RunContext& context = {}) {
+  const auto c = rig.prove(ConfigurationCells{}, {a}, {b}, 0.5, context);
+  if (!c) return std::nullopt;
+  const auto number = [&](const char* name) { return c->numbers.at(name).front(); };
+  return Confined{c->parts, number("depth"), number("shift"), number("turn"), number("cells")};
 }
 
 TEST(Confined, ABlockUnderARim) {
   Rng rng(1);
   for (int i = 0; i < 4; ++i) {
     const Cased c = any_case(rng, rng.uniform(0.08, 0.15));
-    const Verifier verifier = judge_of(c, random_pose(rng, 2));
-    const auto found = verifier.confined(0, 1, {});
+    const ProverRig rig = rig_of(c, random_pose(rng, 2));
+    const auto found = confined(rig);
     ASSERT_TRUE(found) << i;
-    EXPECT_EQ(found->inside, 0u);
-    EXPECT_EQ(found->other, 1u);
+    EXPECT_EQ(found->parts, (std::vector<PartId>{0, 1}));
     EXPECT_DOUBLE_EQ(found->depth, 0.5 * kWaysMay);
     EXPECT_GE(found->shift, c.play) << "it does move as far as it has play";
     EXPECT_LT(found->shift, c.half.z()) << "and stays where it was";
@@ -53,9 +64,9 @@ TEST(Confined, NotWhereItComesOut) {
   for (int i = 0; i < 4; ++i) {
     const Cased c =
         any_case(rng, i % 2 == 0 ? rng.uniform(-0.02, 0) : rng.uniform(0.002, 0.0027));  // < half of what is allowed
-    const Verifier verifier = judge_of(c, Pose{});
-    EXPECT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {shapes::shift({0, 0, 3})}}).valid);
-    EXPECT_FALSE(verifier.confined(0, 1, {})) << i;
+    const ProverRig rig = rig_of(c, Pose{});
+    EXPECT_TRUE(verifier_of(rig).check_motion({0}, {{1, Pose{}}}, {{Pose{}}, {shapes::shift({0, 0, 3})}}).valid);
+    EXPECT_FALSE(confined(rig)) << i;
   }
 }
 
@@ -69,10 +80,10 @@ TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
   append(tunnel, box({-0.5, -wide, -wide}, {-wide, wide, 0.5}));
   append(tunnel, box({hole + wide, -wide, -wide}, {1, wide, 0.5}));
   append(tunnel, box({-wide, -wide, wide}, {hole - wide, wide, 0.5}));
-  const Verifier verifier(assembly_of({block, tunnel}), {kWaysMay});
+  const ProverRig rig(assembly_of({block, tunnel}), kWaysMay);
   const Path out{{Pose{}}, {shapes::shift({hole, 0, 0})}, {shapes::shift({hole, 0, 2})}};
-  ASSERT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, out).valid);
-  EXPECT_FALSE(verifier.confined(0, 1, {}));
+  ASSERT_TRUE(verifier_of(rig).check_motion({0}, {{1, Pose{}}}, out).valid);
+  EXPECT_FALSE(confined(rig));
 }
 
 TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
@@ -80,18 +91,18 @@ TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
   for (int i = 0; i < 2; ++i) {
     const Passage p{rng.uniform(0.15, 0.25), rng.uniform(0.003, 0.02), true};
     const Pose at = random_pose(rng, 2);
-    const Verifier verifier(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), {kWaysMay});
+    const ProverRig rig(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), kWaysMay);
     const auto by = [&](double x, double y, double z) { return shapes::shift(at.q * (p.step() * Vec3(x, y, z))); };
     const Path out{{Pose{}}, {by(1, 0, 0)}, {by(1, 1, 0)}, {by(1, 1, 8)}};
-    ASSERT_TRUE(verifier.check_motion({0}, {{1, Pose{}}}, out).valid) << i;
-    EXPECT_FALSE(verifier.confined(0, 1, {})) << i;
+    ASSERT_TRUE(verifier_of(rig).check_motion({0}, {{1, Pose{}}}, out).valid) << i;
+    EXPECT_FALSE(confined(rig)) << i;
   }
 }
 
 TEST(Confined, ACubeThatSlidesRoundACorner) {
   const Passage p{0.2, 0.003, false};
-  const Verifier verifier(assembly_of({p.cube(), p.around()}), {kWaysMay});
-  const auto found = verifier.confined(0, 1, {});
+  const ProverRig rig(assembly_of({p.cube(), p.around()}), kWaysMay);
+  const auto found = confined(rig);
   ASSERT_TRUE(found);
   EXPECT_GE(found->shift, p.step()) << "it gets to the corner at least";
 }
@@ -105,8 +116,8 @@ TEST(Confined, ABlockThatSlidesFar) {
     Mesh channel = box(-out, out + far);
     append(channel, inside_out(box(-in, in + far)));
     const Pose at = random_pose(rng, 2);
-    const Verifier verifier(assembly_of({moved(box(-half, half), at), moved(channel, at)}), {kWaysMay});
-    const auto found = verifier.confined(0, 1, {});
+    const ProverRig rig(assembly_of({moved(box(-half, half), at), moved(channel, at)}), kWaysMay);
+    const auto found = confined(rig);
     ASSERT_TRUE(found) << i;
     EXPECT_GE(found->shift, slide) << i;
     EXPECT_LT(found->shift, slide + 0.3) << "within the walls";
@@ -114,10 +125,10 @@ TEST(Confined, ABlockThatSlidesFar) {
 }
 
 TEST(Confined, NotWhereNothingIsAround) {
-  const Verifier verifier(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1.005}, {1, 1, 2})}), {kWaysMay});
-  EXPECT_FALSE(verifier.confined(0, 1, {}));
-  const Verifier far(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 5}, {1, 1, 6})}), {kWaysMay});
-  EXPECT_FALSE(far.confined(0, 1, {}));
+  const ProverRig rig(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1.005}, {1, 1, 2})}), kWaysMay);
+  EXPECT_FALSE(confined(rig));
+  const ProverRig far(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 5}, {1, 1, 6})}), kWaysMay);
+  EXPECT_FALSE(confined(far));
 }
 
 TEST(Confined, NotWhereASurfaceHasABorder) {
@@ -126,16 +137,16 @@ TEST(Confined, NotWhereASurfaceHasABorder) {
   for (const bool inner : {true, false}) {
     Mesh block = c.block(), around = c.around();
     (inner ? block : around).triangles.pop_back();
-    EXPECT_FALSE(Verifier(assembly_of({block, around}), {kWaysMay}).confined(0, 1, {}));
+    EXPECT_FALSE(confined(ProverRig(assembly_of({block, around}), kWaysMay)));
   }
 }
 
 TEST(Confined, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
   Rng rng(3);
   const Cased c = any_case(rng, 0.1);
-  const auto found = judge_of(c, Pose{}).confined(0, 1, {});
+  const auto found = confined(rig_of(c, Pose{}));
   ASSERT_TRUE(found);
-  const Verifier strict = judge_of(c, Pose{}, found->depth);
+  const Verifier strict = verifier_of(rig_of(c, Pose{}), found->depth);
   int accepted = 0;
   for (int i = 0; i < 300; ++i) {
     const Vec3 by = 2 * found->shift * Vec3(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
@@ -152,13 +163,13 @@ TEST(Confined, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
 
 TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
   Rng rng(4);
-  const Verifier verifier = judge_of(any_case(rng, 0.1), Pose{});
-  const auto one = verifier.confined(0, 1, {});
+  const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
+  const auto one = confined(rig);
   RunContext context;
   context.executor = std::make_shared<Executor>(2);
-  const auto two = verifier.confined(1, 0, context);
+  const auto two = confined(rig, 1, 0, context);
   ASSERT_TRUE(one && two);
-  EXPECT_EQ(one->inside, two->inside);
+  EXPECT_EQ(one->parts, two->parts);
   EXPECT_EQ(one->cells, two->cells);
   EXPECT_EQ(one->shift, two->shift);
   EXPECT_EQ(one->turn, two->turn);
@@ -166,19 +177,24 @@ TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
 
 TEST(Confined, EndsWhenToldTo) {
   Rng rng(5);
-  const Verifier verifier = judge_of(any_case(rng, 0.1), Pose{});
+  const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
   RunContext context;
   context.cancel.cancel();
-  EXPECT_FALSE(verifier.confined(0, 1, context));
+  EXPECT_FALSE(confined(rig, 0, 1, context));
 }
 
-TEST(Confined, SaysWhoAndHowFar) {
+TEST(Confined, ItsCertificateHoldsAndSaysWhoAndHowFar) {
   Rng rng(6);
-  const Assembly assembly = assembly_of({any_case(rng, 0.1).block(), any_case(rng, 0.1).around()});
-  const std::string text = describe(Confinement{0, 1, 0.005, 0.08, 0.2, 77}, assembly);
-  for (const char* part : {"'part0'", "'part1'", "0.005", "0.08", "0.2", "77"})
-    EXPECT_NE(text.find(part), std::string::npos) << text;
+  const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
+  for (const double share : {0.5, 1.0}) {
+    auto c = rig.prove(ConfigurationCells{}, {0}, {1}, share);
+    ASSERT_TRUE(c) << share;
+    for (const char* part : {"'part0'", "'part1'"}) EXPECT_NE(c->text.find(part), std::string::npos) << c->text;
+    EXPECT_EQ(rig.objection(ConfigurationCells{}, *c, share), "");
+    c->numbers.at("shift").front() *= 0.5;
+    EXPECT_NE(rig.objection(ConfigurationCells{}, *c, share), "");
+  }
 }
 
 }  // namespace
-}  // namespace dismantle
+}  // namespace dismantle::immobility

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <numbers>
 
+#include "disc/disc.h"
 #include "disc/facets.h"
 #include "dismantle/testing/held_shapes.h"
+#include "prover_rig.h"
 
 namespace dismantle {
 namespace {
@@ -60,7 +62,7 @@ std::optional<immobility::DiscCage> look(const Mesh& plate, const Mesh& around, 
   const auto bodies = immobility::split_into_solids(plate);
   const auto discs = immobility::discs_in(bodies.at(0), immobility::middle_of(bodies.at(0), kDepth, {}), kDepth, 1);
   if (discs.empty()) return std::nullopt;
-  return immobility::disc_cage(discs[0], immobility::split_into_solids(around), context);
+  return immobility::disc_cage(discs[0], immobility::split_into_solids(around), {}, context);
 }
 
 /// Lies on the floor of the tray; its disc has a radius of 0.95 or a little more.
@@ -117,6 +119,20 @@ TEST(DiscCaged, InARoundChamberWithRoundOpenings) {
   EXPECT_TRUE(look(disc, shapes::can(1, 0.6, 0.3, 0.7)));
   EXPECT_FALSE(look(disc, shapes::can(1, 0.6, 0.3, 0.92)));
   EXPECT_FALSE(look(disc, shapes::can_with_window(1, 0.6, 0.3, 0.3, 24)));
+}
+
+TEST(Disc, TheSmallerPartOfAPairInACanWithAWindowThatItDoesNotPass) {
+  Rng rng(9);
+  const Mesh disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
+  for (const std::uint32_t sectors : {6u, 24u}) {  // of 48: a chord of 0.77, and as wide as the can
+    const auto cage = immobility::prove_pair(immobility::Disc{}, disc,
+                                             shapes::can_with_window(1, 0.6, 0.3, 0.3, sectors), kDepth, rng);
+    ASSERT_EQ(cage.has_value(), sectors == 6) << sectors;
+    if (!cage) continue;
+    EXPECT_EQ(cage->parts, (std::vector<PartId>{0, 1}));
+    EXPECT_GT(cage->numbers.at("diameter").front(), 1.6);
+    EXPECT_LT(cage->numbers.at("diameter").front(), 1.8);
+  }
 }
 
 TEST(Facets, CoverWhatTheSurfaceDoes) {

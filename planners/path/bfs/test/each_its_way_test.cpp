@@ -52,7 +52,7 @@ void go(MazeRun& run, const Maze& maze, const std::vector<PartId>& leaving, cons
 }
 
 TEST(EachItsWay, WhoeverIsDrivenTheOtherIsDraggedAlong) {
-  for (const char* planner : {"bfs", "guided"})
+  for (const char* planner : {"bfs", "contact_search"})
     for (const double ratio : {0.5, 1.0, 2.0})
       for (const PartId out : {PartId{0}, PartId{1}}) {
         MazeRun run;
@@ -78,7 +78,7 @@ TEST(EachItsWay, AnyOfThoseThatMayLeaveWillDo) {
 }
 
 TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
-  for (const char* planner : {"bfs", "guided"}) {
+  for (const char* planner : {"bfs", "contact_search"}) {
     MazeRun run;
     go(run, hand_in_hand(), {0}, planner, {.max_depth = 2});
     ASSERT_EQ(run.result.outcome(), Outcome::solved) << planner;
@@ -98,12 +98,12 @@ TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
   const Maze maze{.free = {Aabb{Vector3d::Constant(-3), Vector3d::Constant(3)}}};
   for (const unsigned depth : {1U, 4U}) {
     MazeRun run;
-    go(run, maze, {0, 1}, "guided", {.max_depth = depth});
+    go(run, maze, {0, 1}, "contact_search", {.max_depth = depth});
     EXPECT_EQ(run.result.outcome(), Outcome::depth_limit);
-    EXPECT_EQ(run.result.stats.steps, static_cast<double>(run.notes.steps));
+    EXPECT_EQ(run.result.stats.steps, run.notes.steps);
     EXPECT_LE(run.notes.steps, 2 * (2000 * depth + 10)) << "in both motion spaces, and an advance is not cut short";
     MazeRun less;
-    go(less, maze, {0, 1}, "guided", {.max_depth = depth, .max_steps = 300});
+    go(less, maze, {0, 1}, "contact_search", {.max_depth = depth, .max_steps = 300});
     EXPECT_EQ(less.result.outcome(), Outcome::timeout) << "the asker's budget is used up, not that of the depth";
     EXPECT_LE(less.notes.steps, 310u);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -22,6 +23,29 @@ inline const Registry& registry() {
     return r;
   }();
   return *all;
+}
+
+/// Parameters of the preset `guided` with some of its values changed: by name, those of a member as
+/// "tolerant_rrt.looks"; and without some members.
+inline ParamSet guided(const std::map<std::string, ParamValue>& changes, const std::vector<std::string>& without = {}) {
+  const RegisteredType& preset = registry().find(PluginKind::path_planner, "guided");
+  ParamSet all;
+  for (const ParamSpec& spec : preset.type.params) all[spec.name] = spec.fallback;
+  auto& members = std::get<std::vector<PluginChoice>>(all.at("of"));
+  for (const std::string& type : without) std::erase_if(members, [&](const auto& m) { return m.type == type; });
+  for (const auto& [name, value] : changes) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) {
+      all.at(name) = value;
+      continue;
+    }
+    for (PluginChoice& m : members) {
+      if (m.type != name.substr(0, dot)) continue;
+      const std::string key = name.substr(dot + 1);
+      (m.options.contains(key) ? m.options : m.parameters).at(key) = value;
+    }
+  }
+  return all;
 }
 
 struct Table {

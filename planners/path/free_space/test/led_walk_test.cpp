@@ -43,19 +43,22 @@ Assembly maze(double gap, const std::vector<std::vector<Aabb>>& others = {}) {
   return assembly_of(parts, {Eigen::Vector3d(0.3, 0.2, 0.1), Eigen::Quaterniond(0.9, 0.3, -0.2, 0.25).normalized()});
 }
 
-ParamSet led(std::int64_t looks) {
-  return {{"lead_looks", looks}, {"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}};
+ParamSet guided_with(std::int64_t patience, std::int64_t looks = 4000) {
+  return path::test::guided({{"navigation_tree.patience", patience},
+                             {"tolerant_rrt.looks", looks},
+                             {"tolerant_rrt.level_looks", static_cast<double>(looks) / 128}},
+                            {"tunnel_forest"});
 }
 
 TEST(LedWalk, TakesAPlateOutOfAMaze) {
   Table table(maze(0.75));
-  const PathResult without = table.plan("guided", led(0), 1, 0, 2);
+  const PathResult without = table.plan("guided", guided_with(0), 1, 0, 2);
   EXPECT_FALSE(is_success(without.outcome())) << "or it is no test";
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const PathResult with = table.plan("guided", led(4000), seed, 0, 2);
+    const PathResult with = table.plan("guided", guided_with(4000), seed, 0, 2);
     ASSERT_EQ(with.outcome(), Outcome::solved) << with.message;
     EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}}, with.path()->poses()).valid);
-    const PathResult again = table.plan("guided", led(4000), seed, 0, 2);
+    const PathResult again = table.plan("guided", guided_with(4000), seed, 0, 2);
     ASSERT_EQ(again.path()->poses().size(), with.path()->poses().size());
     EXPECT_TRUE(again.path()->poses().back()[0].t == with.path()->poses().back()[0].t);
   }
@@ -71,7 +74,7 @@ TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
                         block(x0, y0 + 0.2, z0, x1, y0 + 0.2 + hole, z0 + 0.2),
                         block(x0, y0 + 0.2, z0 + 0.2 + hole, x1, y0 + 0.2 + hole, z1)},
                        {block(1, 5, 0, 2, 6, 1)}}));
-  const ParamSet few{{"lead_looks", std::int64_t{1000}}, {"squeeze_looks", std::int64_t{1000}}};
+  const ParamSet few = guided_with(1000, 1000);
   double nodes = 0, nodes_anew = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto plan = [&](const std::vector<PartId>& left, const SearchState* reached) {
@@ -84,21 +87,21 @@ TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
     ASSERT_EQ(open.outcome(), Outcome::solved) << open.message;
     EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}, {3, Pose{}}}, open.path()->poses()).valid);
     EXPECT_EQ(open.path()->poses().front()[0].t, Eigen::Vector3d::Zero());
-    EXPECT_GT(open.stats.extra.at("led_resumed_nodes"), 0);
-    EXPECT_EQ(open.stats.extra.at("led_spared"), shut.stats.extra.at("led_state_checks"));
-    nodes += open.stats.extra.at("led_nodes") - open.stats.extra.at("led_resumed_nodes");
-    nodes_anew += open_anew.stats.extra.at("led_nodes");
+    EXPECT_GT(open.stats.extra.at("navigation_tree_resumed_nodes"), 0);
+    EXPECT_EQ(open.stats.extra.at("navigation_tree_spared"), shut.stats.extra.at("navigation_tree_state_checks"));
+    nodes += open.stats.extra.at("navigation_tree_nodes") - open.stats.extra.at("navigation_tree_resumed_nodes");
+    nodes_anew += open_anew.stats.extra.at("navigation_tree_nodes");
     const PathResult stuck = plan({3}, shut.state.get());
     EXPECT_FALSE(is_success(stuck.outcome()));
-    EXPECT_FALSE(stuck.stats.extra.contains("led_resumed_nodes"));
-    EXPECT_FALSE(stuck.stats.extra.contains("squeeze_resumed_nodes"));
+    EXPECT_FALSE(stuck.stats.extra.contains("navigation_tree_resumed_nodes"));
+    EXPECT_FALSE(stuck.stats.extra.contains("tolerant_rrt_resumed_nodes"));
   }
   EXPECT_LT(nodes, nodes_anew);
 }
 
 /// An idle thread begins with what comes after the walk.
 TEST(LedWalk, TheSameWhereOthersHelp) {
-  const ParamSet few = {{"lead_looks", std::int64_t{500}}, {"squeeze_looks", std::int64_t{1000}}};
+  const ParamSet few = guided_with(500, 1000);
   for (const double gap : {0.75, 0.0})
     for (const unsigned depth : {2U, 3U, 4U}) {
       Table table(maze(gap));
@@ -109,6 +112,8 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
       EXPECT_EQ(helped.stats, alone.stats);
       EXPECT_EQ(helped.blocked_by, alone.blocked_by);
       EXPECT_EQ(helped.message, alone.message);
+      ASSERT_EQ(helped.path().has_value(), alone.path().has_value());
+      if (!alone.path()) continue;
       ASSERT_EQ(helped.path()->poses().size(), alone.path()->poses().size());
       for (std::size_t k = 0; k < alone.path()->poses().size(); ++k)
         EXPECT_EQ(helped.path()->poses()[k][0].t, alone.path()->poses()[k][0].t);
@@ -117,9 +122,9 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
 
 TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
   Table table(maze(0));
-  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
+  const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
-  EXPECT_FALSE(r.stats.extra.contains("led_state_checks"));
+  EXPECT_FALSE(r.stats.extra.contains("navigation_tree_state_checks"));
 }
 
 /// A ring on a spool, with a little play: held where it is, however free the room around it.
@@ -134,16 +139,16 @@ TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
       block(x - out, y - out, lo, x - a, y + out, hi), block(x + a, y - out, lo, x + out, y + out, hi),
       block(x - a, y - out, lo, x + a, y - a, hi), block(x - a, y + a, lo, x + a, y + out, hi)};
   Table table(assembly_of({boxes(ring), boxes(still)}));
-  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
+  const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
-  EXPECT_LT(r.stats.extra.at("led_state_checks"), 500);
+  EXPECT_LT(r.stats.extra.at("navigation_tree_state_checks"), 500);
 }
 
 TEST(LedWalk, GivesUpWhereTheBodyDoesNotFit) {
   Table table(maze(0.3));
-  const PathResult r = table.plan("guided", led(1000), 1, 0, 2);
+  const PathResult r = table.plan("guided", guided_with(1000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
-  EXPECT_GT(r.stats.extra.at("led_state_checks"), 0);
+  EXPECT_GT(r.stats.extra.at("navigation_tree_state_checks"), 0);
 }
 
 /// Two holes in one wall: the near one lets balls through, but no plate.
@@ -156,10 +161,10 @@ TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
   walls.push_back(block(x, kWidth - 0.8, 0.8, x + t, kWidth, kHeight));
   walls.push_back(block(0.8, 1.2, 0, 0.9, kWidth, 0.5));  // makes the way to the other one longer
   Table table(assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)}));
-  const PathResult r = table.plan("guided", led(4000), 1, 0, 2);
-  ASSERT_TRUE(r.stats.extra.contains("led_detours")) << "pushes were enough: it is no test";
+  const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
+  ASSERT_TRUE(r.stats.extra.contains("navigation_tree_detours")) << "pushes were enough: it is no test";
   EXPECT_EQ(r.outcome(), Outcome::solved) << r.message;
-  EXPECT_GE(r.stats.extra.at("led_detours"), 1);
+  EXPECT_GE(r.stats.extra.at("navigation_tree_detours"), 1);
 }
 
 /// A wire wound wider than the hole in the wall before it: out by screwing, and by nothing else.
@@ -190,7 +195,7 @@ TEST(LedWalk, ScrewsASpringThroughAHole) {
   Table table(SpringInABox(0).assembly);
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
+    const PathResult r = table.plan("guided", guided_with(4000), seed, 0, 3);
     if (is_success(r.outcome())) ++solved;
   }
   EXPECT_GE(solved, 2);
@@ -204,7 +209,7 @@ TEST(LedWalk, DoesNotTakeAnOverlapThroughAWall) {
   Table table(scene.assembly);
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const PathResult r = table.plan("guided", led(4000), seed, 0, 3);
+    const PathResult r = table.plan("guided", guided_with(4000), seed, 0, 3);
     if (!is_success(r.outcome())) continue;
     ++solved;
     const DepthBody spring(scene.spring), wall(scene.wall);

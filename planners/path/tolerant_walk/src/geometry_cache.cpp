@@ -2,12 +2,19 @@
 
 #include <utility>
 
+#include "dismantle/shared_object.h"
+
 namespace dismantle::tolerant_walk {
 namespace {
 
 constexpr double kCell = 0.01;  // assembly units: of the fields
 
 }  // namespace
+
+std::shared_ptr<GeometryCache> GeometryCache::shared() {
+  return std::static_pointer_cast<GeometryCache>(
+      shared_object("dismantle.tolerant_walk.GeometryCache", [] { return std::make_shared<GeometryCache>(); }));
+}
 
 GeometryCache::Pair::Pair(const Mesh& of, const Mesh& other, const Pose& place, const Allowance& allowance,
                           double excused_within)

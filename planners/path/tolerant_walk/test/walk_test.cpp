@@ -34,9 +34,9 @@ Assembly snapped(double bead, const Pose& turned) {
       {boxes({block(-p, -p, 0.01, p, p, 0.9), block(-b, -0.3, lo + 0.02, b, 0.3, hi - 0.02)}), boxes(frame)}, turned);
 }
 
-TEST(Squeeze, TakesOutWhatSnapsWithinTheTolerance) {
+TEST(TolerantRrt, TakesOutWhatSnapsWithinTheTolerance) {
   Table table(snapped(0.004, Pose{}));
-  const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{100'000}}}, 1, 0);
+  const PathResult r = table.plan("tolerant_rrt", {{"looks", std::int64_t{100'000}}}, 1, 0);
   ASSERT_EQ(r.outcome(), Outcome::solved) << r.message;
   EXPECT_GE(table.judged, 1U);
   const MotionCheck check = table.verifier.check_motion({0}, {{1, Pose{}}}, r.path()->poses());
@@ -44,43 +44,43 @@ TEST(Squeeze, TakesOutWhatSnapsWithinTheTolerance) {
   EXPECT_GT(check.max_penetration, 1e-3) << "it used the tolerance";
 }
 
-TEST(Squeeze, NeverTakesOutWhatSnapsDeeper) {
+TEST(TolerantRrt, NeverTakesOutWhatSnapsDeeper) {
   Table table(snapped(0.03, Pose{}));
-  const PathResult r = table.plan("squeeze", {{"looks", std::int64_t{1500}}}, 1, 0);
+  const PathResult r = table.plan("tolerant_rrt", {{"looks", std::int64_t{1500}}}, 1, 0);
   EXPECT_TRUE(r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted);
   EXPECT_FALSE(r.path());
   ASSERT_FALSE(r.blocked_by.empty());
   EXPECT_EQ(r.blocked_by.front(), 1U);
 }
 
-TEST(Squeeze, KeepsToItsBudget) {
+TEST(TolerantRrt, KeepsToItsBudget) {
   Table table(snapped(0.03, Pose{}));
-  const PathResult r = table.plan("squeeze", {}, 1, 500);
+  const PathResult r = table.plan("tolerant_rrt", {}, 1, 500);
   EXPECT_EQ(r.outcome(), Outcome::timeout);
-  EXPECT_GE(r.stats.state_checks, 500);
-  EXPECT_LE(r.stats.state_checks, 500 + 400);  // a flight is not cut short
+  EXPECT_GE(r.stats.state_checks, 500u);
+  EXPECT_LE(r.stats.state_checks, 500u + 400u);  // a flight is not cut short
 }
 
-TEST(Squeeze, IsWhatGuidedComesToWhenPushesAreInVain) {
+TEST(TolerantRrt, IsWhatGuidedComesToWhenContactSearchFails) {
   Table table(snapped(0.03, Pose{}));
   const auto plan = [&](unsigned depth) {
-    const ParamSet few{
-        {"squeeze_looks", std::int64_t{4000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
+    const ParamSet few = path::test::guided(
+        {{"tolerant_rrt.looks", std::int64_t{4000}}, {"tolerant_rrt.level_looks", 31.25}}, {"navigation_tree"});
     return table.plan("guided", few, 1, 0, depth);
   };
-  EXPECT_FALSE(plan(2).stats.extra.contains("squeeze_state_checks")) << "shallow searches are for many parts";
+  EXPECT_FALSE(plan(2).stats.extra.contains("tolerant_rrt_state_checks")) << "shallow searches are for many parts";
   const PathResult deep = plan(6);
   EXPECT_FALSE(is_success(deep.outcome()));
-  EXPECT_GE(deep.stats.extra.at("squeeze_state_checks"), 1000);
-  EXPECT_LE(deep.stats.extra.at("squeeze_state_checks"), 1000 + 400);
+  EXPECT_GE(deep.stats.extra.at("tolerant_rrt_state_checks"), 1000);
+  EXPECT_LE(deep.stats.extra.at("tolerant_rrt_state_checks"), 1000 + 400);
 }
 
-TEST(Squeeze, SharesTheBudgetOfGuidedUnderADepthLimit) {
+TEST(TolerantRrt, SharesTheBudgetOfGuidedUnderADepthLimit) {
   Table table(snapped(0.03, Pose{}));
-  const ParamSet whole{
-      {"squeeze_looks", std::int64_t{100'000}}, {"forest_steps", std::int64_t{0}}, {"lead_looks", std::int64_t{0}}};
+  const ParamSet whole = path::test::guided(
+      {{"tolerant_rrt.looks", std::int64_t{100'000}}, {"tolerant_rrt.level_looks", 781.25}}, {"navigation_tree"});
   const PathResult free = table.plan("guided", whole, 1, 0, 3);
-  const double pushes = free.stats.cost - free.stats.extra.at("squeeze_cost");
+  const double pushes = free.stats.cost - free.stats.extra.at("tolerant_rrt_cost");
   const auto budget = static_cast<std::uint64_t>(pushes) + 700;
   const PathResult r = table.plan("guided", whole, 1, budget, 3);
   EXPECT_EQ(r.outcome(), Outcome::timeout) << "what ended for want of steps has not seen everything";

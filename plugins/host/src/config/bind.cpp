@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "config/binder.h"
 #include "dismantle/host/config.h"
 #include "dismantle/host/config_bind.h"
 #include "dismantle/host/suggest.h"
@@ -106,30 +107,11 @@ std::string unknown_key_message(const std::string& key, const SectionContext& co
 ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
                       const KeyHomes& homes, std::map<std::string, std::string>& origins,
                       std::vector<Diagnostic>& problems) {
-  ParamSet given;
-  std::vector<std::string> known;
-  for (const auto& spec : specs) {
-    known.push_back(spec.name);
-    origins[context.name + "." + spec.name] = "default";
-  }
-  if (node != nullptr && node->is_map()) {
-    for (const auto& member : node->members) {
-      if (member.key == "type" && !context.type.empty()) continue;
-      const auto spec = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return s.name == member.key; });
-      if (spec == specs.end()) {
-        problems.push_back(member.key_mark.error(unknown_key_message(member.key, context, known, homes)));
-        continue;
-      }
-      if (const auto value = bind_value(*spec, member.value, context, problems)) {
-        given.emplace(member.key, *value);
-        origins[context.name + "." + member.key] = member.value.mark.text();
-      }
-    }
-  } else if (node != nullptr) {
-    problems.push_back(
-        node->mark.error(fmt::format("{} must be a map of keys, not {}", context.name, node->kind_name())));
-  }
-  return complete(specs, given);
+  const TypeSource none{[](PluginKind, const std::string&) { return nullptr; },
+                        [](PluginKind, const std::string& id) {
+                          return fmt::format("'{}': plugins cannot be chosen here", id);
+                        }};
+  return Binder(none, homes, origins, problems).section(specs, node, context);
 }
 
 void take_schema(ConfigNode& root, std::vector<Diagnostic>& problems) {

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
+#include "config/binder.h"
 #include "config/constraints.h"
-#include "config/immobility.h"
 #include "config/layers.h"
 #include "dismantle/host/config_bind.h"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 class Loader {
  public:
   Loader(const ConfigNode& root, Registry& registry, std::vector<Diagnostic>& problems)
-      : root_(root), registry_(registry), problems_(problems) {}
+      : root_(root), registry_(registry), problems_(problems), types_(types_of(registry)) {}
 
   RunConfig load() {
     check_top_level();
@@ -28,6 +29,7 @@ class Loader {
     for (const auto& section : plugin_sections()) choose(section);
     collect_homes();
     for (const auto& section : plugin_sections()) bind_plugin(section);
+    bind_importers();
     for (const auto& [name, specs] : fixed_sections()) {
       const ConfigNode* section = node(name);
       ConfigNode plain;
@@ -35,9 +37,13 @@ class Loader {
         plain = without_poses(*section);
         section = &plain;
       }
-      config_.sections[name] = bind_section(specs, section, {name, "", ""}, homes_, config_.origins, problems_);
+      config_.sections[name] = binder().section(specs, section, {name, "", ""});
     }
-    config_.provers = read_immobility(node("immobility"), registry_, homes_, config_.origins, problems_);
+    ParamSet immobility = binder().section({provers_parameter(registry_)}, node("immobility"), {"immobility", "", ""});
+    if (const auto found = immobility.find("provers"); found != immobility.end()) {
+      config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
+      check_provers();
+    }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, problems_);
     check_capabilities();
@@ -56,8 +62,17 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
+  /// Each is asked once.
+  void check_provers() {
+    std::set<std::string> seen;
+    for (const PluginChoice& choice : config_.provers)
+      if (!seen.insert(choice.type).second)
+        problems_.push_back({config_.origins["immobility.provers"], 0, 0,
+                             fmt::format("immobility.provers lists '{}' twice", choice.type)});
+  }
+
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "importers", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)
@@ -111,7 +126,7 @@ class Loader {
     const ConfigNode* map = node(section.name);
     if (map != nullptr) chosen.mark = map->mark;
     const ConfigMember* type = map != nullptr && map->is_map() ? map->find("type") : nullptr;
-    std::string id = default_type(section, config_.path_planner.type);
+    std::string id = section.default_id;
     std::string origin = "default";
     if (type != nullptr) {
       chosen.mark = type->value.mark;
@@ -139,18 +154,41 @@ class Loader {
     for (const auto& section : plugin_sections()) {
       const auto* type = chosen_[section.name].type;
       if (type == nullptr) continue;
-      for (const auto& spec : type->type.params)
+      for (const auto& spec : type->type.params) {
         homes_[spec.name].push_back(fmt::format("{} ({})", section.name, type->type.id));
+        collect_nested_homes(spec, node(section.name), section.name);
+      }
     }
     for (const auto& [name, specs] : fixed_sections())
       for (const auto& spec : specs) homes_[spec.name].push_back(name);
     homes_["poses"].push_back("layout");
+    for (const auto* type : registry_.types(PluginKind::importer))
+      for (const auto& spec : type->type.params) homes_[spec.name].push_back("importers." + type->type.id);
     for (const auto& [member, known] : unknown_top_)
       problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
     for (const auto* member : unknown_plugins_)
       problems_.push_back(
           member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
   }
+
+  /// Of the plugins that one parameter holds: what the file names, or else the default.
+  void collect_nested_homes(const ParamSpec& spec, const ConfigNode* section, const std::string& name) {
+    std::vector<std::string> types;
+    const ConfigMember* given = section != nullptr && section->is_map() ? section->find(spec.name) : nullptr;
+    if (given != nullptr && given->value.kind == ConfigNode::Kind::sequence) {
+      for (const ConfigNode& item : given->value.items) types.push_back(named_type(item));
+    } else if (const auto* many = std::get_if<std::vector<PluginChoice>>(&spec.fallback)) {
+      for (const PluginChoice& choice : *many) types.push_back(choice.type);
+    }
+    const std::string list = name + "." + spec.name;
+    for (const ParamSpec& option : spec.options) homes_[option.name].push_back("items of " + list);
+    for (std::size_t k = 0; k < types.size(); ++k)
+      if (const RegisteredType* type = registry_.lookup(spec.plugin_kind, types[k]))
+        for (const ParamSpec& own : type->type.params)
+          homes_[own.name].push_back(fmt::format("{}.{} ({})", list, k, types[k]));
+  }
+
+  Binder binder() { return {types_, homes_, config_.origins, problems_}; }
 
   void bind_plugin(const PluginSection& section) {
     const ConfigNode* map = node(section.name);
@@ -161,28 +199,64 @@ class Loader {
             map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
       return;
     }
-    const std::string source =
-        fmt::format("{} {}, {}", type->type.id, type->file->version, type->file->path.filename().string());
-    choice(section.kind).params =
-        bind_section(type->type.params, map, {section.name, type->type.id, source}, homes_, config_.origins, problems_);
+    choice(section.kind).parameters = binder().section(
+        type->type.params, map, {section.name, type->type.id, source_text(*type)}, default_origin(*type));
+  }
+
+  /// `importers`: a map from ids to maps of parameters. Every importer is in use, whether it is named or not.
+  void bind_importers() {
+    const ConfigNode* section = node("importers");
+    if (section != nullptr && !section->is_map()) {
+      problems_.push_back(section->mark.error(
+          fmt::format("importers must be a map from ids of importers to their keys, not {}", section->kind_name())));
+      section = nullptr;
+    }
+    for (const auto* type : registry_.types(PluginKind::importer)) {
+      const std::string& id = type->type.id;
+      const ConfigMember* member = section == nullptr ? nullptr : section->find(id);
+      if (type->type.params.empty() && member == nullptr) continue;
+      const std::string source = fmt::format("{} {}, {}", id, type->file->version, type->file->path.filename().string());
+      config_.importers[id] = bind_section(type->type.params, member == nullptr ? nullptr : &member->value,
+                                           {"importers." + id, "", source}, homes_, config_.origins, problems_);
+    }
+    if (section == nullptr) return;
+    for (const auto& member : section->members)
+      if (registry_.lookup(PluginKind::importer, member.key) == nullptr)
+        problems_.push_back(member.key_mark.error(registry_.why_missing(PluginKind::importer, member.key)));
   }
 
   void check_capabilities() {
     const auto* simulator = chosen_["simulator"].type;
     if (simulator == nullptr) return;
-    for (const char* section : {"path_planner", "transfer_planner"}) {
-      const Chosen& chosen = chosen_[section];
+    for (const auto& section : plugin_sections()) {
+      const Chosen& chosen = chosen_[section.name];
       if (chosen.type == nullptr) continue;
-      const Capabilities& needs = chosen.type->type.traits.needs;
-      const Capabilities& has = simulator->type.traits.provides;
-      const auto report = [&](const std::string& what) {
-        problems_.push_back(chosen.mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
-                                                          section, chosen.type->type.id, what, simulator->type.id)));
-      };
-      if (needs.dynamics && !has.dynamics) report("dynamics");
-      if (needs.contacts && !has.contacts) report("contacts");
-      if (needs.distance && !has.distance) report("distance queries");
-      if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+      check_capabilities(section.kind, choice(section.kind), chosen.mark, simulator->type);
+    }
+  }
+
+  /// Of what was chosen and of the plugins that its parameters hold.
+  void check_capabilities(PluginKind kind, const PluginChoice& chosen, const ConfigMark& mark,
+                          const PluginType& simulator) {
+    const RegisteredType* type = registry_.lookup(kind, chosen.type);
+    if (type == nullptr) return;
+    const Capabilities& needs = type->type.traits.needs;
+    const Capabilities& has = simulator.traits.provides;
+    const auto report = [&](const std::string& what) {
+      problems_.push_back(mark.error(fmt::format("{} '{}' needs a simulator with {}, which '{}' does not have",
+                                                 to_string(kind), chosen.type, what, simulator.id)));
+    };
+    if (needs.dynamics && !has.dynamics) report("dynamics");
+    if (needs.contacts && !has.contacts) report("contacts");
+    if (needs.distance && !has.distance) report("distance queries");
+    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    for (const ParamSpec& spec : type->type.params) {
+      const auto held = chosen.parameters.find(spec.name);
+      if (held == chosen.parameters.end()) continue;
+      if (const auto* one = std::get_if<PluginChoice>(&held->second))
+        check_capabilities(spec.plugin_kind, *one, mark, simulator);
+      if (const auto* many = std::get_if<std::vector<PluginChoice>>(&held->second))
+        for (const PluginChoice& item : *many) check_capabilities(spec.plugin_kind, item, mark, simulator);
     }
   }
 
@@ -232,6 +306,7 @@ class Loader {
   Registry& registry_;
   std::vector<Diagnostic>& problems_;
   RunConfig config_;
+  const TypeSource types_;
   KeyHomes homes_;
   std::map<std::string, Chosen> chosen_;
   std::vector<std::pair<const ConfigMember*, std::vector<std::string>>> unknown_top_;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "config/list_items.h"
 #include "dismantle/host/config_bind.h"
 
 namespace dismantle {
@@ -16,25 +17,55 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxChain = 32;
 
-void merge_maps(ConfigNode& base, ConfigNode over) {
+/// Does a map of `over` choose another plugin than the map below it?
+bool changes_type(const ConfigNode& base, const ConfigNode& over) {
+  const std::string below = named_type(base), above = named_type(over);
+  return !below.empty() && !above.empty() && below != above;
+}
+
+void merge_nodes(ConfigNode& base, ConfigMember over, const std::string& path, std::vector<Diagnostic>& problems);
+
+void merge_maps(ConfigNode& base, ConfigNode over, const std::string& path, std::vector<Diagnostic>& problems) {
   for (auto& member : over.members) {
     auto* below = base.find(member.key);
     if (below == nullptr) {
       base.members.push_back(std::move(member));
-    } else if (below->value.is_map() && member.value.is_map()) {
-      merge_maps(below->value, std::move(member.value));
-    } else {
-      *below = std::move(member);
+      continue;
     }
+    if (!below->value.is_map() || !member.value.is_map()) below->key_mark = member.key_mark;
+    merge_nodes(below->value, std::move(member), path.empty() ? below->key : path + "." + below->key, problems);
   }
 }
 
-/// The id that a section names, or its default; nothing when it is not text.
-std::optional<std::string> named_type(const ConfigNode& section, const char* fallback) {
-  const auto* type = section.find("type");
-  if (type == nullptr) return fallback;
-  if (!type->value.is_scalar()) return std::nullopt;
-  return type->value.scalar;
+void merge_items(ConfigNode& list, ConfigNode over, const std::string& path, std::vector<Diagnostic>& problems) {
+  std::vector<std::string> types;
+  for (const ConfigNode& item : list.items) types.push_back(named_type(item));
+  for (auto& member : over.members) {
+    const auto index = item_index(member.key, types);
+    if (!index) {
+      problems.push_back(member.key_mark.error(no_item_message(path, member.key, types)));
+      continue;
+    }
+    ConfigNode& item = list.items[*index];
+    if (item.is_scalar() && member.value.is_map()) {  // `ID` stands for {type: ID}
+      ConfigNode map;
+      map.kind = ConfigNode::Kind::map;
+      map.mark = item.mark;
+      map.members.push_back({"type", item.mark, item});
+      item = std::move(map);
+    }
+    merge_nodes(item, std::move(member), fmt::format("{}.{}", path, *index), problems);
+  }
+}
+
+/// A value over another one.
+void merge_nodes(ConfigNode& base, ConfigMember over, const std::string& path, std::vector<Diagnostic>& problems) {
+  if (base.is_map() && over.value.is_map() && !changes_type(base, over.value))
+    merge_maps(base, std::move(over.value), path, problems);
+  else if (base.kind == ConfigNode::Kind::sequence && over.value.is_map())
+    merge_items(base, std::move(over.value), path, problems);
+  else
+    base = std::move(over.value);
 }
 
 class FileChain {
@@ -92,7 +123,7 @@ class FileChain {
     const fs::path base_file = (fs::path(shown).parent_path() / value.scalar).lexically_normal();
     ConfigNode base = load(base_file.string(), &value.mark);
     if (base.mark.source == nullptr) base.mark = root.mark;
-    merge_config(base, std::move(root));
+    merge_config(base, std::move(root), problems_);
     return base;
   }
 
@@ -194,16 +225,22 @@ class Overrides {
 
 }  // namespace
 
-void merge_config(ConfigNode& base, ConfigNode over) {
-  for (const auto& section : plugin_sections()) {
-    auto* below = base.find(section.name);
+std::string named_type(const ConfigNode& choice) {
+  const ConfigMember* type = choice.is_map() ? choice.find("type") : nullptr;
+  const ConfigNode& id = type != nullptr ? type->value : choice;
+  return id.is_scalar() ? id.scalar : std::string();
+}
+
+void merge_config(ConfigNode& base, ConfigNode over, std::vector<Diagnostic>& problems) {
+  for (const auto& section : plugin_sections()) {  // without a type, the default one is meant
+    const auto* below = base.find(section.name);
     const auto* above = over.find(section.name);
     if (below == nullptr || above == nullptr || !below->value.is_map() || !above->value.is_map()) continue;
-    if (above->value.find("type") == nullptr) continue;
-    if (named_type(below->value, section.default_id) != named_type(above->value, section.default_id))
+    if (below->value.find("type") == nullptr && above->value.find("type") != nullptr &&
+        named_type(above->value) != section.default_id)
       base.erase(section.name);
   }
-  merge_maps(base, std::move(over));
+  merge_maps(base, std::move(over), "", problems);
 }
 
 ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& problems) {
@@ -213,7 +250,7 @@ ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& prob
   Overrides overrides(problems);
   for (std::size_t i = 0; i < source.set.size(); ++i) overrides.set(source.set[i], static_cast<int>(i) + 1);
   for (const auto& option : source.options) overrides.option(option);
-  merge_config(root, overrides.take());
+  merge_config(root, overrides.take(), problems);
   return root;
 }
 

@@ -1,73 +1,30 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 
+#include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
+#include "dismantle/host/ingredients.h"
 
 namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kCommentColumn = 44;
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\')
-      out += fmt::format("\\{}", c);
-    else if (c == '\n')
-      out += "\\n";
-    else if (c == '\t')
-      out += "\\t";
-    else if (byte < 0x20 || byte == 0x7f)
-      out += fmt::format("\\x{:02x}", byte);
-    else
-      out += c;
-  }
-  return out + '"';
-}
-
-/// Text that YAML reads as itself without quotes: a word that means nothing else.
-std::string plain_or_quoted(const std::string& text) {
-  const bool word =
-      !text.empty() && text[0] >= 'a' && text[0] <= 'z' && std::all_of(text.begin(), text.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
-      });
-  return word && text != "true" && text != "false" && text != "null" ? text : quoted(text);
-}
-
-/// Comments end at the line: a file name may hold a line break.
-std::string one_line(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
-}
-
 class Writer {
  public:
-  explicit Writer(const RunConfig& config) : config_(config) {}
+  Writer(const RunConfig& config, const Registry& registry)
+      : yaml_(registry, config.origins, [this](const RegisteredType& type) { return origin(type); }) {}
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
 
-  void line(const std::string& text) { out_ += text + "\n"; }
-
-  void value(const std::string& section, const std::string& key, const std::string& text) {
-    const auto origin = config_.origins.find(section + "." + key);
-    std::string row = fmt::format("  {}: {}", key, text);
-    if (origin != config_.origins.end())
-      row = fmt::format("{:<{}}  # {}", row, kCommentColumn, one_line(origin->second));
-    line(row);
-  }
+  void line(const std::string& text) { yaml_.line(text); }
 
   void pose(const std::string& part, const Pose& p) {
     std::string numbers;
     for (const double x : {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()})
       numbers += (numbers.empty() ? "" : ", ") + to_text(ParamValue{x});
-    std::string row = fmt::format("    {}: [{}]", quoted(part), numbers);
-    const auto origin = config_.origins.find("layout.poses." + part);
-    if (origin != config_.origins.end())
-      row = fmt::format("{:<{}}  # {}", row, kCommentColumn, one_line(origin->second));
-    line(row);
+    yaml_.row("    " + quoted(part) + ": ", "[" + numbers + "]", "layout.poses." + part);
   }
 
   std::string list(const std::vector<std::string>& names) {
@@ -89,50 +46,45 @@ class Writer {
   }
 
   void values(const std::string& section, const std::vector<ParamSpec>& specs, const ParamSet& params) {
-    for (const auto& spec : specs) {
-      const auto it = params.find(spec.name);
-      if (it == params.end()) continue;
-      const auto* text = std::get_if<std::string>(&it->second);
-      value(section, spec.name,
-            text != nullptr ? (spec.type == ParamType::choice ? plain_or_quoted(*text) : quoted(*text))
-                            : to_text(it->second));
-    }
+    yaml_.values(section, 2, specs, params);
   }
 
-  void plugin(const PluginSection& section, const PluginChoice& choice, const Registry& registry) {
-    const RegisteredType& type = registry.find(section.kind, choice.type);
-    const PluginFile& file = *type.file;
+  void plugin(const PluginSection& section, const PluginChoice& choice) {
     line(fmt::format("{}:", section.name));
-    line(one_line(fmt::format("  # plugin {} {}, {}, sha256 {}", file.id, file.version, file.path.filename().string(),
-                              sha256_of_file(file.path))));
-    value(section.name, "type", plain_or_quoted(choice.type));
-    values(section.name, type.type.params, choice.params);
+    yaml_.choice(section.name, 2, section.kind, {}, choice);
+  }
+
+  /// Only what is not the default: a reader of meshes needs no importer of CAD files.
+  void importers(const ImportParams& params, const Registry& registry) {
+    if (params.empty()) return;
+    line("importers:");
+    for (const auto& [id, values] : params) {
+      line(fmt::format("  {}:", plain_or_quoted(id)));
+      yaml_.values("importers." + id, 4, registry.find(PluginKind::importer, id).type.params, values);
+    }
   }
 
   void provers(const std::vector<PluginChoice>& choices, const Registry& registry) {
     line("immobility:");
-    if (choices.empty()) return value("immobility", "provers", "[]");
-    value("immobility", "provers", "");
-    for (const PluginChoice& choice : choices) {
-      const RegisteredType& type = registry.find(PluginKind::immobility_prover, choice.type);
-      const PluginFile& file = *type.file;
-      line(one_line(fmt::format("    # plugin {} {}, {}, sha256 {}", file.id, file.version,
-                                file.path.filename().string(), sha256_of_file(file.path))));
-      std::string row = fmt::format("    - {{type: {}", plain_or_quoted(choice.type));
-      for (const auto& spec : type.type.params)
-        if (const auto it = choice.params.find(spec.name); it != choice.params.end()) {
-          const auto* text = std::get_if<std::string>(&it->second);
-          row += fmt::format(", {}: {}", spec.name, text != nullptr ? quoted(*text) : to_text(it->second));
-        }
-      line(row + "}");
-    }
+    yaml_.values("immobility", 2, {provers_parameter(registry)}, {{"provers", choices}});
   }
 
-  std::string take() { return std::move(out_); }
+  const std::string& text() const { return yaml_.text(); }
 
  private:
-  const RunConfig& config_;
-  std::string out_;
+  /// The file that a type comes from.
+  std::string origin(const RegisteredType& type) {
+    const PluginFile& file = *type.file;
+    std::string& hash = hashes_[file.path];
+    if (hash.empty()) hash = sha256_of_file(file.path);
+    const std::string plugin =
+        fmt::format("plugin {} {}, {}, sha256 {}", file.id, file.version, file.path.filename().string(), hash);
+    if (type.preset_of.empty()) return plugin;
+    return fmt::format("preset of {}, sha256 {}; {}", type.preset_of, sha256_of_file(type.preset_file), plugin);
+  }
+
+  std::map<fs::path, std::string> hashes_;
+  YamlWriter yaml_;
 };
 
 std::string relative_to(const fs::path& path, const fs::path& folder) {
@@ -146,7 +98,7 @@ std::string relative_to(const fs::path& path, const fs::path& folder) {
 }  // namespace
 
 std::string resolved_yaml(const RunConfig& config, const Registry& registry, const fs::path& folder) {
-  Writer writer(config);
+  Writer writer(config, registry);
   writer.line(
       fmt::format("# Written by dismantle {}: every value of this run, and where it came from.", DISMANTLE_VERSION));
   writer.line("# The same input with this file gives the same plan.");
@@ -163,10 +115,11 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
       writer.values(name, specs, config.sections.at(name));
     }
   };
+  writer.importers(import_params_of(config, registry));
   fixed("assembly");
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};
-  for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i], registry);
+  for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i]);
   writer.provers(config.provers, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
@@ -176,7 +129,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   writer.constraints(config.constraints);
   fixed("run");
   fixed("verify");
-  return writer.take();
+  return writer.text();
 }
 
 }  // namespace dismantle

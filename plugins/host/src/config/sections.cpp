@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "dismantle/host/config.h"
 
 namespace dismantle {
@@ -50,14 +48,6 @@ const std::vector<PluginSection>& plugin_sections() {
       {"sequence_planner", PluginKind::sequence_planner, "blocking"},
       {"transfer_planner", PluginKind::transfer_planner, "rrt_connect"}};
   return sections;
-}
-
-std::string default_type(const PluginSection& section, const std::string& path_planner) {
-  const auto named = [&](const PluginSection& other) {
-    return other.kind == PluginKind::path_planner && path_planner != other.default_id;
-  };
-  const bool other_ways = std::any_of(plugin_sections().begin(), plugin_sections().end(), named);
-  return section.kind == PluginKind::sequence_planner && other_ways ? "progressive" : section.default_id;
 }
 
 }  // namespace dismantle

@@ -33,7 +33,7 @@ std::string text_fact(const std::string& name, const std::string& value) {
 std::string parameter_text(const ParamSpec& spec) {
   std::string head = fmt::format("  {} = {}", spec.name, default_text(spec));
   if (!spec.unit.empty() && spec.unit != "1") head += " " + spec.unit;
-  head += fmt::format("   ({}", type_name(spec.type));
+  head += fmt::format("   ({}", type_name(spec));
   const std::string limits = limits_text(spec);
   if (!limits.empty()) head += ", " + limits;
   std::string out = head + ")\n" + wrapped(spec.doc, 6, 100);
@@ -43,8 +43,13 @@ std::string parameter_text(const ParamSpec& spec) {
 
 }  // namespace
 
-std::string describe_text(const PluginType& type, const PluginFile& file) {
-  std::string out = fmt::format("{} ({})\n", type.id, to_string(type.kind)) + wrapped(type.summary, 2, 100) + "\n";
+std::string describe_text(const RegisteredType& registered, const Registry& registry) {
+  const PluginType& type = registered.type;
+  const PluginFile& file = *registered.file;
+  const bool preset = !registered.preset_of.empty();
+  std::string out = fmt::format("{} ({}{})\n", type.id, to_string(type.kind), preset ? " preset" : "") + wrapped(type.summary, 2, 100) + "\n";
+  if (preset)
+    out += text_fact("preset of", registered.preset_of) + text_fact("in", registered.preset_file.string());
   out += text_fact("source", type.traits.source);
   out += text_fact("needs", joined(capability_words(type.traits.needs)));
   out += text_fact("provides", joined(capability_words(type.traits.provides)));
@@ -53,9 +58,18 @@ std::string describe_text(const PluginType& type, const PluginFile& file) {
   out += text_fact("url", file.url);
   out += text_fact("file", file.path.string());
   out += "\n";
+  if (preset) {
+    out += "Stands for:\n";
+    const std::string yaml = expansion(registered, registry);
+    for (std::size_t begin = 0, end; begin < yaml.size(); begin = end + 1) {
+      end = yaml.find('\n', begin);
+      out += "  " + yaml.substr(begin, end - begin) + "\n";
+    }
+    out += "\n";
+  }
   if (type.params.empty()) return out + "No parameters.\n";
   out += "Parameters:\n";
-  for (const auto& spec : type.params) out += parameter_text(spec);
+  for (const auto& spec : with_options(type.params)) out += parameter_text(spec);
   return out;
 }
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "config/yaml_writer.h"
+
 namespace dismantle {
 
-std::string type_name(ParamType type) {
-  switch (type) {
+std::string type_name(const ParamSpec& spec) {
+  switch (spec.type) {
     case ParamType::boolean:
       return "boolean";
     case ParamType::integer:
@@ -16,11 +18,22 @@ std::string type_name(ParamType type) {
       return "text";
     case ParamType::choice:
       return "choice";
+    case ParamType::plugin:
+      return std::string(to_string(spec.plugin_kind));
+    case ParamType::plugins:
+      return fmt::format("list of {}", to_string(spec.plugin_kind));
   }
   return "value";
 }
 
 std::string default_text(const ParamSpec& spec) {
+  if (spec.required) return "none: required";
+  if (const auto* one = std::get_if<PluginChoice>(&spec.fallback)) return one->type;
+  if (const auto* many = std::get_if<std::vector<PluginChoice>>(&spec.fallback)) {
+    std::vector<std::string> types;
+    for (const auto& choice : *many) types.push_back(choice.type);
+    return "[" + joined(types) + "]";
+  }
   const std::string text = to_text(spec.fallback);
   return text.empty() ? "\"\"" : text;
 }
@@ -43,6 +56,28 @@ std::vector<std::string> capability_words(const Capabilities& c) {
   else if (c.max_moving > 1)
     words.push_back(fmt::format("{} parts moving at once", c.max_moving));
   return words;
+}
+
+std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs) {
+  std::vector<ParamSpec> all;
+  for (const auto& spec : specs) {
+    all.push_back(spec);
+    for (ParamSpec option : with_options(spec.options)) {
+      option.name = spec.name + "[]." + option.name;
+      all.push_back(std::move(option));
+    }
+  }
+  return all;
+}
+
+std::string expansion(const RegisteredType& preset, const Registry& registry) {
+  PluginChoice choice{preset.preset_of, {}, {}};
+  for (const auto& spec : preset.type.params) choice.parameters.emplace(spec.name, spec.fallback);
+  const std::map<std::string, std::string> no_origins;
+  YamlWriter writer(registry, no_origins, nullptr);
+  writer.line(fmt::format("{}:", to_string(preset.type.kind)));
+  writer.choice("", 2, preset.type.kind, {}, choice);
+  return writer.text();
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

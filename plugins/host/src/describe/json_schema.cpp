@@ -7,9 +7,34 @@
 namespace dismantle {
 namespace {
 
-Json parameter_schema(const ParamSpec& spec) {
+/// Definitions of what a list or a parameter may hold, by name; they refer to each other.
+class Definitions {
+ public:
+  explicit Definitions(const Registry& registry) : registry_(registry) {}
+
+  /// Reference to "any plugin of this kind, with these options beside its own parameters".
+  Json choice_of(PluginKind kind, const std::vector<ParamSpec>& options, const std::string& place);
+  Json take() { return std::move(all_); }
+
+ private:
+  const Registry& registry_;
+  Json all_ = Json::object();
+};
+
+Json parameter_schema(const ParamSpec& spec, const std::string& place, Definitions& definitions) {
   Json json;
   switch (spec.type) {
+    case ParamType::plugin:
+      json["anyOf"] = {Json{{"type", "string"}}, definitions.choice_of(spec.plugin_kind, {}, place)};
+      break;
+    case ParamType::plugins: {
+      const Json item = {
+          {"anyOf", {Json{{"type", "string"}}, definitions.choice_of(spec.plugin_kind, spec.options, place)}}};
+      json["anyOf"] = {Json{{"type", "array"}, {"items", item}, {"minItems", spec.may_be_empty ? 0 : 1}},
+                       // changes single items of the list below, named by index or type
+                       Json{{"type", "object"}, {"additionalProperties", {{"type", "object"}}}}};
+      break;
+    }
     case ParamType::boolean:
       json["type"] = "boolean";
       break;
@@ -29,7 +54,7 @@ Json parameter_schema(const ParamSpec& spec) {
   }
   if (spec.min) json[spec.min_open ? "exclusiveMinimum" : "minimum"] = *spec.min;
   if (spec.max) json[spec.max_open ? "exclusiveMaximum" : "maximum"] = *spec.max;
-  json["default"] = json_value(spec.fallback);
+  if (!spec.required) json["default"] = json_value(spec.fallback);
   json["description"] = spec.unit.empty() || spec.unit == "1" ? spec.doc : fmt::format("{} [{}]", spec.doc, spec.unit);
   return json;
 }
@@ -38,49 +63,52 @@ Json object(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-Json properties_of(const std::vector<ParamSpec>& specs) {
+Json properties_of(const std::vector<ParamSpec>& specs, const std::string& place, Definitions& definitions) {
   Json properties = Json::object();
-  for (const auto& spec : specs) properties[spec.name] = parameter_schema(spec);
+  for (const auto& spec : specs)
+    properties[spec.name] = parameter_schema(spec, place + "." + spec.name, definitions);
   return properties;
 }
 
-/// One alternative per type; the default type may leave its id out.
-Json plugin_section(const PluginSection& section, const Registry& registry) {
-  Json alternatives = Json::array();
-  for (const auto* registered : registry.types(section.kind)) {
+/// One alternative per type; the type `optional_id` may leave its id out.
+Json alternatives(const Registry& registry, PluginKind kind, const std::vector<ParamSpec>& options,
+                  const std::string& optional_id, Definitions& definitions) {
+  Json all = Json::array();
+  for (const auto* registered : registry.types(kind)) {
     const PluginType& type = registered->type;
+    const std::string& base = registered->preset_of.empty() ? type.id : registered->preset_of;
     Json properties = {{"type", {{"const", type.id}, {"description", type.summary}}}};
-    properties.update(properties_of(type.params));
+    properties.update(properties_of(options, "option", definitions));
+    properties.update(properties_of(type.params, base, definitions));
     Json alternative = object(std::move(properties));
-    if (type.id != section.default_id) alternative["required"] = {"type"};
-    alternatives.push_back(std::move(alternative));
+    Json required = Json::array();
+    if (type.id != optional_id) required.push_back("type");
+    for (const auto& spec : type.params)
+      if (spec.required) required.push_back(spec.name);
+    if (!required.empty()) alternative["required"] = std::move(required);
+    all.push_back(std::move(alternative));
   }
-  if (alternatives.empty()) return {{"type", "object"}};
-  return {{"oneOf", std::move(alternatives)}};
+  return all;
 }
 
-/// Ids, or maps with parameters.
-Json provers_section(const Registry& registry) {
-  Json ids = Json::array(), alternatives = Json::array();
-  for (const auto* registered : registry.types(PluginKind::immobility_prover)) {
-    const PluginType& type = registered->type;
-    ids.push_back(type.id);
-    Json properties = {{"type", {{"const", type.id}, {"description", type.summary}}}};
-    properties.update(properties_of(type.params));
-    Json alternative = object(std::move(properties));
-    alternative["required"] = {"type"};
-    alternatives.push_back(std::move(alternative));
+Json Definitions::choice_of(PluginKind kind, const std::vector<ParamSpec>& options, const std::string& place) {
+  if (!all_.contains(place)) {
+    all_[place] = Json();  // a type may hold its own kind
+    all_[place] = {{"oneOf", alternatives(registry_, kind, options, "", *this)}};
   }
-  alternatives.push_back({{"enum", std::move(ids)}});
-  return object({{"provers",
-                  {{"type", "array"},
-                   {"items", {{"oneOf", std::move(alternatives)}}},
-                   {"description", "Proofs that parts cannot be separated, in the order of asking; [] = none."}}}});
+  return {{"$ref", "#/$defs/" + place}};
+}
+
+Json plugin_section(const PluginSection& section, const Registry& registry, Definitions& definitions) {
+  Json all = alternatives(registry, section.kind, {}, section.default_id, definitions);
+  if (all.empty()) return {{"type", "object"}};
+  return {{"oneOf", std::move(all)}};
 }
 
 }  // namespace
 
 std::string json_schema(const Registry& registry) {
+  Definitions definitions(registry);
   Json properties;
   properties["schema"] = {{"const", kConfigSchema}, {"description", "Version of this format."}};
   properties["extends"] = {{"type", "string"}, {"description", "File to build upon, relative to this one."}};
@@ -88,9 +116,14 @@ std::string json_schema(const Registry& registry) {
                                    {{"type", "array"},
                                     {"items", {{"type", "string"}}},
                                     {"description", "Folders of plugins, relative to this file."}}}});
-  for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry);
-  properties["immobility"] = provers_section(registry);
-  for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs));
+  for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry, definitions);
+  for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs, name, definitions));
+  Json importers = Json::object();
+  for (const auto* type : registry.types(PluginKind::importer))
+    if (!type->type.params.empty()) importers[type->type.id] = object(properties_of(type->type.params, "importers." + type->type.id, definitions));
+  properties["importers"] = object(std::move(importers));
+  properties["importers"]["description"] = "Parameters of importers, by id.";
+  properties["immobility"] = object(properties_of({provers_parameter(registry)}, "immobility", definitions));
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
   const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};
@@ -107,6 +140,7 @@ std::string json_schema(const Registry& registry) {
   Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "Dismantle configuration"}};
   schema.update(object(std::move(properties)));
   schema["required"] = {"schema"};
+  if (Json all = definitions.take(); !all.empty()) schema["$defs"] = std::move(all);
   return schema.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include "dismantle/host/suggest.h"
 #include "loader/load_plugin.h"
+#include "loader/preset_file.h"
 
 namespace dismantle {
 namespace {
@@ -100,6 +101,24 @@ void Registry::scan() {
     if (error) problems_.push_back({path, "", {}, "plugin folder cannot be read: " + error.message()});
     std::sort(files.begin(), files.end());  // the folder's own order differs between machines
     for (const auto& file : files) try_load(file);
+    read_presets_of(path);
+  }
+  resolve_presets();
+}
+
+void Registry::read_presets_of(const fs::path& search_path) {
+  const bool built_in = search_path == built_in_folder_;
+  const fs::path folder = built_in ? preset_folder(search_path) : search_path / "presets";
+  for (auto& preset : read_presets(folder)) {
+    if (!built_in && preset->id.find('.') == std::string::npos)
+      preset->problems.push_back({"", 0, 0, "the id of a preset outside of the built-in folder must carry a dot, as in 'acme.fast'"});
+    const auto [known, is_new] = open_presets_.try_emplace(preset->id, nullptr);
+    if (is_new && !presets_.contains(preset->id)) {
+      known->second = std::move(preset);
+      continue;
+    }
+    if (is_new) open_presets_.erase(known);
+    problems_.push_back({preset->file, "", {preset->id}, fmt::format("preset '{}' is in two files; remove one of them", preset->id)});
   }
 }
 
@@ -137,6 +156,12 @@ const PluginFile& Registry::load_canonical(const fs::path& file) {
   files_.push_back(std::move(plugin.file));
   const PluginFile& added = files_.back();
   for (auto& type : plugin.types) {
+    if (presets_.contains(type.id))
+      problems_.push_back({added.path,
+                           added.id,
+                           {type.id},
+                           fmt::format("type id '{}' is the id of a preset, too: {}; remove one of them", type.id,
+                                       presets_.at(type.id)->preset_file.string())});
     Claim& claim = claims_[type.id];
     if (claim.type == nullptr) {
       claim.type = std::make_unique<RegisteredType>(RegisteredType{std::move(type), &added});
@@ -156,10 +181,14 @@ std::vector<const RegisteredType*> Registry::types(PluginKind kind) const {
   std::vector<const RegisteredType*> found;
   for (const auto& [id, claim] : claims_)
     if (claim.type->type.kind == kind && claim.rivals.empty()) found.push_back(claim.type.get());
+  for (const auto& [id, preset] : presets_)
+    if (preset->type.kind == kind) found.push_back(preset.get());
+  std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) { return a->type.id < b->type.id; });
   return found;
 }
 
 const RegisteredType* Registry::lookup(const std::string& id) const {
+  if (const auto preset = presets_.find(id); preset != presets_.end()) return preset->second.get();
   const auto it = claims_.find(id);
   return it == claims_.end() || !it->second.rivals.empty() ? nullptr : it->second.type.get();
 }
@@ -209,6 +238,7 @@ std::string Registry::why_missing(const std::string& id) const {
   std::vector<std::string> known;
   for (const auto& [name, claim] : claims_)
     if (claim.rivals.empty()) known.push_back(name);
+  for (const auto& [name, preset] : presets_) known.push_back(name);
   return missing_text("plugin type", id, known);
 }
 
@@ -231,7 +261,9 @@ std::shared_ptr<void> Registry::create_object(PluginKind kind, const std::string
   };
   std::shared_ptr<void> object;
   try {
-    object = found.type.create(complete(found.type.params, given));
+    object = found.type.create(complete(found.type.params, given), [this](PluginKind of, const PluginChoice& choice) {
+      return create_object(of, choice.type, choice.parameters);
+    });
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

@@ -19,52 +19,13 @@
 #include "dismantle/parameters.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/plugin/abi.h"
+#include "dismantle/plugin_kind.h"
+#include "dismantle/plugin_ref.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
 #include "dismantle/transfer_planner.h"
 
 namespace dismantle {
-
-enum class PluginKind {
-  simulator,
-  path_planner,
-  sequence_planner,
-  transfer_planner,
-  immobility_prover,
-  importer
-};
-
-/// All kinds, in the order in which they are shown.
-inline constexpr PluginKind kPluginKinds[] = {PluginKind::simulator, PluginKind::path_planner,
-                                              PluginKind::sequence_planner, PluginKind::transfer_planner,
-                                              PluginKind::immobility_prover, PluginKind::importer};
-
-template <class Interface>
-struct PluginKindOf;
-template <>
-struct PluginKindOf<Simulator> {
-  static constexpr PluginKind value = PluginKind::simulator;
-};
-template <>
-struct PluginKindOf<PathPlanner> {
-  static constexpr PluginKind value = PluginKind::path_planner;
-};
-template <>
-struct PluginKindOf<SequencePlanner> {
-  static constexpr PluginKind value = PluginKind::sequence_planner;
-};
-template <>
-struct PluginKindOf<TransferPlanner> {
-  static constexpr PluginKind value = PluginKind::transfer_planner;
-};
-template <>
-struct PluginKindOf<ImmobilityProver> {
-  static constexpr PluginKind value = PluginKind::immobility_prover;
-};
-template <>
-struct PluginKindOf<Importer> {
-  static constexpr PluginKind value = PluginKind::importer;
-};
 
 /// For plugin types without parameters.
 struct NoParams {
@@ -78,14 +39,15 @@ struct TypeTraits {
   Capabilities provides = {};  ///< simulators
 };
 
-/// One registered type. `create` returns a pointer to the interface of `kind`, from a complete ParamSet.
+/// One registered type. `create` returns a pointer to the interface of `kind`, from a complete ParamSet; plugins that
+/// its parameters name are made by the PluginMaker, which stays callable as long as the object lives.
 struct PluginType {
   PluginKind kind = PluginKind::simulator;
   std::string id;
   std::string summary;
   TypeTraits traits;
   std::vector<ParamSpec> params;
-  std::function<std::shared_ptr<void>(const ParamSet&)> create;
+  std::function<std::shared_ptr<void>(const ParamSet&, const PluginMaker&)> create;
 };
 
 /// Collects what a plugin offers. The host makes it; the plugin only fills it.
@@ -100,8 +62,8 @@ class Registrar {
     type.summary = std::move(summary);
     type.traits = std::move(traits);
     type.params = schema->specs();
-    type.create = [schema](const ParamSet& values) -> std::shared_ptr<void> {
-      const Params params = schema->bind(values);
+    type.create = [schema](const ParamSet& values, const PluginMaker& make) -> std::shared_ptr<void> {
+      const Params params = schema->bind(values, make);
       std::shared_ptr<Interface> object;
       if constexpr (std::is_constructible_v<Impl, const Params&>)
         object = std::make_shared<Impl>(params);

@@ -29,12 +29,6 @@ struct RunSettings {
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
-/// One of the chosen plugins. `params` is complete.
-struct PluginChoice {
-  std::string type;
-  ParamSet params;
-};
-
 /// What the user asks of the order, by names of parts. See Constraints.
 struct NamedConstraints {
   std::vector<std::string> base;
@@ -49,6 +43,7 @@ DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const As
 
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
+  /// With complete parameters, those of the plugins that they hold included.
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
   std::vector<PluginChoice> provers;  ///< of immobility, in the order of asking; empty: nothing is proved
   PrepareOptions assembly;
@@ -56,6 +51,7 @@ struct RunConfig {
   VerifyOptions verify;
   LayoutOptions layout;
   NamedConstraints constraints;
+  std::map<std::string, ParamSet> importers;  ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
   /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
@@ -96,12 +92,8 @@ struct PluginSection {
   const char* default_id;
 };
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
-/// The provers that run where `immobility.provers` names none, as far as they are there.
-DISMANTLE_API const std::vector<const char*>& default_provers();
-/// The type that is taken where the section names none. Whoever names a path planner other than the default wants that
-/// one asked for every way: then the sequence planner is `progressive`, which finds no ways by itself.
-DISMANTLE_API std::string default_type(const PluginSection& section, const std::string& path_planner);
-
+/// The parameter `provers` of the section `immobility`. Its default: the built-in provers, as far as they are there.
+DISMANTLE_API ParamSpec provers_parameter(const Registry& registry);
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 
 }  // namespace dismantle

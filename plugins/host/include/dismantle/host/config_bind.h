@@ -22,11 +22,12 @@ struct SectionContext {
 /// In which sections a parameter of this name exists.
 using KeyHomes = std::map<std::string, std::vector<std::string>>;
 
-/// The value that `node` holds for `spec`, or nothing and a diagnostic.
+/// The value that `node` holds for `spec`, which is no plugin, or nothing and a diagnostic.
 DISMANTLE_API std::optional<ParamValue> bind_value(const ParamSpec& spec, const ConfigNode& node,
                                                    const SectionContext& context, std::vector<Diagnostic>& problems);
 
-/// The complete values of a section (`node` may be nullptr: all defaults). Fills `origins` with "<name>.<key>".
+/// The complete values of a section that holds no plugins (`node` may be nullptr: all defaults). Fills `origins` with
+/// "<name>.<key>".
 DISMANTLE_API ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* node,
                                     const SectionContext& context, const KeyHomes& homes,
                                     std::map<std::string, std::string>& origins, std::vector<Diagnostic>& problems);

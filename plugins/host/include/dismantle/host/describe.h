@@ -8,12 +8,14 @@
 
 namespace dismantle {
 
-/// For a terminal: id, summary, source, capabilities, parameters, file and version. Ends with a line break.
-DISMANTLE_API std::string describe_text(const PluginType& type, const PluginFile& file);
+/// For a terminal: id, summary, source, capabilities, parameters, file and version; of a preset also what it stands for.
+/// `registry` holds the type. Ends with a line break.
+DISMANTLE_API std::string describe_text(const RegisteredType& type, const Registry& registry);
 /// A page of the reference. Holds no path and no hash: the same wherever it was built.
-DISMANTLE_API std::string describe_markdown(const PluginType& type, const PluginFile& file);
-/// One JSON object: {"id","kind","summary","source","needs","provides","parameters":[...],"plugin":{...}}.
-DISMANTLE_API std::string describe_json(const PluginType& type, const PluginFile& file);
+DISMANTLE_API std::string describe_markdown(const RegisteredType& type, const Registry& registry);
+/// One JSON object: {"id","kind","summary","source","needs","provides","parameters":[...],"plugin":{...}}, and of a
+/// preset {"preset": {"of", "file"}}.
+DISMANTLE_API std::string describe_json(const RegisteredType& type);
 
 /// The sections `assembly`, `run` and `verify` of a configuration, as a page of the reference.
 DISMANTLE_API std::string describe_sections_markdown();

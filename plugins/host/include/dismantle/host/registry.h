@@ -35,17 +35,25 @@ struct PluginProblem {
   std::string message;             ///< which item is wrong, both values, what to do
 };
 
-/// A type and the file that it came from.
+/// A type and the file that it came from. A preset is one, too: another type under an id of its own, with other
+/// defaults (docs/configuration.md).
 struct RegisteredType {
   PluginType type;
   const PluginFile* file = nullptr;
+  std::string preset_of{};              ///< id of the type that a preset stands for; empty: no preset
+  std::filesystem::path preset_file{};  ///< of a preset
 };
 
 /// The folder that belongs to this copy of Dismantle: `<folder of libdismantle_plugins>/dismantle/plugins`.
 DISMANTLE_API std::filesystem::path built_in_plugin_folder();
+/// Where the presets are that belong to a folder of built-in plugins: `presets` in it (a link to `configs/presets` in a
+/// build tree), or `configs/presets` of the install's share folder. Empty when there are none.
+DISMANTLE_API std::filesystem::path preset_folder(const std::filesystem::path& built_in_folder);
 
 /// SHA-256 of a file's bytes, 64 hexadecimal digits. @throws InputError naming the file.
 DISMANTLE_API std::string sha256_of_file(const std::filesystem::path& file);
+
+struct PresetFile;
 
 /// What there is to choose from. Libraries stay loaded to the end of the process. After the last
 /// scan() or load(), const functions may be called from several threads.
@@ -61,8 +69,9 @@ class DISMANTLE_API Registry {
 
   /// Appends a folder (all its `*.so`, in name order) or one file. Adding a path twice changes nothing.
   void add_search_path(const std::filesystem::path& path);
-  /// Loads what the search paths hold and was not looked at before. Never throws because of a bad file:
-  /// see problems().
+  /// Loads what the search paths hold and was not looked at before: plugin files, and presets, which are
+  /// `presets/<kind>/<id>.yaml` in a search path (of the built-in plugins: preset_folder()). Never throws because of a
+  /// bad file: see problems().
   void scan();
   /// Loads one file. The same file again is no error. @throws PluginError saying why it is refused.
   const PluginFile& load(const std::filesystem::path& file);
@@ -81,7 +90,8 @@ class DISMANTLE_API Registry {
   const RegisteredType& find(PluginKind kind, const std::string& id) const;
   const RegisteredType& find(const std::string& id) const;
 
-  /// Makes an object of type `id`; parameters that are not given have their defaults.
+  /// Makes an object of type `id`; parameters that are not given have their defaults. Plugins that its parameters hold
+  /// are made by this registry, which has to outlive the object.
   /// @throws PluginError: no such type, unknown or bad parameter, or the plugin threw.
   template <class Interface>
   std::shared_ptr<Interface> create(const std::string& id, const ParamSet& given = {}) const {
@@ -100,6 +110,9 @@ class DISMANTLE_API Registry {
   std::shared_ptr<void> create_object(PluginKind kind, const std::string& id, const ParamSet& given) const;
   const PluginFile& load_canonical(const std::filesystem::path& file);
   void try_load(const std::filesystem::path& file);
+  void read_presets_of(const std::filesystem::path& search_path);
+  void resolve_presets();
+  const RegisteredType* resolve_preset(const std::string& id, std::vector<std::string>& chain);
   std::string refused_files_text(const std::string& id) const;
   std::string missing_text(std::string_view what, const std::string& id, const std::vector<std::string>& known) const;
 
@@ -109,6 +122,8 @@ class DISMANTLE_API Registry {
   std::deque<PluginFile> files_;  // addresses stay
   std::map<std::string, Claim> claims_;
   std::vector<PluginProblem> problems_;
+  std::map<std::string, std::unique_ptr<PresetFile>> open_presets_;  // by id; not resolved until now
+  std::map<std::string, std::unique_ptr<RegisteredType>> presets_;
 };
 
 }  // namespace dismantle

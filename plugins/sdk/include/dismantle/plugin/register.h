@@ -14,10 +14,10 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 World, Prepared, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal,
                 PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
-                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate, ProverTraits,
-                SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
-                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, TypeTraits, PluginType,
-                Registrar>();
+                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
+                ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
+                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+                PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,

@@ -23,6 +23,10 @@ class GeometryCache {
   /// About so many bytes are kept; when it is more, everything is computed anew.
   explicit GeometryCache(std::size_t most_bytes = std::size_t{512} << 20) : most_bytes_(most_bytes) {}
 
+  /// The one that all planners of this process share, plugins of different files too; it lives as long as one of them
+  /// holds it.
+  static std::shared_ptr<GeometryCache> shared();
+
   /// What probes of one mesh against another depend on; or those against whatever comes.
   struct Pair {
     Pair(const Mesh& of, const Allowance& allowance);

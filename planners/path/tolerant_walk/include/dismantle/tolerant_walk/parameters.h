@@ -1,4 +1,4 @@
-/// Parameters of the squeeze path planner.
+/// Parameters of the tolerant_rrt path planner, and of its tree.
 #pragma once
 
 #include "dismantle/parameters.h"
@@ -10,7 +10,7 @@ struct Parameters {
   double step = 0.006;
   double outward = 0.6;
   std::int64_t looks = 25'000;
-  std::int64_t level_looks = 500;
+  double level_looks = 500;
   std::int64_t shortcuts = 60;
   double thinning = 1e-4;
   std::int64_t max_refusals = 12;
@@ -33,15 +33,14 @@ struct Parameters {
            .min = 0,
            .max = 1,
            .doc = "Share of the steps from poses that are furthest out in some direction."});
-    s.add("looks", &Parameters::looks,
-          {.unit = "1", .min = 1, .max = 1e12, .doc = "Poses looked at before it gives up."});
-    s.add(
-        "level_looks", &Parameters::level_looks,
-        {.unit = "1",
-         .min = 1,
-         .max = 1e12,
-         .doc = "The same for a search of depth 1 where the sequence planner limits depth; each further level doubles "
-                "them."});
+    s.add("looks", &Parameters::looks, {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before it gives up."});
+    s.add("level_looks", &Parameters::level_looks,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .min_open = true,
+           .doc = "The same for a search of depth 1 where the sequence planner limits depth; each further level doubles "
+                  "them, up to `looks`."});
     s.add("shortcuts", &Parameters::shortcuts,
           {.unit = "1", .min = 0, .max = 1e6, .doc = "Attempts to replace pieces of a path by straight ones."});
     s.add("thinning", &Parameters::thinning,

@@ -1,0 +1,17 @@
+/// Objects that several plugins use together, such as a cache of what they compute from the same meshes.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "dismantle/export.h"
+
+namespace dismantle {
+
+/// The object of that name in this process: made by `make` when nobody holds one, and destroyed when nobody does any
+/// more. All who use a name must be built from the same definition of its type. Safe to use from several threads.
+DISMANTLE_API std::shared_ptr<void> shared_object(const std::string& name,
+                                                  const std::function<std::shared_ptr<void>()>& make);
+
+}  // namespace dismantle

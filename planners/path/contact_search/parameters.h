@@ -1,0 +1,59 @@
+/// Parameters of the contact_search path planner.
+#pragma once
+
+#include "dismantle/push/parameters.h"
+
+namespace dismantle::contact_search {
+
+struct Parameters {
+  push::Motion motion = push::Motion::automatic;
+  // Table 6.
+  double time_step = 0.1;
+  double force = 100;
+  double similarity_translation = 0.05;
+  double similarity_rotation = 0.5;
+  bool proposals = true;
+  bool twists = true;
+  bool novelty = true;
+  bool diagonals = true;
+  std::int64_t intermediate = 256;
+  double thinning = 1e-4;
+  std::int64_t max_refusals = 8;
+  std::int64_t translation_nodes = 24;
+  std::int64_t rotation_nodes = 8;
+
+  static void describe(Schema<Parameters>& s) {
+    push::describe_search(s);
+    s.add("proposals", &Parameters::proposals,
+          {.doc =
+               "Translating, push first along directions that the contacts leave free, then along the axes, then along "
+               "free directions while leaning on a wall."});
+    s.add("twists", &Parameters::twists,
+          {.doc = "Turning, first along the screw motions that the surfaces in contact leave free."});
+    s.add(
+        "novelty", &Parameters::novelty,
+        {.doc =
+             "Search first from states in places that were not searched from before; off: first come, first served."});
+    push::describe_effort(s);
+  }
+
+  push::Tactics tactics() const {
+    push::Tactics t = push::tactics_of(*this);
+    t.own_axes = true;
+    t.novelty = novelty;
+    t.first_rank = 1;  // what the contacts leave free and the axes; then screws
+    t.turning_lag = 1;
+    if (proposals) t.translating.push_back(push::Stage::free);
+    t.translating.push_back(push::Stage::axes);
+    if (proposals) t.translating.push_back(push::Stage::leaning);
+    if (twists) t.turning = {push::Stage::twists, push::Stage::leaning};
+    t.turning.push_back(push::Stage::axes);
+    if (diagonals) {
+      t.translating.push_back(push::Stage::diagonals);
+      t.turning.push_back(push::Stage::screws);
+    }
+    return t;
+  }
+};
+
+}  // namespace dismantle::contact_search

@@ -1,0 +1,214 @@
+#include "config/binder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "config/list_items.h"
+
+namespace dismantle {
+namespace {
+
+constexpr unsigned kMaxNesting = 16;  // plugins that hold plugins
+
+/// Members of a map are looked at with the key `type` left out.
+const ParamSpec* spec_of(const std::vector<ParamSpec>& specs, const std::string& key) {
+  const auto it = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return s.name == key; });
+  return it == specs.end() ? nullptr : &*it;
+}
+
+/// An empty map.
+ConfigNode nothing_said(const ConfigMark& mark) {
+  ConfigNode node;
+  node.kind = ConfigNode::Kind::map;
+  node.mark = mark;
+  return node;
+}
+
+struct Deeper {
+  explicit Deeper(unsigned& count) : depth(++count) {}
+  ~Deeper() { --depth; }
+  Deeper(const Deeper&) = delete;
+  Deeper& operator=(const Deeper&) = delete;
+  unsigned& depth;
+};
+
+}  // namespace
+
+TypeSource types_of(const Registry& registry) {
+  return {[&registry](PluginKind kind, const std::string& id) { return registry.lookup(kind, id); },
+          [&registry](PluginKind kind, const std::string& id) { return registry.why_missing(kind, id); }};
+}
+
+std::string source_text(const RegisteredType& type) {
+  return fmt::format("{} {}, {}", type.type.id, type.file->version, type.file->path.filename().string());
+}
+
+std::string default_origin(const RegisteredType& type) {
+  return type.preset_of.empty() ? "default" : "preset " + type.type.id;
+}
+
+ParamSet Binder::section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
+                         const std::string& origin) {
+  std::vector<Part> parts{{&specs, nullptr, origin}};
+  bind_parts(parts, node, context);
+  return std::move(parts.front().values);
+}
+
+std::optional<PluginChoice> Binder::choice(PluginKind kind, const std::vector<ParamSpec>& options,
+                                           const ConfigNode& node, const std::string& name, const PluginChoice* below,
+                                           const std::string& origin) {
+  const auto fail = [&](const ConfigMark& mark, const std::string& what) {
+    problems_.push_back(mark.error(what));
+    return std::nullopt;
+  };
+  const Deeper deeper(depth_);
+  if (depth_ > kMaxNesting)
+    return fail(node.mark, fmt::format("{}: plugins hold each other more than {} deep", name, kMaxNesting));
+  const ConfigMember* type = node.is_map() ? node.find("type") : nullptr;
+  const ConfigNode* id = type != nullptr ? &type->value : node.is_scalar() ? &node : nullptr;
+  if (!node.is_map() && !node.is_scalar())
+    return fail(node.mark, fmt::format("{} must be a {}, as '{{type: ID, ...}}', got {}", name, to_string(kind),
+                                       node.kind_name()));
+  if (id == nullptr && below == nullptr)
+    return fail(node.mark, fmt::format("{} has no 'type': it must be the id of a {}", name, to_string(kind)));
+  if (id != nullptr && (!id->is_scalar() || id->scalar.empty()))
+    return fail(id->mark, fmt::format("{}.type must be the id of a {}, got {}", name, to_string(kind),
+                                      id->kind_name()));
+  PluginChoice out;
+  out.type = id != nullptr ? id->scalar : below->type;
+  const RegisteredType* found = types_.lookup(kind, out.type);
+  if (found == nullptr) return fail((id != nullptr ? *id : node).mark, types_.why_missing(kind, out.type));
+  if (below != nullptr && below->type != out.type) below = nullptr;  // starts afresh
+  for (const ParamSpec& option : options)
+    if (spec_of(found->type.params, option.name) != nullptr)
+      return fail(node.mark, fmt::format("{}: '{}' has a parameter '{}', which here is read by what holds it, so that "
+                                         "it cannot stand here",
+                                         name, out.type, option.name));
+  std::vector<Part> parts{
+      {&options, below != nullptr ? &below->options : nullptr, below != nullptr ? origin : "default"},
+      {&found->type.params, below != nullptr ? &below->parameters : nullptr,
+       below != nullptr ? origin : default_origin(*found)}};
+  bind_parts(parts, node.is_map() ? &node : nullptr, {name, out.type, source_text(*found)});
+  out.options = std::move(parts[0].values);
+  out.parameters = std::move(parts[1].values);
+  origins_[name + ".type"] = id != nullptr ? id->mark.text() : origin;
+  return out;
+}
+
+void Binder::bind_parts(std::vector<Part>& parts, const ConfigNode* node, const SectionContext& context) {
+  const auto below = [](const Part& part, const ParamSpec& spec) -> const ParamValue* {
+    if (part.below != nullptr)
+      if (const auto it = part.below->find(spec.name); it != part.below->end()) return &it->second;
+    return spec.required ? nullptr : &spec.fallback;
+  };
+  std::vector<std::string> known;
+  for (const Part& part : parts)
+    for (const auto& spec : *part.specs) known.push_back(spec.name);
+  std::vector<std::string> failed;
+  if (node != nullptr && !node->is_map())
+    problems_.push_back(
+        node->mark.error(fmt::format("{} must be a map of keys, not {}", context.name, node->kind_name())));
+  if (node != nullptr && node->is_map()) {
+    for (const auto& member : node->members) {
+      if (member.key == "type" && !context.type.empty()) continue;
+      const auto home = std::find_if(parts.begin(), parts.end(),
+                                     [&](const Part& p) { return spec_of(*p.specs, member.key) != nullptr; });
+      if (home == parts.end()) {
+        problems_.push_back(member.key_mark.error(unknown_key_message(member.key, context, known, homes_)));
+        continue;
+      }
+      const ParamSpec& spec = *spec_of(*home->specs, member.key);
+      if (auto bound = value(spec, member.value, context, below(*home, spec), home->origin))
+        home->values.emplace(member.key, std::move(*bound));
+      else
+        failed.push_back(member.key);
+    }
+  }
+  for (Part& part : parts) {
+    for (const auto& spec : *part.specs) {
+      if (part.values.contains(spec.name)) continue;
+      const ParamValue* fallback = below(part, spec);
+      if (fallback != nullptr) {
+        const ConfigNode untouched = nothing_said(node != nullptr ? node->mark : ConfigMark{});
+        part.values.emplace(spec.name, defaulted(spec, *fallback, untouched, context.name + "." + spec.name, part.origin));
+      } else if (std::find(failed.begin(), failed.end(), spec.name) == failed.end()) {
+        const std::string text = fmt::format("{} ({}) needs the key '{}', which has no default", context.name,
+                                             context.type, spec.name);
+        problems_.push_back(node != nullptr ? node->mark.error(text) : Diagnostic{"", 0, 0, text});
+      }
+    }
+  }
+}
+
+/// A value that nobody set. Plugins that a type holds by default are named there without their parameters.
+ParamValue Binder::defaulted(const ParamSpec& spec, const ParamValue& value, const ConfigNode& untouched,
+                             const std::string& name, const std::string& origin) {
+  if (const auto* one = std::get_if<PluginChoice>(&value))
+    return choice(spec.plugin_kind, {}, untouched, name, one, origin).value_or(*one);
+  if (const auto* many = std::get_if<std::vector<PluginChoice>>(&value)) {
+    std::vector<PluginChoice> all = *many;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      all[k] = choice(spec.plugin_kind, spec.options, untouched, fmt::format("{}.{}", name, k), &(*many)[k], origin)
+                   .value_or(all[k]);
+    return all;
+  }
+  origins_[name] = origin;
+  return value;
+}
+
+std::optional<ParamValue> Binder::value(const ParamSpec& spec, const ConfigNode& node, const SectionContext& context,
+                                        const ParamValue* below, const std::string& origin) {
+  const std::string name = context.name + "." + spec.name;
+  if (spec.type == ParamType::plugin) {
+    const auto* under = below != nullptr ? std::get_if<PluginChoice>(below) : nullptr;
+    auto bound = choice(spec.plugin_kind, {}, node, name, under, origin);
+    return bound ? std::optional<ParamValue>(std::move(*bound)) : std::nullopt;
+  }
+  if (spec.type == ParamType::plugins) return list(spec, node, name, below, origin);
+  auto bound = bind_value(spec, node, context, problems_);
+  if (bound) origins_[name] = node.mark.text();
+  return bound;
+}
+
+std::optional<ParamValue> Binder::list(const ParamSpec& spec, const ConfigNode& node, const std::string& name,
+                                       const ParamValue* below, const std::string& origin) {
+  const auto* under = below != nullptr ? std::get_if<std::vector<PluginChoice>>(below) : nullptr;
+  std::vector<PluginChoice> out;
+  bool good = true;
+  const auto item_name = [&](std::size_t k) { return fmt::format("{}.{}", name, k); };
+  if (node.kind == ConfigNode::Kind::sequence) {
+    for (std::size_t k = 0; k < node.items.size(); ++k) {
+      auto bound = choice(spec.plugin_kind, spec.options, node.items[k], item_name(k), nullptr, origin);
+      good = good && bound.has_value();
+      if (bound) out.push_back(std::move(*bound));
+    }
+    if (node.items.empty() && !spec.may_be_empty) {
+      problems_.push_back(node.mark.error(fmt::format("{} has to name a {}", name, to_string(spec.plugin_kind))));
+      return std::nullopt;
+    }
+  } else if (node.is_map() && under != nullptr) {
+    std::vector<std::string> types;
+    out = std::get<std::vector<PluginChoice>>(defaulted(spec, *below, nothing_said(node.mark), name, origin));
+    for (const PluginChoice& item : out) types.push_back(item.type);
+    for (const auto& member : node.members) {
+      const auto index = item_index(member.key, types);
+      if (!index) {
+        problems_.push_back(member.key_mark.error(no_item_message(name, member.key, types)));
+        good = false;
+        continue;
+      }
+      const PluginChoice before = out[*index];
+      auto bound = choice(spec.plugin_kind, spec.options, member.value, item_name(*index), &before, origin);
+      good = good && bound.has_value();
+      if (bound) out[*index] = std::move(*bound);
+    }
+  } else {
+    problems_.push_back(node.mark.error(
+        fmt::format("{} must be a list of {}s, got {}", name, to_string(spec.plugin_kind), node.kind_name())));
+    return std::nullopt;
+  }
+  return good ? std::optional<ParamValue>(std::move(out)) : std::nullopt;
+}
+
+}  // namespace dismantle
