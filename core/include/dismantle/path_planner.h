@@ -37,9 +37,6 @@ class DISMANTLE_API VerifiedPath {
   double max_penetration() const { return max_penetration_; }
   /// Where a Goal names parts: the one of them that is apart from all others at the end.
   const std::optional<PartId>& released() const { return released_; }
-  /// The same motion with the moving parts listed in another order: part i of the result is part order[i] of this.
-  /// @throws std::invalid_argument when `order` is not a permutation of the moving parts.
-  VerifiedPath reordered(const std::vector<std::size_t>& order) const;
 
  private:
   friend class PathChecker;

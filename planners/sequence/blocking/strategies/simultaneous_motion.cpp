@@ -46,8 +46,8 @@ Result SimultaneousMotion::apply(GroupState& group) {
     }
   }
   if (!sets.empty())
-    progress.note =
-        std::to_string(sets.size()) + " sets of parts were moved at once, each part in its own way, in vain";
+    progress.note = std::to_string(sets.size()) +
+                    " sets of parts were moved simultaneously, each part in its own way, without success";
   return Result::unchanged;
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <memory>
 #include <set>
@@ -29,7 +28,6 @@ class ListedProver final : public ImmobilityProver {
     return {.effort = effort_, .min_parts = parts_, .max_parts = parts_};
   }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext&) const override {
-    ++asked;
     Certificate certificate;
     for (const auto* list : {&query.moving, &query.fixed})
       for (const PlacedPart& p : *list) certificate.parts.push_back(p.part);
@@ -38,7 +36,6 @@ class ListedProver final : public ImmobilityProver {
     certificate.text = "listed";
     return certificate;
   }
-  mutable std::atomic<int> asked{0};
 
  private:
   ProofEffort effort_;
@@ -72,7 +69,7 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
         }
       RunResult r =
           take_apart(cased_pairs(3), 1, {}, &shallow, {{"listed", std::make_shared<ListedProver>(effort, listed)}});
-      EXPECT_EQ(r.outcome, Outcome::exhausted);
+      EXPECT_NE(r.outcome, Outcome::solved);
       EXPECT_EQ(r.sequence_counts["held"], static_cast<double>(listed.size()));
       EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves are apart";
       std::set<std::string> reported;
@@ -87,14 +84,15 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
     }
 }
 
-TEST(BlockingProofs, NoneIsSoughtWhereThatIsSwitchedOff) {
+TEST(BlockingProofs, NothingIsMergedWhereThatIsSwitchedOff) {
   BlockingParams params;
   params.cages = false;
-  const auto prover = std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{});
-  take_apart(cased_pairs(2), 1, {}, &fake::helpless, {{"listed", prover}}, params);
-  EXPECT_EQ(prover->asked, 0);
-  take_apart(cased_pairs(2), 1, {}, &fake::helpless, {{"listed", prover}});
-  EXPECT_GT(prover->asked, 0);
+  const auto prover =
+      std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{{0, 1}, {2, 3}});
+  RunResult off = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}}, params);
+  EXPECT_EQ(off.sequence_counts["held"], 0);
+  RunResult on = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}});
+  EXPECT_EQ(on.sequence_counts["held"], 2);
 }
 
 TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreMergedTogether) {
