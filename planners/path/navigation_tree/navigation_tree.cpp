@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/plugin.h"
@@ -42,6 +43,7 @@ class Search final : public PathSearch {
 
   PathResult result() override {
     PathResult result = last_;
+    result.stats += first_stats_;
     if (is_success(result.outcome())) return result;
     auto state = std::make_shared<State>();
     state->tree = tree_state_;
@@ -62,17 +64,22 @@ class Search final : public PathSearch {
         free_space::LedWalk::Limits limits;
         limits.patience = patience_;
         limits.most_detours = detours_;
-        if (query_.budget.max_steps > 0) limits.most_looks = query_.budget.max_steps - std::min(query_.budget.max_steps, before_);
+        if (query_.budget.max_steps > 0)
+          limits.most_looks = query_.budget.max_steps - std::min(query_.budget.max_steps, before_);
         if (portion.max_steps > 0)
-          limits.pause_after = portion.max_steps - std::min(portion.max_steps, used() - begun_at);
+          limits.pause_after =
+              std::max<std::uint64_t>(1, portion.max_steps - std::min(portion.max_steps, used() - begun_at));
         if (portion.timeout > 0) limits.pause_at = Deadline::after_seconds(portion.timeout);
         last_ = walk_->run(limits);
         (near_start_ ? near_start_state_ : tree_state_) = last_.state;
         if (walk_->paused()) return SearchStatus::paused;
       }
-      if (in_vain(last_) && query_.budget.max_steps > 0 && used() >= query_.budget.max_steps) last_.fail(Outcome::timeout);
+      if (in_vain(last_) && query_.budget.max_steps > 0 && used() >= query_.budget.max_steps)
+        last_.fail(Outcome::timeout);
       if (!near_start_ || !in_vain(last_) || !walk_->held()) return status_of(last_.outcome());
       before_ += walk_->looks();
+      first_stats_ = std::exchange(last_.stats, {});
+      first_stats_.extra.clear();  // what is left of the way, say, does not add up
       begin(Overlap::everywhere);
     }
   }
@@ -100,6 +107,7 @@ class Search final : public PathSearch {
   std::optional<PathQuery> own_query_;
   std::optional<free_space::LedWalk> walk_;
   std::uint64_t before_ = 0;  // state checks of the first search
+  SearchStats first_stats_;
   PathResult last_ = PathResult::failure(Outcome::depth_limit);
   std::shared_ptr<const SearchState> tree_state_, near_start_state_;
   SearchStatus status_ = SearchStatus::paused;

@@ -30,7 +30,8 @@ class Search final : public PathSearch {
     if (!growth_) growth_.emplace(parameters_, query_, context_);
     const std::uint64_t most = most_steps();
     std::uint64_t until = most;
-    if (portion.max_steps > 0 && portion.max_steps < most - growth_->used()) until = growth_->used() + portion.max_steps;
+    if (portion.max_steps > 0 && portion.max_steps < most - growth_->used())
+      until = growth_->used() + portion.max_steps;
     const Deadline pause_at = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
     last_ = growth_->run(until, pause_at);
     if (last_.outcome() == Outcome::depth_limit && growth_->used() < most) return SearchStatus::paused;

@@ -85,7 +85,8 @@ class Scripted final : public PathPlanner {
    private:
     SearchStatus end() {
       if (!of_.script_.solves) {
-        result_.fail(of_.script_.used_up ? Outcome::depth_limit : Outcome::exhausted, "member " + std::to_string(of_.id_));
+        result_.fail(of_.script_.used_up ? Outcome::depth_limit : Outcome::exhausted,
+                     "member " + std::to_string(of_.id_));
         return SearchStatus::exhausted;
       }
       PathCheck check = query_.checker.check(fake::straight(query_.cast, Eigen::Vector3d(0, 0, 1.0 + of_.id_)));
@@ -132,7 +133,7 @@ struct Set {
     std::vector<std::shared_ptr<PathPlanner>> planners;
     for (std::size_t k = 0; k < scripts.size(); ++k) planners.push_back(std::make_shared<Scripted>(k, scripts[k], log));
     context.executor = executor;
-    const PathQuery query{assembly, physics, prepared, {{{1, Pose{}}}, {{0, Pose{}}}}, budget, 0.01,
+    const PathQuery query{assembly, physics, prepared,         {{{1, Pose{}}}, {{0, Pose{}}}}, budget, 0.01,
                           checker,  {},      resume_from.get()};
     PortfolioSearch search(parameters, planners, query, context);
     do status = search.run({.max_steps = portion});
@@ -184,8 +185,10 @@ TEST(Portfolio, SolvesWhereOneMemberDoes) {
       EXPECT_EQ(set.log.runs.back().first, by) << "the search ends with it";
     } else {
       EXPECT_EQ(set.status, SearchStatus::exhausted);
-      for (std::size_t k = 0; k < set.scripts.size(); ++k) EXPECT_EQ(set.spent(k), set.scripts[k].work) << "only when all are";
-      EXPECT_EQ(r.outcome(), set.scripts[0].used_up ? Outcome::depth_limit : Outcome::exhausted) << "what the first says";
+      for (std::size_t k = 0; k < set.scripts.size(); ++k)
+        EXPECT_EQ(set.spent(k), set.scripts[k].work) << "only when all are";
+      EXPECT_EQ(r.outcome(), set.scripts[0].used_up ? Outcome::depth_limit : Outcome::exhausted)
+          << "what the first says";
       EXPECT_EQ(r.message, "member 0");
     }
   }

@@ -22,8 +22,7 @@ PushPathSearch::PushPathSearch(const PathQuery& query, const Tactics& tactics, R
 
 SearchStatus PushPathSearch::run(const Budget& portion) {
   if (status_ != SearchStatus::paused) return status_;
-  const bool in_turns =
-      supported(query_) && tactics_.motion == Motion::automatic && query_.budget.max_depth == 0;
+  const bool in_turns = supported(query_) && tactics_.motion == Motion::automatic && query_.budget.max_depth == 0;
   return status_ = in_turns ? run_turns(portion) : run_whole(portion);
 }
 
@@ -36,8 +35,8 @@ SearchStatus PushPathSearch::run_turns(const Budget& portion) {
   limits.between = [this] { context_.pause_point(); };
   last_ = turns_->run(limits);
   if (turns_->paused()) return SearchStatus::paused;
-  const bool own_limit = context_.should_stop() || deadline_.passed() ||
-                         (query_.budget.max_steps > 0 && steps_left_ == 0);
+  const bool own_limit =
+      context_.should_stop() || deadline_.passed() || (query_.budget.max_steps > 0 && steps_left_ == 0);
   if (last_.outcome() == Outcome::timeout && portion.timeout > 0 && !own_limit) {
     turns_->go_on();
     return SearchStatus::paused;
