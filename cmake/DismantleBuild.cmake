@@ -108,23 +108,34 @@ function(dismantle_unity target)
   endforeach()
 endfunction()
 
-# dismantle_add_test(NAME SOURCES ... LIBRARIES ...): a Google Test program, run as one CTest test.
-function(dismantle_add_test name)
-  if(NOT DISMANTLE_BUILD_TESTS)
-    return()
-  endif()
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
-  find_package(GTest REQUIRED)
+# A program of Google Test. The libraries under test keep their optimisation; the tests themselves are compiled once and run once.
+function(dismantle_use_test_pch target)
   if(NOT TARGET dismantle_test_pch)
     dismantle_pch(dismantle_test_pch ${DISMANTLE_COMMON_HEADERS} <gtest/gtest.h>)
     target_link_libraries(dismantle_test_pch PRIVATE GTest::gtest)
   endif()
+  dismantle_reuse_pch(${target} dismantle_test_pch)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...]): a Google Test program, run as one
+# CTest test. It loads the plugins of the folders when it runs: without one of NEEDS it is left out, and says so; those of
+# USES it can do without.
+function(dismantle_add_test name)
+  if(NOT DISMANTLE_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;NEEDS;USES" ${ARGN})
+  dismantle_left_out(missing ${name} ${ARG_NEEDS})
+  if(missing)
+    return()
+  endif()
+  find_package(GTest REQUIRED)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE dismantle_settings ${ARG_LIBRARIES} GTest::gtest GTest::gtest_main)
-  dismantle_reuse_pch(${name} dismantle_test_pch)
-  # The libraries under test keep their optimisation; the tests themselves are compiled once and run once.
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  dismantle_use_test_pch(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
+  dismantle_uses(${name} ${ARG_NEEDS} ${ARG_USES})
   add_test(NAME ${name} COMMAND ${name})
   set(limit 900)  # s, against tests that hang; sanitizers make them twenty times as slow
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")

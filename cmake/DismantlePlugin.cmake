@@ -14,6 +14,8 @@ function(dismantle_add_plugin name)
   set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${exports}")
   if(DEFINED DISMANTLE_PLUGIN_OUTPUT_DIRECTORY)  # in tree
     set_property(GLOBAL APPEND PROPERTY DISMANTLE_BUILT_IN_PLUGINS ${name})
+    file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+    set_property(GLOBAL APPEND PROPERTY "DISMANTLE_PLUGINS_OF_${folder}" ${name})
     target_link_libraries(${name} PRIVATE dismantle_settings)
     set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")
     dismantle_precompile(${name})

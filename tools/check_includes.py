@@ -1,36 +1,40 @@
 #!/usr/bin/env python3
-"""Fails when an #include goes against the layers of docs/architecture.md: core <- geometry <- verification <-
-preparation, plan_io <- engine <- host <- apps, bench. A plugin includes core, geometry, the plugin sdk and the common
-libraries of its own kind."""
+"""Fails when the source tree breaks the rules of docs/architecture.md, "Layers":
+
+- core <- geometry <- verification <- preparation, plan_io <- engine <- host <- apps, bench: no #include against the arrows;
+- a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
+  others that build a library), never another plugin;
+- core has at most 2500 lines, a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
 import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-LIBRARIES = ["geometry", "verification", "preparation", "plan_io", "engine", "samples", "bench"]
 CORE_MAX_LINES = 2500
 FILE_MAX_LINES = 400
+CLASS_MAX_METHODS = 40
+FOLDERS = ("core", "lib", "plugins", "simulators", "planners", "apps", "tests")
 
-# What code of a place may include, by place. "self" and core are always allowed.
+# What the code of a place may include besides itself and core.
+BELOW_ENGINE = {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io"}
 ALLOWED = {
     "core": set(),
     "lib/geometry": set(),
     "lib/verification": {"lib/geometry"},
     "lib/preparation": {"lib/geometry", "lib/verification"},
-    "lib/plan_io": {"lib/geometry", "lib/verification"},
+    "lib/plan_io": {"lib/geometry"},
     "lib/samples": {"lib/geometry"},
-    "lib/engine": {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io"},
+    "lib/engine": BELOW_ENGINE,
     "plugins/sdk": {"lib/geometry"},
-    "plugins/host": {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io", "lib/engine", "plugins/sdk"},
-    "plugins/testing": {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io", "lib/engine", "lib/samples",
-                        "plugins/sdk", "plugins/host"},
-    "lib/bench": {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io", "lib/engine", "lib/samples",
-                  "plugins/sdk", "plugins/host"},
+    "plugins/host": BELOW_ENGINE | {"lib/engine", "plugins/sdk"},
+    "plugins/testing": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
+    "lib/bench": BELOW_ENGINE | {"lib/engine", "lib/samples", "plugins/sdk", "plugins/host"},
+    "apps": BELOW_ENGINE | {"lib/engine", "lib/samples", "lib/bench", "plugins/sdk", "plugins/host"},
 }
-EVERYTHING = set(ALLOWED)
-PLUGIN = {"lib/geometry", "plugins/sdk"}
-PLUGIN_ROOTS = ("planners/", "simulators/", "plugins/importers/")
+PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
+# The folders of plugins, and how deep the plugins are below.
+KINDS = {"simulators": 1, "plugins/importers": 1, "planners": 2}
 
 
 def sources(root, folder):
@@ -43,73 +47,152 @@ def sources(root, folder):
 
 def is_test(file):
     parts = file.split("/")
-    return any(p in ("test", "tests", "test_support") for p in parts[:-1]) or parts[-1].endswith("_test.cpp")
+    return parts[0] == "tests" or parts[-1].endswith("_test.cpp") or any(
+        p in ("test", "tests", "test_support") for p in parts[:-1])
 
 
-def common_of(place, commons):
-    """The common libraries of a plugin's own kind: planners/KIND/common, simulators/sdf, and folders without a plugin."""
-    kind = place.split("/")[:-1]
-    return {c for c in commons if c.split("/")[:len(kind)] == kind}
+def kind_of(file):
+    return next((k for k in KINDS if file.startswith(k + "/")), None)
+
+
+def plugin_folder(file):
+    """planners/path/bfs of planners/path/bfs/src/x.cpp; None outside the folders of plugins."""
+    kind = kind_of(file)
+    if kind is None:
+        return None
+    parts = file.split("/")
+    depth = len(kind.split("/")) + KINDS[kind]
+    return "/".join(parts[:depth]) if len(parts) > depth else None
+
+
+def shared_for(folder, libraries):
+    """The libraries without a plugin that a folder may include: those of its kind, and planners/common/* for all planners."""
+    beside = os.path.dirname(folder) + "/"
+    return {lib for lib in libraries if lib.startswith(beside) or
+            (folder.startswith("planners/") and lib.startswith("planners/common/"))}
+
+
+def without_comments(text):
+    """Comments, strings and characters blanked, line breaks kept."""
+    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
+    return pattern.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
+
+
+CLASS = re.compile(r"\b(?:class|struct)\s+(?:DISMANTLE_API\s+)?(\w+)\s*(?:final\s*)?(?::[^;{}()]*)?\{")
+
+
+def classes(text):
+    """(name, body) of each class, nested ones apart."""
+    for match in CLASS.finditer(text):
+        depth, at = 1, match.end()
+        while depth and at < len(text):
+            depth += {"{": 1, "}": -1}.get(text[at], 0)
+            at += 1
+        yield match.group(1), text[match.end():at - 1]
+
+
+def method_count(body):
+    """Declarations with a parameter list at the class's own level. Initialisers and bodies are cut out before."""
+    flat, depth = [], 0
+    for c in body:
+        if c == "{":
+            depth += 1
+            if depth == 1:
+                flat.append(";")
+        elif c == "}":
+            depth -= 1
+        elif depth == 0:
+            flat.append(c)
+    count = 0
+    for statement in "".join(flat).split(";"):
+        statement = re.sub(r"\b(?:public|private|protected)\s*:", " ", statement).strip()
+        statement = statement.split("=")[0] if "operator" not in statement else statement
+        if re.match(r"(using|typedef|friend|enum|static_assert|class|struct)\b", statement):
+            continue
+        # A type with parentheses (std::function<void(int)> f) is a member, not a method.
+        plain = re.sub(r"<[^<>]*>", "", re.sub(r"<[^<>]*>", "", re.sub(r"<[^<>]*>", "", statement)))
+        if re.search(r"[\w~=<>\]+*/!-]\s*\(", plain):
+            count += 1
+    return count
+
+
+def check(root):
+    files = [f for folder in FOLDERS for f in sources(root, folder)]
+    known = set(files)
+    text = {}
+    for f in files:
+        with open(os.path.join(root, f), encoding="utf-8") as stream:
+            text[f] = stream.read()
+
+    def place_of(file):
+        folder = plugin_folder(file)
+        return folder or max((p for p in ALLOWED if file.startswith(p + "/")), key=len, default=None)
+
+    with_plugin = {place_of(f) for f in files if plugin_folder(f) and not is_test(f) and "\nDISMANTLE_PLUGIN(" in text[f]}
+    libraries = {plugin_folder(f) for f in files if plugin_folder(f)} - with_plugin
+    include_path = {}  # the header of a library, by the path that it is included by
+    for f in files:
+        if f.endswith(".h") and "/include/" in f:
+            include_path.setdefault(f.split("/include/", 1)[1], []).append(f)
+    # Headers of a plugin's folder that other folders include by their plain name.
+    beside_cmake = {}
+    for f in files:
+        if f.endswith(".h") and plugin_folder(f) and not is_test(f):
+            beside_cmake.setdefault(os.path.relpath(f, plugin_folder(f)), []).append(f)
+            beside_cmake.setdefault(os.path.relpath(f, os.path.dirname(plugin_folder(f))), []).append(f)
+
+    def target_of(file, included):
+        """The file that is included; None for one of another project."""
+        beside = os.path.normpath(os.path.join(os.path.dirname(file), included))
+        if beside in known:
+            return beside
+        candidates = include_path.get(included, []) + beside_cmake.get(included, [])
+        own = [c for c in candidates if place_of(c) == place_of(file)]
+        return (own or candidates or [None])[0]
+
+    problems = []
+    for included, found in include_path.items():
+        if len(found) > 1:
+            problems.append(f'"{included}" is the name of {" and of ".join(found)}')
+    for f in files:
+        lines = text[f].count("\n")
+        if lines > FILE_MAX_LINES:
+            problems.append(f"{f}: {lines} lines; at most {FILE_MAX_LINES}")
+        code = without_comments(text[f])
+        for name, body in classes(code):
+            count = method_count(body)
+            if count > CLASS_MAX_METHODS:
+                problems.append(f"{f}: class {name} has {count} methods; at most {CLASS_MAX_METHODS}")
+        place = place_of(f)
+        if place is None or is_test(f):
+            continue
+        allowed = ALLOWED[place] if place in ALLOWED else PLUGIN_MAY | shared_for(place, libraries)
+        for included in INCLUDE.findall(text[f]):
+            target = target_of(f, included)
+            to = target and place_of(target)
+            if to is None:
+                if target and is_test(target):
+                    problems.append(f'{f}: includes "{included}", a header of tests')
+                continue
+            if to == place and is_test(target):
+                problems.append(f'{f}: includes "{included}", a header of tests')
+            elif to not in (place, "core") and to not in allowed:
+                problems.append(f'{f}: includes "{included}" of {to}, which {place} may not')
+    core = sum(text[f].count("\n") for f in files if f.startswith("core/") and not is_test(f))
+    if core > CORE_MAX_LINES:
+        problems.append(f"core: {core} lines; at most {CORE_MAX_LINES}")
+    return files, core, problems
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-    root = os.path.abspath(parser.parse_args().root)
-    files = [f for folder in ("core", "lib", "plugins", "simulators", "planners", "apps") for f in sources(root, folder)]
-    places = set(ALLOWED)
-    for f in files:
-        if f.startswith(PLUGIN_ROOTS):
-            places.add("/".join(f.split("/")[:3 if not f.startswith("simulators/") else 2]))
-    places = {p for p in places if os.path.isdir(os.path.join(root, p))}
-
-    def place_of(file):
-        return max((p for p in places if file.startswith(p + "/")), key=len, default=None)
-
-    with_plugin = set()
-    for f in files:
-        with open(os.path.join(root, f), encoding="utf-8") as stream:
-            if f.startswith(PLUGIN_ROOTS) and not is_test(f) and "\nDISMANTLE_PLUGIN(" in stream.read():
-                with_plugin.add(place_of(f))
-    commons = {p for p in places if p.startswith(PLUGIN_ROOTS) and p not in with_plugin}
-
-    # A header by the path that it is included by.
-    header = {}
-    for f in files:
-        if f.endswith(".h") and "/include/" in f:
-            header[f.split("/include/", 1)[1]] = f
-    problems = []
-    for f in files:
-        place = place_of(f)
-        with open(os.path.join(root, f), encoding="utf-8") as stream:
-            text = stream.read()
-        lines = text.count("\n")
-        if lines > FILE_MAX_LINES:
-            problems.append(f"{f}: {lines} lines; at most {FILE_MAX_LINES}")
-        if is_test(f) or place is None:
-            continue
-        if place in ALLOWED:
-            allowed = ALLOWED[place]
-        else:
-            allowed = PLUGIN | common_of(place, commons)
-        for included in INCLUDE.findall(text):
-            target = header.get(included)
-            if target is None:
-                beside = os.path.normpath(os.path.join(os.path.dirname(f), included))
-                target = beside if beside in files else None
-            if target is None:
-                continue
-            to = place_of(target)
-            if to is None or to in (place, "core") or to in allowed:
-                continue
-            problems.append(f'{f}: includes "{included}" of {to}, which {place} may not')
-    core = sum(sum(1 for _ in open(os.path.join(root, f), encoding="utf-8")) for f in files
-               if f.startswith("core/") and not is_test(f))
-    if core > CORE_MAX_LINES:
-        problems.append(f"core: {core} lines; at most {CORE_MAX_LINES}")
-    print("\n".join(problems))
+    files, core, problems = check(os.path.abspath(parser.parse_args().root))
+    for problem in problems:
+        print(problem)
     print(f"check_includes: {len(files)} files, core {core} lines, {len(problems)} problems")
     return 1 if problems else 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

@@ -3,9 +3,12 @@
 
 # shellcheck disable=SC2154  # root is set by the script that sources this
 missing_packages() {
-  local package
+  local package there
+  # Also what another package provides: NodeSource's nodejs contains npm, and excludes Debian's.
+  there="$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' |
+    tr ',' '\n' | sed -e 's/^ *//' -e 's/ .*//')"
   while read -r package; do
-    if [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" != installed ]; then
+    if ! grep -qxF "$package" <<<"$there"; then
       echo "$package"
     fi
   done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/packages.txt")

@@ -9,9 +9,11 @@
 #include "dismantle/errors.h"
 #include "dismantle/host/ingredients.h"
 #include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/settings.h"
+#include "dismantle/viewer_template.h"
 #include "dismantle/write_file.h"
 #include "dismantle/plan_io/plan_file.h"
 
@@ -73,12 +75,20 @@ class Saver {
 };
 
 /// Returns the names of the files in `folder`.
-std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder) {
+std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly, const fs::path& folder,
+                                       Console& console) {
   write_file(folder / "plan.json", to_json(result.plan));
   const auto glb = to_glb(result.plan, assembly);
   write_file(folder / "plan.glb", std::string(glb.begin(), glb.end()));
   write_file(folder / "precedence.dot", to_dot(result.plan, result.precedence));
-  return {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+  std::vector<std::string> files = {"plan.json", "plan.glb", "precedence.dot", "resolved.yaml"};
+  if (const auto page_template = viewer_template()) {
+    write_file(folder / "index.html", to_page(result.plan, assembly, *page_template));
+    files.insert(files.begin(), "index.html");
+  } else {
+    console.warning(std::string("index.html was not written: ") + kNoViewer);
+  }
+  return files;
 }
 
 bool any_crash(const RunResult& result) {
@@ -87,14 +97,16 @@ bool any_crash(const RunResult& result) {
 }
 
 /// `constrained`: the outcome says whether all was done that the constraints leave to do.
-int status_of(const RunResult& result, bool one_part, bool constrained, const RunContext& context) {
+int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
+              const RunContext& context) {
   const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
-  if (done) return kComplete;
+  if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
   if (context.cancel.cancelled()) return kInterrupted;
   return any_crash(result) ? kPluginFailed : kPartial;
 }
 
-nlohmann::ordered_json result_json(const RunResult& result, int status, const fs::path& plan) {
+nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
+                                   const fs::path& plan) {
   const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
   const char* words = status == kComplete      ? "complete"
                       : status == kInterrupted ? "interrupted"
@@ -106,6 +118,7 @@ nlohmann::ordered_json result_json(const RunResult& result, int status, const fs
                                 {"removed", parts - left},
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},
+                                {"unusable", unusable_parts(assembly)},
                                 {"unsolved", result.plan.unsolved.size()},
                                 {"assembly", std::string(to_string(result.plan.assembly_status))},
                                 {"plan", plan.string()}};
@@ -124,7 +137,7 @@ int plan(const PlanOptions& options) {
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
   PrepareReport report;
   if (!options.folder.empty()) open_output_folder(folder);
-  const Assembly assembly = load_assembly(options.input, config, registry, context, report);
+  const Assembly assembly = load_assembly(options.input, config, registry, context, report, options.part);
   open_output_folder(folder);
   write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
 
@@ -135,22 +148,26 @@ int plan(const PlanOptions& options) {
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any",
                             config.sequence_planner.type));
   const RunResult result = run(assembly, ingredients, run_options, context, std::ref(saver));
-  const auto files = write_results(result, assembly, folder);
+  const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
 
-  const int status = status_of(result, !options.part.empty(), !run_options.constraints.empty(), context);
+  const int status = status_of(result, assembly, !options.part.empty(), !run_options.constraints.empty(), context);
   std::string text = summary_text(result.plan);
   text += fmt::format("{:.1f} s of preparing, {:.1f} s of planning, {} attempts ({} remembered)",
                       result.prepare_seconds, result.plan_seconds, result.counts.attempts, result.counts.memoised);
   if (result.counts.proposed > 0)
     text += fmt::format(", {} ways proposed ({} refused)", result.counts.proposed, result.counts.refused);
+  if (result.proof_seconds >= 0.05) text += fmt::format(", {:.1f} s of proofs", result.proof_seconds);
   for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
   text += "\n";
+  if (const auto names = unusable_parts(assembly); !names.empty())
+    text += fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
+                        names.size(), assembly.parts.size() + assembly.excluded.size(), names.size() == 1 ? "is" : "are");
   if (status == kInterrupted) text += "interrupted: this is what was done until then\n";
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
   console.text(text + "\n");
-  console.result(result_json(result, status, folder / "plan.json"));
+  console.result(result_json(result, assembly, status, folder / "plan.json"));
   return status;
 }
 
@@ -178,8 +195,8 @@ void add_plan(CLI::App& app, Action& action) {
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Writes plan.json, plan.glb (the animation), precedence.dot and resolved.yaml. Ctrl-C once stops soon and "
-      "saves.\n"
+      "Writes index.html (to look at in a browser), plan.json, plan.glb (the animation), precedence.dot and\n"
+      "resolved.yaml. Ctrl-C once stops soon and saves.\n"
       "Examples:\n"
       "  dismantle plan gearbox/\n"
       "  dismantle plan gearbox/ --part shaft --set path_planner.motion=rotation -o shaft\n"

@@ -1,4 +1,4 @@
-// dismantle plugins list | describe ID
+// dismantle plugins list | describe ID | check FILE
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/host/describe.h"
+#include "dismantle/plugins_check.h"
 #include "dismantle/settings.h"
 
 namespace dismantle::app {
@@ -96,6 +97,24 @@ void add_plugins(CLI::App& app, Action& action) {
   described->config.add_file_and_set(*describe_command);
   describe_command->footer("Example:\n  dismantle plugins describe sdf_penalty --format markdown");
   describe_command->callback([&action, described] { action = [described] { return describe(*described); }; });
+
+  struct Checked {
+    std::vector<std::string> plugins;
+    bool verbose = false;
+  };
+  auto checked = std::make_shared<Checked>();
+  auto* check_command = command->add_subcommand("check", "Do plugins obey the laws of their kind?");
+  check_command->add_option("FILE", checked->plugins, "Plugin files (.so), or ids as in 'plugins list'")
+      ->required()
+      ->option_text(" ");
+  check_command->add_flag("-v,--verbose", checked->verbose, "Names each law that is tried");
+  check_command->footer(
+      "Tries the contract tests on all types of these plugins, with partners from the plugins that are found.\n"
+      "Exit status: 0 all laws hold, 1 some do not, 2 a plugin is refused.\n"
+      "Example:\n  dismantle plugins check build/libacme_straight.so");
+  check_command->callback([&action, checked] {
+    action = [checked]() -> int { check_plugins(checked->plugins, checked->verbose); };
+  });
 }
 
 }  // namespace dismantle::app

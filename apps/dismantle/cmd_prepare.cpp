@@ -1,10 +1,13 @@
 // dismantle prepare INPUT -o DIR
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "dismantle/command.h"
 #include "dismantle/console.h"
-#include "dismantle/plan_io/summary.h"
+#include "dismantle/errors.h"
 #include "dismantle/preparation/write_prepared.h"
+#include "dismantle/report_text.h"
 #include "dismantle/settings.h"
 
 namespace dismantle::app {
@@ -21,6 +24,9 @@ int prepare(const Prepare& options) {
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
   warn_of_problems(registry, console);
+  // Its meshes would be parts of the next run, or replace the input.
+  if (std::error_code error; std::filesystem::equivalent(options.input, options.folder, error))
+    throw Error(fmt::format("{}: is the input itself: name another folder with -o", options.folder));
   open_output_folder(options.folder);
   RunContext context = context_of(config.run, console);
   PrepareReport report;
@@ -28,11 +34,13 @@ int prepare(const Prepare& options) {
   const auto files = write_prepared(assembly, report, options.folder);
   console.end_progress();
   console.text(prepare_text(assembly, report) + fmt::format("wrote {} files to {}\n", files.size(), options.folder));
-  console.result({{"status", "complete"},
+  const auto unusable = unusable_parts(assembly);
+  console.result({{"status", unusable.empty() ? "complete" : "partial"},
                   {"parts", assembly.parts.size()},
                   {"excluded", assembly.excluded.size()},
+                  {"unusable", unusable},
                   {"report", files.back().string()}});
-  return kComplete;
+  return unusable.empty() ? kComplete : kPartial;
 }
 
 }  // namespace

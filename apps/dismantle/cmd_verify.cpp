@@ -9,12 +9,12 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/ingredients.h"
-#include "dismantle/plan_io/summary.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/verification/check_plan.h"
 #include "dismantle/plan_file.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/report_text.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle::app {
 namespace {
@@ -23,19 +23,6 @@ struct Verify {
   std::string plan, assembly;
   ConsoleOptions console;
 };
-
-/// The plan's input: what the user names, else the path in the plan, seen from here or from the plan file.
-std::string find_source(const Verify& options, const Plan& plan) {
-  if (!options.assembly.empty()) return options.assembly;
-  const std::filesystem::path named = plan.assembly.source;
-  std::error_code error;
-  for (const auto& path : {named, std::filesystem::path(options.plan).parent_path() / named})
-    if (!named.empty() && std::filesystem::exists(path, error)) return path.string();
-  throw InputError(options.plan,
-                   fmt::format("the assembly '{}' that this plan is for is neither here nor beside the plan; "
-                               "name it with --assembly",
-                               plan.assembly.source));
-}
 
 /// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
@@ -62,11 +49,12 @@ int verify(const Verify& options) {
   RunContext context = context_of(settings, console);
 
   const Plan plan = read_plan(options.plan);
-  const std::string source = find_source(options, plan);
+  const std::string source = source_of(plan, options.plan, options.assembly);
   ReadOptions read;
   read.max_triangles = std::numeric_limits<std::int64_t>::max();
   const Assembly assembly = stoppable(context, [&] {
-    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
+    const auto importers = importers_of(registry, plan.assembly.import_params);
+    return assembly_of_plan(plan, read_input(source, importers, read, context), source, context);
   });
   VerifyOptions tolerance;
   tolerance.max_penetration = tolerance_of(plan, assembly, console);
@@ -74,7 +62,11 @@ int verify(const Verify& options) {
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are judged as repaired with these",
         r.weld, r.repair, r.max_hole));
-  const PlanCheck check = check_plan(plan, assembly, tolerance, context);
+  const ProverOfKind prover_of = [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
+    return registry.create<ImmobilityProver>(kind);
+  };
+  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of);
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 
@@ -87,6 +79,7 @@ int verify(const Verify& options) {
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
+                  {"certificates", check.certificates},
                   {"problems", problems},
                   {"plan", options.plan}});
   return check.valid && check.complete ? kComplete : kPartial;

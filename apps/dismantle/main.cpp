@@ -139,6 +139,7 @@ int main(int argc, char** argv) {
   add_prepare(app, action);
   add_verify(app, action);
   add_explain(app, action);
+  add_view(app, action);
   add_plugins(app, action);
   add_sample(app, action);
   add_bench(app, action);

@@ -27,4 +27,15 @@ Plan read_plan(const std::filesystem::path& file) {
   return plan_from_json(text.str(), file.string());
 }
 
+std::string source_of(const Plan& plan, const std::filesystem::path& file, const std::string& named) {
+  if (!named.empty()) return named;
+  const std::filesystem::path source = plan.assembly.source;
+  std::error_code error;
+  for (const auto& path : {source, file.parent_path() / source})
+    if (!source.empty() && std::filesystem::exists(path, error)) return path.string();
+  throw InputError(file.string(), "the assembly '" + plan.assembly.source +
+                                      "' that this plan is for is neither here nor beside the plan; name it with "
+                                      "--assembly");
+}
+
 }  // namespace dismantle::app

@@ -12,6 +12,7 @@
 #include "dismantle/host/ingredients.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"
+#include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
 
@@ -53,27 +54,61 @@ RunContext context_of(const RunSettings& settings, Console& console) {
   return context;
 }
 
+namespace {
+
+void check_part(const std::string& part, const std::vector<RawPart>& parts, const std::string& input) {
+  std::vector<std::string> names;
+  for (const auto& raw : parts) {
+    if (raw.name == part && !raw.problem.empty())
+      throw InputError(input, fmt::format("part '{}' cannot be used: {}", part, raw.problem));
+    names.push_back(raw.name);
+  }
+  if (part.empty() || std::find(names.begin(), names.end(), part) != names.end()) return;
+  std::string text = fmt::format("has no part '{}'", part);
+  if (const auto near = nearest(part, names)) {
+    text += fmt::format("; did you mean '{}'?", *near);
+  } else {
+    text += "; its parts:";
+    for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 20); ++i)
+      text += fmt::format("{} '{}'", i ? "," : "", names[i]);
+    if (names.size() > 20) text += fmt::format(" and {} more", names.size() - 20);
+  }
+  throw InputError(input, text);
+}
+
+}  // namespace
+
 Assembly load_assembly(const std::string& input, const RunConfig& config, const Registry& registry, RunContext& context,
-                       PrepareReport& report) {
+                       PrepareReport& report, const std::string& part) {
   ReadOptions options;
   options.max_triangles = config.assembly.max_triangles;
   return stoppable(context, [&] {
-    InputParts parts = read_input(input, importers_of(registry), options, context);
+    const ImportParams import_params = import_params_of(config, registry);
+    InputParts parts = read_input(input, importers_of(registry, import_params), options, context);
     for (const auto& warning : parts.warnings) context.log(LogLevel::warning, warning);
+    check_part(part, parts.parts, input);
     const auto& ignore = config.constraints.ignore;
     std::vector<ExcludedPart> ignored;
-    for (const auto& part : parts.parts)
-      if (std::find(ignore.begin(), ignore.end(), part.name) != ignore.end())
-        ignored.push_back({part.name, "the configuration says to ignore it (constraints.ignore)"});
+    for (const auto& raw : parts.parts)
+      if (std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end())
+        ignored.push_back({raw.name, "the configuration says to ignore it (constraints.ignore)", true});
     std::erase_if(parts.parts,
-                  [&](const auto& part) { return std::find(ignore.begin(), ignore.end(), part.name) != ignore.end(); });
+                  [&](const auto& raw) { return std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end(); });
     for (const auto& name : ignore)
       if (std::none_of(ignored.begin(), ignored.end(), [&](const ExcludedPart& p) { return p.name == name; }))
         throw InputError(input, "has no part '" + name + "', which constraints.ignore names");
     Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
+    assembly.import_params = import_params;
     assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());
     return assembly;
   });
+}
+
+std::vector<std::string> unusable_parts(const Assembly& assembly) {
+  std::vector<std::string> names;
+  for (const auto& part : assembly.excluded)
+    if (!part.by_choice) names.push_back(part.name);
+  return names;
 }
 
 void open_output_folder(const std::filesystem::path& folder) {

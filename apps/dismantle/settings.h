@@ -43,9 +43,13 @@ void warn_of_problems(const Registry& registry, Console& console);
 /// Threads, deadline and cancellation on signals; sinks of `console`.
 RunContext context_of(const RunSettings& settings, Console& console);
 
-/// Reads and prepares `input`. Warnings go to the context's log.
+/// Reads and prepares `input`. Warnings go to the context's log. `part`: a part that must be there, else InputError before
+/// anything is prepared; empty: none.
 Assembly load_assembly(const std::string& input, const RunConfig& config, const Registry& registry, RunContext& context,
-                       PrepareReport& report);
+                       PrepareReport& report, const std::string& part = {});
+
+/// Names of parts that could not be used; those that the configuration left out are not among them.
+std::vector<std::string> unusable_parts(const Assembly& assembly);
 
 /// Makes the folder if need be and makes sure that files can be written there, before any work is done.
 /// @throws Error naming the folder.

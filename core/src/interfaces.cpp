@@ -19,6 +19,9 @@ bool World::leaves(const State& state, std::size_t body) {
 Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
 PathOracle::~PathOracle() = default;
+const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
+  return nullptr;
+}
 const Constraints& PathOracle::constraints() const {
   static const Constraints none;
   return none;

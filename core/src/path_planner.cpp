@@ -112,11 +112,14 @@ SearchStatus status_of(Outcome outcome) {
 PathSearch::~PathSearch() = default;
 PathPlanner::~PathPlanner() = default;
 
-PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context) {
-  const std::unique_ptr<PathSearch> search = planner.start(query, context);
-  while (search->run({}) == SearchStatus::paused) {
+PathResult run_to_end(PathSearch& search) {
+  while (search.run({}) == SearchStatus::paused) {
   }
-  return search->result();
+  return search.result();
+}
+
+PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context) {
+  return run_to_end(*planner.start(query, context));
 }
 
 namespace {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "dismantle/host/config.h"
-#include "dismantle/errors.h"
 #include "dismantle/engine/run.h"
-#include "dismantle/samples.h"
+#include "dismantle/errors.h"
+#include "dismantle/host/config.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/samples.h"
 
 namespace dismantle {
 namespace {
@@ -38,6 +38,8 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
   ingredients.sequence_planner =
       registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   ingredients.path_planner_id = planner;
+  for (const PluginChoice& choice : config.provers)
+    ingredients.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.params)});
   RunOptions options;
   options.path_timeout = 0;
   options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
@@ -109,9 +111,25 @@ TEST_P(EachPlanner, IsNotAskedAboutAClosedBox) {
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   ASSERT_EQ(r.plan.unsolved.size(), 2u);
   for (const auto& u : r.plan.unsolved) {
-    EXPECT_EQ(u.outcome, Outcome::exhausted);
+    EXPECT_EQ(u.outcome, Outcome::infeasible);
     EXPECT_NE(u.message.find("shut in"), std::string::npos) << u.message;
+    ASSERT_TRUE(u.certificate);
+    EXPECT_EQ(r.plan.certificates.at(*u.certificate).kind, "enclosed_ball");
   }
+}
+
+/// An empty list: it races alone.
+TEST_P(EachPlanner, SearchesAClosedBoxWhereNothingIsProved) {
+  const RunResult r = plan("closed_box", {}, GetParam(),
+                           {"run.path_steps=100", "sequence_planner.type=queue", "immobility.provers=[]"});
+  ASSERT_EQ(r.plan.unsolved.size(), 2u);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_NE(u.outcome, Outcome::infeasible);
+    EXPECT_FALSE(u.certificate);
+  }
+  EXPECT_TRUE(r.plan.certificates.empty());
+  EXPECT_EQ(r.proof_seconds, 0);
+  EXPECT_FALSE(r.planner_counts.empty()) << "it searched";
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, EachPlanner, ::testing::Values("rrt", "t_rrt", "mv_t_rrt", "bk_rrt"),

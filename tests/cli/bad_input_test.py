@@ -26,9 +26,9 @@ class BadInput(CliTest):
             self.put(f"{name}/{file}", content)
         return name
 
-    def prepared(self, folder):
-        """prepare.json of a folder that can be used, and what was said."""
-        done = self.run_program("prepare", folder, "-o", "clean", "--format", "json", status=0)
+    def prepared(self, folder, status=0):
+        """prepare.json of a folder that can be used, and what was said. Status 1: some parts cannot."""
+        done = self.run_program("prepare", folder, "-o", "clean", "--format", "json", status=status)
         report = json.loads(self.read("clean", "prepare.json"))
         return {p["name"]: p for p in report["parts"]}, done.stderr, self.result_of(done)
 
@@ -60,7 +60,16 @@ class Files(BadInput):
         for k, (ending, _) in enumerate(meshes.FORMATS):
             for what, content in (("noise", noise), ("nothing", b""), ("page", b"<!DOCTYPE html><html><body>404</body></html>\n")):
                 folder = self.folder_with(f"{what}{k}", (f"a.{ending}", content), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
-                self.assert_fails(3, f"a.{ending}", "prepare", folder, "-o", "clean")
+                self.assert_left_out(folder, f"a.{ending}")
+
+    def assert_left_out(self, folder, file):
+        """The part of this file is left out by name, whatever is asked; the others are planned."""
+        parts, said, result = self.prepared(folder, status=1)
+        name = file.split(".")[0]
+        self.assertFalse(parts[name]["kept"])
+        self.assertIn(file, parts[name]["reason"])
+        self.assertIn(f"'{name}' is left out", said)
+        self.assertEqual((result["status"], result["unusable"]), ("partial", [name]))
 
     def test_headers_that_promise_too_much(self):
         many = 4000000000
@@ -68,8 +77,10 @@ class Files(BadInput):
         ply = meshes.ply_text(*UNIT).replace("vertex 8", f"vertex {many}").replace("face 12", f"face {many}")
         off = meshes.off(*UNIT).replace("8 12 0", f"{many} {many} 0", 1)
         for file, content in (("a.stl", stl), ("a.ply", ply), ("a.off", off), ("a.obj", meshes.obj(*UNIT) + "f 1 2 99999999999999999999\n")):
-            folder = self.folder_with(file + ".in", (file, content), ("b.obj", meshes.obj(*BESIDE)))
-            self.assert_fails(3, file, "prepare", folder, "-o", "clean")
+            folder = self.folder_with(file + ".in", (file, content), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
+            done = self.run_program("prepare", folder, "-o", "clean")
+            self.assertIn(done.returncode, (1, 3))
+            self.assertIn(file, done.stderr)
 
     def test_ten_million_triangles_are_refused_before_they_are_read(self):
         self.folder_with("big", ("a.stl", bytes(80) + struct.pack("<I", 10**7)), ("b.obj", meshes.obj(*BESIDE)))
@@ -86,7 +97,38 @@ class Files(BadInput):
         self.assertIn("'a.obj' is no regular file", said)
         self.assertIn("'d.obj'", said)
         os.symlink("nowhere.obj", self.path("in", "e.obj"))
-        self.assert_fails(3, "e.obj", "prepare", "in", "-o", "clean")
+        self.assert_left_out("in", "e.obj")
+
+    def test_what_cannot_be_used_is_said_everywhere(self):
+        self.folder_with("in", ("a.obj", "v 0 0\n"), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)),
+                         ("d.obj", meshes.obj(UNIT[0], UNIT[1][:6])))
+        done = self.run_program("plan", "in", *QUICK, "-o", "out", "--format", "json", status=1)
+        result = self.result_of(done)
+        self.assertEqual((result["status"], result["parts"], result["unusable"]), ("partial", 2, ["a", "d"]))
+        self.assertIn("left out: a: a.obj cannot be read: ", done.stderr)
+        self.assertIn("left out: d: not watertight", done.stderr)
+        self.assertIn("2 of 4 parts could not be used", done.stderr)
+        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
+        plan = json.loads(self.read("out", "plan.json"))
+        self.assertEqual([e["name"] for e in plan["assembly"]["excluded"]], ["a", "d"])
+        self.run_program("verify", "out/plan.json", "-q", status=0)
+        # What the user leaves out is no defect.
+        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", "--set", "constraints.ignore=[a, d]", status=0)
+
+    def test_results_among_the_input_are_no_parts(self):
+        self.folder_with("in", ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
+        first = self.result_of(self.run_program("plan", "in", *QUICK, "-o", "in", "--format", "json", status=0))
+        os.rename(self.path("in", "plan.glb"), self.path("in", "renamed.glb"))
+        done = self.run_program("plan", "in", *QUICK, "-o", "in", "--format", "json", status=0)
+        self.assertEqual(self.result_of(done)["parts"], first["parts"])
+        self.assertIn("'renamed.glb' is the animation of a plan", done.stderr)
+        self.assert_fails(2, "is the input itself", "prepare", "in", "-o", "in")
+
+    def test_a_part_that_is_not_there_is_refused_before_anything_is_prepared(self):
+        self.folder_with("in", ("housing.obj", meshes.obj(*UNIT)), ("shaft.obj", meshes.obj(*BESIDE)))
+        done = self.assert_fails(3, "has no part 'shafd'; did you mean 'shaft'?", "plan", "in", "--part", "shafd")
+        self.assertNotIn("preparing", done.stderr)
+        self.assert_fails(3, "its parts: 'housing', 'shaft'", "plan", "in", "--part", "zzzzzzz")
 
 
 class Surfaces(BadInput):
@@ -97,18 +139,19 @@ class Surfaces(BadInput):
         for ending, writer in meshes.FORMATS[:6]:
             broken = ([(float("nan"), 0.0, 0.0)] + UNIT[0][1:], UNIT[1])
             self.folder_with("nan." + ending, (f"a.{ending}", writer(*broken)), ("b.obj", meshes.obj(*BESIDE)), ("c.obj", meshes.obj(*ABOVE)))
-            self.assert_fails(3, f"a.{ending}", "prepare", "nan." + ending, "-o", "clean")
+            parts, _, _ = self.prepared("nan." + ending, status=1)
+            self.assertIn(f"a.{ending}", parts["a"]["reason"])
 
     def test_what_has_no_inside_is_left_out_by_name(self):
         flat = ([(x, y, 0.0) for x, y, _ in UNIT[0]], UNIT[1])
         for name, surface, reason in (("flat", flat, "no volume"), ("open", (UNIT[0], UNIT[1][:6]), "not watertight")):
             self.beside_two(*surface)
-            parts, said, result = self.prepared("in")
+            parts, said, result = self.prepared("in", status=1)
             self.assertFalse(parts["a"]["kept"], name)
             self.assertIn(reason, parts["a"]["reason"])
             self.assertIn("'a' is left out", said)
             self.assertEqual((result["parts"], result["excluded"]), (2, 1))
-        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=0)
+        self.run_program("plan", "in", *QUICK, "-o", "out", "-q", status=1)
         self.assertEqual([e["name"] for e in json.loads(self.read("out", "plan.json"))["assembly"]["excluded"]], ["a"])
 
     def test_faces_the_wrong_way_round_are_turned(self):

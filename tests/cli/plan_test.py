@@ -6,7 +6,7 @@ import signal
 import subprocess
 import threading
 
-from program import HANGING, PROGRAM, CliTest, box
+from program import HANGING, PROGRAM, VIEWER, CliTest, box
 
 QUICK = ("--path-timeout", "0", "--timeout", "0")
 
@@ -24,7 +24,7 @@ class Plan(CliTest):
         self.assertEqual(result["status"], "complete")
         self.assertEqual([result[k] for k in ("parts", "steps", "removed", "left", "excluded", "unsolved")], [4, 3, 3, 1, 0, 0])
         self.assertEqual(result["plan"], "machine.plan/plan.json")
-        self.assertEqual(sorted(os.listdir(self.path("machine.plan"))), ["plan.glb", "plan.json", "precedence.dot", "resolved.yaml"])
+        self.assertEqual(sorted(os.listdir(self.path("machine.plan"))), ["index.html"] * VIEWER + ["plan.glb", "plan.json", "precedence.dot", "resolved.yaml"])
         plan = json.loads(self.read(result["plan"]))
         self.assertEqual(plan["status"], "complete")
         self.assertEqual(len(plan["disassembly"]), 3)

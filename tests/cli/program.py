@@ -6,6 +6,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["DISMANTLE"]
+VIEWER = os.path.exists(os.path.join(os.path.dirname(PROGRAM), "..", "share", "dismantle", "viewer.html"))  # was it built
 HANGING = 300  # seconds after which a program that should have ended long ago is taken for hanging
 
 
@@ -30,8 +31,8 @@ class CliTest(unittest.TestCase):
         with open(self.path(*names), encoding="utf-8") as file:
             return file.read()
 
-    def run_program(self, *arguments, status=None, env=None, stdout=subprocess.PIPE, preexec_fn=None):
-        done = subprocess.run([PROGRAM, *arguments], cwd=self.folder, text=True, encoding="utf-8", timeout=HANGING,
+    def run_program(self, *arguments, status=None, env=None, stdout=subprocess.PIPE, preexec_fn=None, program=PROGRAM):
+        done = subprocess.run([program, *arguments], cwd=self.folder, text=True, encoding="utf-8", timeout=HANGING,
                               stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE, preexec_fn=preexec_fn,
                               env={**os.environ, **(env or {})})
         if status is not None:

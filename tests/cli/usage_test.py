@@ -12,14 +12,15 @@ class Usage(CliTest):
     def test_unknown_command_and_option(self):
         self.assert_fails(2, "'dissemble'", "dissemble")
         self.assert_fails(2, "did you mean 'verify'", "verifi", "plan.json")
-        self.assert_fails(2, "its commands are list, describe", "plugins", "check", "x.so")
+        self.assert_fails(2, "its commands are list, describe, check", "plugins", "test", "x.so")
+        self.run_program("plugins", "check", "nothing.of.this.name", status=2)
         self.assert_fails(2, "--fast", "plan", "x", "--fast")
         self.assert_fails(2, "--format", "plan", "x", "--format", "xml")
         self.assert_fails(2, "INPUT", "plan")
         self.run_program("plan", "x", "-q", "-v", status=2)
 
     def test_commands_that_do_not_exist_are_not_pretended(self):
-        self.run_program("view", "x", status=2)
+        self.run_program("draw", "x", status=2)
 
     def test_usage_errors_in_json(self):
         done = self.run_program("plan", "--format", "json", status=2)
@@ -30,6 +31,7 @@ class Usage(CliTest):
 
     def test_help_shows_options_and_an_example(self):
         commands = (["plan"], ["prepare"], ["verify"], ["explain"], ["plugins"], ["plugins", "list"], ["plugins", "describe"],
+                    ["plugins", "check"],
                     ["sample"], [])
         for command in commands:
             done = self.run_program(*command, "--help", status=0)

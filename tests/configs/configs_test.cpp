@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <regex>
+#include <string>
+#include <vector>
 
 #include "dismantle/host/config.h"
 
@@ -23,6 +27,30 @@ std::vector<fs::path> config_files() {
   return files;
 }
 
+/// The plugin that this build leaves out and the configuration names; empty when it can be loaded.
+std::string missing_type(const fs::path& file) {
+  std::ifstream stream(file);
+  const std::regex type(R"(^\s*(?:- )?(?:type|extends):\s*([\w.]+))");
+  const std::string all = std::string(";") + MISSING_TYPES + ";";
+  for (std::string line; std::getline(stream, line);) {
+    std::smatch named;
+    if (!std::regex_search(line, named, type)) continue;
+    if (all.find(";" + named[1].str() + ";") != std::string::npos) return named[1];
+  }
+  return "";
+}
+
+/// All files but those that name a plugin that is left out.
+std::vector<fs::path> usable_files() {
+  std::vector<fs::path> files = config_files();
+  std::erase_if(files, [](const fs::path& file) {
+    const std::string type = missing_type(file);
+    if (!type.empty()) std::cout << "left out: " << file.filename() << " needs " << type << '\n';
+    return !type.empty();
+  });
+  return files;
+}
+
 RunConfig load(const fs::path& file) {
   Registry registry;
   return load_config({file, {}, {}}, registry);
@@ -31,7 +59,7 @@ RunConfig load(const fs::path& file) {
 TEST(Configs, AreThere) { EXPECT_GE(config_files().size(), 4u); }
 
 TEST(Configs, EachLoads) {
-  for (const auto& file : config_files()) {
+  for (const auto& file : usable_files()) {
     try {
       load(file);
     } catch (const ConfigError& e) {
@@ -42,7 +70,7 @@ TEST(Configs, EachLoads) {
 
 TEST(Configs, EachResolvedFileLoads) {
   const fs::path scratch = fs::temp_directory_path() / ("dismantle_configs_" + std::to_string(getpid()) + ".yaml");
-  for (const auto& file : config_files()) {
+  for (const auto& file : usable_files()) {
     Registry registry;
     const RunConfig config = load_config({file, {}, {}}, registry);
     std::ofstream(scratch) << resolved_yaml(config, registry, scratch.parent_path());

@@ -9,7 +9,8 @@ PROGRAM = os.environ["DISMANTLE"]
 DATA = os.environ.get("DISMANTLE_DATA") or os.path.join(os.path.dirname(os.path.abspath(os.environ["SOURCE_FOLDER"])), "shared", "data")
 COUNTED = ("--path-timeout", "0", "--timeout", "0")  # no seconds may decide
 SHORT = ("--set", "run.path_steps=500")
-FILES = ("plan.json", "plan.glb", "precedence.dot")
+VIEWER = os.path.exists(os.path.join(os.path.dirname(PROGRAM), "..", "share", "dismantle", "viewer.html"))  # was it built
+FILES = ("plan.json", "plan.glb", "precedence.dot") + ("index.html",) * VIEWER
 
 
 class Determinism(unittest.TestCase):

@@ -79,6 +79,19 @@ struct TRrtParams {
   }
 };
 
+class NoProof final : public ImmobilityProver {
+ public:
+  ProverTraits traits() const noexcept override { return {}; }
+  std::optional<Certificate> prove(const SeparationQuery&, const RunContext&) const override { return std::nullopt; }
+};
+
+struct RingParams {
+  std::int64_t max_rings = 2;
+  static void describe(Schema<RingParams>& s) {
+    s.add("max_rings", &RingParams::max_rings, {.unit = "1", .min = 1, .doc = "Rings tried."});
+  }
+};
+
 struct RandomParams {
   std::int64_t attempts = 3;
   static void describe(Schema<RandomParams>& s) {
@@ -141,4 +154,6 @@ DISMANTLE_PLUGIN("dismantle.fixture", "0.1.0", "MIT", "https://example.org") {
   r.add<SequencePlanner, NoSequence>("progressive", "Deepens by and by.", {.source = "Algorithm 2"});
   r.add<SequencePlanner, NoSequence, RandomParams>("random", "Any order.");
   r.add<TransferPlanner, NoTransfer>("rrt_connect", "Two trees.");
+  r.add<ImmobilityProver, NoProof>("overlap_lock", "A point in both.");
+  r.add<ImmobilityProver, NoProof, RingParams>("ring", "A ring in a chamber.");
 }

@@ -51,6 +51,43 @@ verify: {max_penetration: 0.001}
   EXPECT_EQ(config.origins.at("run.seed"), "run.yaml:6");
 }
 
+std::vector<std::string> ids_of(const std::vector<PluginChoice>& choices) {
+  std::vector<std::string> ids;
+  for (const auto& c : choices) ids.push_back(c.type);
+  return ids;
+}
+
+TEST_F(Config, ProversAreAListOfIdsOrOfMapsWithParameters) {
+  using Ids = std::vector<std::string>;
+  EXPECT_EQ(ids_of(load_config({}, registry_).provers), (Ids{"overlap_lock", "ring"})) << "those that are there";
+  EXPECT_EQ(ids_of(load_text("schema: 1\nimmobility: {provers: [ring, overlap_lock]}\n").provers),
+            (Ids{"ring", "overlap_lock"}))
+      << "in that order";
+  EXPECT_TRUE(load_text("schema: 1\nimmobility: {provers: []}\n").provers.empty());
+  EXPECT_TRUE(load_text("schema: 1\n", {"immobility.provers=[]"}).provers.empty());
+  const RunConfig config = load_text("schema: 1\nimmobility: {provers: [{type: ring, max_rings: 7}, overlap_lock]}\n");
+  EXPECT_EQ(ids_of(config.provers), (Ids{"ring", "overlap_lock"}));
+  EXPECT_EQ(std::get<std::int64_t>(config.provers[0].params.at("max_rings")), 7);
+  EXPECT_EQ(config.origins.at("immobility.provers"), "run.yaml:2");
+}
+
+TEST_F(Config, WhatIsWrongWithProvers) {
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: [rings, ring, bfs, ring, {max_rings: 1}, {type: ring}], prove: 1}\n"),
+            R"(run.yaml:2:24: error: unknown immobility_prover 'rings'; did you mean 'ring'?
+run.yaml:2:37: error: 'bfs' is a path_planner, not a immobility_prover
+run.yaml:2:42: error: immobility.provers lists 'ring' twice
+run.yaml:2:48: error: an entry of immobility.provers must be the id of an immobility prover, or a map with its type and parameters
+run.yaml:2:71: error: immobility.provers lists 'ring' twice
+run.yaml:2:79: error: unknown key 'prove' in immobility; did you mean 'provers'?
+)");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: [{type: ring, max_rings: 0}]}\n"),
+            "run.yaml:2:48: error: immobility.provers.ring.max_rings must be >= 1, got 0 [ring 0.1.0, libfixture.so]\n");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: ring}\n"),
+            "run.yaml:2:23: error: immobility.provers must be a list of immobility provers, not a value\n");
+  EXPECT_EQ(errors_of("schema: 1\nimmobility: [ring]\n"),
+            "run.yaml:2:13: error: immobility must be a map of keys, not a list\n");
+}
+
 TEST_F(Config, AllErrorsAtOnce) {
   const std::string text = R"(schema: 1
 simulater: {type: sdf_penalty}

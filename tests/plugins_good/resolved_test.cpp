@@ -27,6 +27,7 @@ class Resolved : public testing_support::Scratch {
     EXPECT_EQ(a.sequence_planner.parameters, b.sequence_planner.parameters);
     EXPECT_EQ(a.transfer_planner.type, b.transfer_planner.type);
     EXPECT_EQ(a.transfer_planner.parameters, b.transfer_planner.parameters);
+    EXPECT_EQ(a.provers, b.provers);
     ASSERT_EQ(a.layout.poses.size(), b.layout.poses.size());
     for (const auto& [part, pose] : a.layout.poses) {
       EXPECT_EQ(pose.t, b.layout.poses.at(part).t);

@@ -19,7 +19,7 @@ std::string file_name() {
 class Nothing : public dismantle::Importer {
  public:
   std::vector<std::string> extensions() const override { return {}; }
-  std::vector<dismantle::RawPart> read(const std::filesystem::path&) override { return {}; }
+  std::vector<dismantle::RawPart> read(const std::filesystem::path&, const dismantle::RunContext&) override { return {}; }
 };
 
 enum class Flavour { sweet, sour };

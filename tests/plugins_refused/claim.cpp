@@ -5,7 +5,7 @@ namespace {
 class Nothing : public dismantle::Importer {
  public:
   std::vector<std::string> extensions() const override { return {}; }
-  std::vector<dismantle::RawPart> read(const std::filesystem::path&) override { return {}; }
+  std::vector<dismantle::RawPart> read(const std::filesystem::path&, const dismantle::RunContext&) override { return {}; }
 };
 }  // namespace
 

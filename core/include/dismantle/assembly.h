@@ -3,13 +3,17 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "dismantle/mesh.h"
+#include "dismantle/parameters.h"
 #include "dismantle/pose.h"
+#include "dismantle/rgba.h"
 
 namespace dismantle {
 
@@ -26,6 +30,8 @@ struct Part {
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Mesh> surface;
   double volume = 0;  ///< assembly units cubed, > 0
+  std::optional<Rgba> colour;        ///< as in its file
+  std::vector<std::string> parents;  ///< assemblies of its file that it is in, outermost first
 };
 
 /// From input units to assembly units: internal = scale * (input - center).
@@ -51,7 +57,11 @@ struct SurfaceRepair {
 struct ExcludedPart {
   std::string name;
   std::string reason;
+  bool by_choice = false;  ///< a rule of the configuration left it out; else it could not be used
 };
+
+/// Parameters of importers that are not the default, by importer. The same files read with others are other surfaces.
+using ImportParams = std::map<std::string, ParamSet>;
 
 /// Two parts that penetrate each other when assembled (usual in CAD). depth: assembly units, > 0.
 struct InitialOverlap {
@@ -64,6 +74,8 @@ struct Assembly {
   std::string sha256;   ///< of the input files' bytes, in name order
   Normalization normalization;
   SurfaceRepair repair;
+  ImportParams import_params;
+  std::string unit;     ///< input unit ("mm", "inch", "m") if the files say so and agree; else empty
   Aabb input_box;       ///< of all parts kept, input units
   std::vector<Part> parts;
   std::vector<ExcludedPart> excluded;

@@ -9,14 +9,20 @@
 
 #include "dismantle/export.h"
 #include "dismantle/mesh.h"
+#include "dismantle/rgba.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle {
 
 /// A part as it stands in a file: not welded, not checked, transforms applied, input units.
 struct RawPart {
-  std::string name;
-  std::string file;
-  Mesh mesh;
+  std::string name{};
+  std::string file{};
+  Mesh mesh{};
+  std::optional<Rgba> colour{};
+  std::vector<std::string> parents{};  ///< assemblies in the file that it is in, outermost first
+  std::string unit{};                  ///< of its coordinates ("mm", "inch", "m"), as far as the file says; else empty
+  std::string problem{};               ///< not empty: it cannot be used, and why; `mesh` is ignored
 };
 
 class DISMANTLE_API Importer {
@@ -27,8 +33,9 @@ class DISMANTLE_API Importer {
   /// Number of triangles in the file as far as it can be told without building it in memory, else nothing: lets the
   /// caller refuse a file that is too large. Never throws for broken files; `read` says what is wrong with them.
   virtual std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const;
-  /// All parts of one file, in file order. @throws InputError naming the file and what is wrong with it.
-  virtual std::vector<RawPart> read(const std::filesystem::path& file) = 0;
+  /// All parts of one file, in file order. What is worth a warning goes to the context's log.
+  /// @throws InputError naming the file and what is wrong with it. @throws Error when `context` wants to stop.
+  virtual std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) = 0;
 };
 
 }  // namespace dismantle

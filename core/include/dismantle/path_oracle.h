@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dismantle/export.h"
+#include "dismantle/immobility_prover.h"
 #include "dismantle/path_planner.h"
 
 namespace dismantle {
@@ -51,6 +52,9 @@ struct AttemptResult {
   double max_penetration = 0;  ///< certified upper bound over the path, above the initial overlap; assembly units
   double seconds = 0;
   std::optional<PartId> out{};  ///< success of an attempt with Attempt::leaving: who of these is out
+  /// Why nothing was found, if that is proved; with `infeasible` always. Lives as long as the oracle.
+  const Certificate* certificate = nullptr;
+  double proof_seconds = 0;  ///< spent on proofs; not part of `seconds`
 };
 
 struct OracleCounts {
@@ -77,6 +81,10 @@ class DISMANTLE_API PathOracle {
   /// else `exhausted`, with the part that is in the way and what is wrong.
   virtual const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) = 0;
   virtual OracleCounts counts() const = 0;
+  /// Can these parts, as they are assembled, be separated at all? nullptr: not proved, by the provers of that effort.
+  /// Answers are remembered, live as long as the oracle, and depend on nothing but the question; may be called from
+  /// several threads. What is proved of parts holds wherever they have been moved since.
+  virtual const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
   /// The judge of this run. What it says of two parts on a way holds whatever other parts there are, so a planner may
   /// ask it about pairs, also from several threads. nullptr: an oracle without geometry.
   virtual const Verifier* judge() const { return nullptr; }

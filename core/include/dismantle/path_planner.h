@@ -157,7 +157,8 @@ class DISMANTLE_API PathResult {
   unsigned depth = 0;  ///< actions in the path
   SearchStats stats{};
   std::vector<PartId> blocked_by{};               ///< fixed parts that were touched, most often touched first
-  std::vector<Pose> best_pose{};                  ///< failed: the state that came furthest, one pose per moving part
+  std::vector<Pose> best_pose{};                  ///< failed: the state that came furthest, one
+                                                  ///< pose per moving part
   std::string message{};                          ///< failed: why, for the user
   std::shared_ptr<const SearchState> state = {};  ///< failed: where a later search can resume; may be null
 
@@ -177,7 +178,8 @@ struct PathPlannerTraits {
 enum class SearchStatus {
   solved,     ///< a path was found, or there is nothing to do
   paused,     ///< the portion is used up; another run() goes on
-  exhausted,  ///< nothing is left to do within the query's budget; another run() does nothing
+  exhausted,  ///< nothing is left to do within the query's budget; another run()
+              ///< does nothing
   failed,     ///< cancelled, out of time, unsupported, or the start is not valid
 };
 
@@ -202,11 +204,14 @@ class DISMANTLE_API PathPlanner {
  public:
   virtual ~PathPlanner();
   virtual PathPlannerTraits traits() const noexcept = 0;
-  /// `query`, `context` and this planner outlive the search. Cheap: work is done by run().
+  /// `query`, `context` and this planner outlive the search. Time limits count
+  /// from here.
   virtual std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) = 0;
 };
 
-/// Runs a search to its end.
+/// Runs a search until it is over.
+DISMANTLE_API PathResult run_to_end(PathSearch& search);
+/// Starts a search and runs it until it is over.
 DISMANTLE_API PathResult plan_path(PathPlanner& planner, const PathQuery& query, RunContext& context);
 
 /// Base of planners that are one function. In portions: a call that ends with `timeout` only because of its portion is

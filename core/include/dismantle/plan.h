@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,12 +46,26 @@ struct PlanUnsolved {
   std::vector<std::string> blocked_by;
   Pose best_pose;
   std::string message;
+  std::optional<std::size_t> certificate{};  ///< index into Plan::certificates
+};
+
+/// A Certificate with names in place of ids. Poses act on input coordinates, in input units; numbers as in Certificate.
+struct PlanCertificate {
+  std::string kind;
+  std::vector<std::string> parts;
+  std::vector<Pose> poses;  ///< by place in `parts`; empty: as assembled
+  bool full_tolerance = false;
+  double margin = 0;  ///< assembly units
+  std::map<std::string, std::vector<double>> numbers;
+  std::string text;
 };
 
 struct PlanPart {
   unsigned id = 0;
   std::string name;
   std::string file;
+  std::optional<Rgba> colour{};        ///< opaque
+  std::vector<std::string> parents{};  ///< assemblies of its file that it is in, outermost first
 };
 
 struct PlanOverlap {
@@ -63,6 +79,8 @@ struct PlanAssembly {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< input units; internal = scale * (x - center)
   Aabb box;                                          ///< input units
   SurfaceRepair repair;
+  ImportParams import_params;
+  std::string unit;                                  ///< input unit; empty when the files do not say
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
   std::vector<PlanOverlap> overlaps;
@@ -90,6 +108,7 @@ struct Plan {
   std::string assembly_message;  ///< why partial; else empty
   std::vector<std::string> remaining;
   std::vector<PlanUnsolved> unsolved;
+  std::vector<PlanCertificate> certificates;  ///< proofs that parts cannot be separated
 };
 
 }  // namespace dismantle

@@ -7,14 +7,15 @@ class Simulator;
 class PathPlanner;
 class SequencePlanner;
 class TransferPlanner;
+class ImmobilityProver;
 class Importer;
 
-enum class PluginKind { simulator, path_planner, sequence_planner, transfer_planner, importer };
+enum class PluginKind { simulator, path_planner, sequence_planner, transfer_planner, immobility_prover, importer };
 
 /// All kinds, in the order in which they are shown.
 inline constexpr PluginKind kPluginKinds[] = {PluginKind::simulator, PluginKind::path_planner,
                                               PluginKind::sequence_planner, PluginKind::transfer_planner,
-                                              PluginKind::importer};
+                                              PluginKind::immobility_prover, PluginKind::importer};
 
 /// `PluginKindOf<PathPlanner>::value` is `PluginKind::path_planner`.
 template <class Interface>
@@ -34,6 +35,10 @@ struct PluginKindOf<SequencePlanner> {
 template <>
 struct PluginKindOf<TransferPlanner> {
   static constexpr PluginKind value = PluginKind::transfer_planner;
+};
+template <>
+struct PluginKindOf<ImmobilityProver> {
+  static constexpr PluginKind value = PluginKind::immobility_prover;
 };
 template <>
 struct PluginKindOf<Importer> {

@@ -24,6 +24,7 @@ struct Unsolved {
   std::vector<PartId> blocked_by;
   std::vector<Pose> best_pose;
   std::string message;
+  const Certificate* certificate = nullptr;  ///< of the oracle: proof that it cannot leave
 };
 
 struct SequenceResult {

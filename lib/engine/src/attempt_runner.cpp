@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dismantle/verification/explanations.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -36,9 +35,6 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
   if (!finite || result.best_pose.size() != attempt.moving.size()) result.best_pose.clear();
 }
 
-/// Searches so deep take longer than a proof that there is nothing to be found.
-constexpr unsigned kDeep = 3;
-bool worth_a_proof(const Attempt& attempt) { return attempt.max_depth == 0 || attempt.max_depth >= kDeep; }
 
 }  // namespace
 
@@ -118,35 +114,6 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
                      fmt::join(missing, ", "));
 }
 
-/// A pair of one that moves and one that stands still, which no planner can part; of those that are leaving, when each
-/// is in such a pair.
-const Lock* AttemptRunner::locked(const Attempt& attempt) const {
-  if (!attempt.leaving.empty()) {
-    const Lock* found = nullptr;
-    for (const PartId id : attempt.leaving) {
-      const auto& locks = verifier_.locks();
-      const auto here = [&](PartId other) { return holds(attempt.moving, other) || holds(attempt.still, other); };
-      const auto lock = std::find_if(locks.begin(), locks.end(), [&](const Lock& l) {
-        return (l.inside == id && here(l.other)) || (l.other == id && here(l.inside));
-      });
-      if (lock == locks.end()) return nullptr;
-      if (found == nullptr) found = &*lock;
-    }
-    return found;
-  }
-  for (const Lock& lock : verifier_.locks())
-    if ((holds(attempt.moving, lock.inside) && holds(attempt.still, lock.other)) ||
-        (holds(attempt.moving, lock.other) && holds(attempt.still, lock.inside)))
-      return &lock;
-  return nullptr;
-}
-
-/// Two parts, before a search that takes longer than looking whether they hold each other.
-std::optional<Cage> AttemptRunner::caged(const Attempt& attempt, const RunContext& context) const {
-  if (!worth_a_proof(attempt) || attempt.moving.size() != 1 || attempt.still.size() != 1) return std::nullopt;
-  return verifier_.caged(attempt.moving.front().part, attempt.still.front().part, context);
-}
-
 /// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
 /// them.
 std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
@@ -192,20 +159,16 @@ ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path
     if (!(way.front()[i].t == attempt.moving[i].pose.t) ||
         !way.front()[i].q.coeffs().isApprox(attempt.moving[i].pose.q.coeffs()))
       throw std::invalid_argument("a proposed way does not begin where its parts are");
-  if (const Lock* lock = locked(attempt); lock != nullptr && !attempt.part_way) {
-    result.fail(Outcome::exhausted, describe(*lock, assembly_));
-    result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
+  PathCheck check = Checker(*this, attempt, context).check(way);
+  if (check.accepted()) {
+    computed.answer.max_penetration = check.verified->max_penetration();
+    computed.answer.out = check.verified->released();
+    result.solve(std::move(*check.verified), 1);
   } else {
-    PathCheck check = Checker(*this, attempt, context).check(way);
-    if (check.accepted()) {
-      computed.answer.max_penetration = check.verified->max_penetration();
-      computed.answer.out = check.verified->released();
-      result.solve(std::move(*check.verified), 1);
-    } else {
-      result.fail(Outcome::exhausted, check.reason);
-      result.depth = 1;
-      if (check.has_witness) result.blocked_by = {holds(attempt.still, check.other) ? check.other : check.part};
-    }
+    result.fail(Outcome::exhausted, check.reason);
+    result.depth = 1;
+    if (check.has_witness) result.blocked_by = {holds(attempt.still, check.other) ? check.other : check.part};
+  }
   }
   drop_nonsense(result, attempt);
   computed.interrupted = !is_success(result.outcome()) && context.should_stop();
@@ -248,18 +211,6 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   try {
     if (attempt.still.empty() && attempt.leaving.empty()) {
       result.start_is_goal();  // nothing left to be apart from
-    } else if (const Lock* lock = locked(attempt)) {
-      result.fail(Outcome::exhausted, describe(*lock, assembly_));
-      result.blocked_by = {holds(attempt.still, lock->other) ? lock->other : lock->inside};
-    } else if (const auto enclosure = worth_a_proof(attempt) && attempt.leaving.empty()
-                                          ? verifier_.shut_in(attempt.moving, attempt.still)
-                                          : std::nullopt) {
-      result.fail(Outcome::exhausted, describe(*enclosure, assembly_));
-      result.blocked_by =
-          holds(attempt.moving, enclosure->inside) ? enclosure->around : std::vector<PartId>{enclosure->inside};
-    } else if (const auto cage = caged(attempt, context)) {
-      result.fail(Outcome::exhausted, describe(*cage, assembly_));
-      result.blocked_by = {attempt.still.front().part};
     } else {
       result = plan(planner, attempt, own, checker);
     }

@@ -36,8 +36,6 @@ class AttemptRunner {
  private:
   class Checker;
   PathResult plan(PathPlanner& planner, const Attempt& attempt, RunContext& context, const Checker& checker) const;
-  const Lock* locked(const Attempt& attempt) const;
-  std::optional<Cage> caged(const Attempt& attempt, const RunContext& context) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
+
+#include "stopwatch.h"
 
 namespace dismantle {
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 bool is_deeper(unsigned depth, unsigned than) { return than != 0 && (depth == 0 || depth > than); }
 
@@ -35,6 +40,7 @@ Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredi
       constraints_(options.constraints),
       make_planner_(ingredients.path_planner),
       runner_(assembly, prepared, ingredients, options, verifier, context.rng),
+      proofs_(assembly, verifier, ingredients.provers, context),
       computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
 
 std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
@@ -56,6 +62,36 @@ void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
   if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));
 }
 
+/// A search, unless it is proved before that it finds nothing; where it found nothing, perhaps a proof after it. Time
+/// limits of the attempt begin with the search.
+ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+                            const RunContext& context) {
+  Clock::time_point begin = Clock::now();
+  ComputedAttempt computed;
+  computed.answer.certificate = proofs_.before(attempt, context);
+  double proof_seconds = seconds_since(begin);
+  if (computed.answer.certificate != nullptr) {
+    computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
+  } else {
+    computed = runner_.run(planner, attempt, key, context);
+    begin = Clock::now();
+    if (!computed.interrupted) computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
+    proof_seconds += seconds_since(begin);
+    if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
+      PathResult& result = computed.answer.result;
+      result.outcome = Outcome::infeasible;
+      result.message = found->text;
+      result.blocked_by = infeasible_by(*found, attempt).blocked_by;
+      result.reached = nullptr;
+    }
+    // A proof that was cut short leaves open what a longer one says.
+    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome))
+      computed.interrupted = true;
+  }
+  computed.answer.proof_seconds = proof_seconds;
+  return computed;
+}
+
 /// On any thread. What is computed ahead has no log, and brings its lines along.
 LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, RunContext context) {
   LoggedAttempt result;
@@ -74,7 +110,7 @@ LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, Run
     problem = "it threw something that is not a std::exception";
   }
   if (planner) {
-    result.computed = runner_.run(*planner, attempt, key, context);
+    result.computed = run(*planner, attempt, key, context);
     give_back(std::move(planner));
     return result;
   }
@@ -198,7 +234,13 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
 const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
   const CastDigest cast = digest_of(canonical(attempt, part_count_));
   const std::lock_guard lock(ask_mutex_);
-  ComputedAttempt computed = runner_.check_proposal(attempt, way, context);
+  ComputedAttempt computed;
+  if (const Certificate* lock = attempt.part_way ? nullptr : proofs_.locked(attempt)) {
+    computed.answer.certificate = lock;
+    computed.answer.result = infeasible_by(*lock, attempt);
+  } else {
+    computed = runner_.check_proposal(attempt, way, context);
+  }
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;

@@ -11,6 +11,7 @@
 
 #include "attempt_runner.h"
 #include "dismantle/speculative_cache.h"
+#include "proof_schedule.h"
 
 namespace dismantle {
 
@@ -42,11 +43,16 @@ class Oracle final : public PathOracle {
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
   const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) override;
   OracleCounts counts() const override;
+  const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override {
+    return proofs_.prove(question, context);
+  }
   const Verifier* judge() const override { return &verifier_; }
   const Constraints& constraints() const override { return constraints_; }
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
+  /// As ProofSchedule::seconds.
+  double proof_seconds() const { return proofs_.seconds(); }
   /// PathResult::stats by name, summed over the answers that were asked for, in the order of asking; interrupted ones
   /// included.
   const std::map<std::string, double>& planner_counts() const { return planner_counts_; }
@@ -60,6 +66,7 @@ class Oracle final : public PathOracle {
   const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
   const AttemptResult* remembered(const AttemptKey& key);
   LoggedAttempt compute(const Attempt& attempt, const AttemptKey& key, RunContext context);
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
   std::shared_ptr<PathPlanner> borrow_planner();
   void give_back(std::shared_ptr<PathPlanner> planner);
   const AttemptResult& keep(AttemptResult result);
@@ -71,6 +78,7 @@ class Oracle final : public PathOracle {
   Constraints constraints_;
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;
   AttemptRunner runner_;
+  ProofSchedule proofs_;
   std::mutex ask_mutex_;  ///< one question at a time
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;

@@ -139,8 +139,8 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
     booking.removed(result.removals.back(), assembly.parts.size() - 1);
     context.progress("sequence", 1, 1, assembly.parts[part].name);
   } else {
-    result.unsolved.push_back(
-        {part, result.outcome, answer.result.blocked_by, answer.result.best_pose, answer.result.message});
+    result.unsolved.push_back({part, result.outcome, answer.result.blocked_by, answer.result.best_pose,
+                               answer.result.message, answer.certificate});
   }
   return result;
 }
@@ -161,7 +161,16 @@ std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<Part
                       {},
                       planned ? "the sequence planner gave no reason" : "not tried: the run was stopped before"});
   }
-  for (auto& u : result) std::erase_if(u.blocked_by, [&](PartId id) { return !is_left(id); });
+  for (auto& u : result) {
+    std::erase_if(u.blocked_by, [&](PartId id) { return !is_left(id); });
+    const auto is_about = [&](const Certificate& c) {
+      return std::find(c.parts.begin(), c.parts.end(), u.part) != c.parts.end();
+    };
+    if (u.certificate != nullptr && !is_about(*u.certificate)) u.certificate = nullptr;
+    // Nobody can check what has no certificate.
+    if (u.outcome == Outcome::infeasible && (u.certificate == nullptr || !u.certificate->full_tolerance))
+      u.outcome = Outcome::exhausted;
+  }
   return result;
 }
 
@@ -237,6 +246,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   result.counts = oracle.counts();
   result.planner_counts = oracle.planner_counts();
   result.plan_seconds = seconds_since(begin);
+  result.proof_seconds = oracle.proof_seconds();
   return result;
 }
 

@@ -25,7 +25,12 @@ Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   a.center = assembly.normalization.center;
   a.box = assembly.input_box;
   a.repair = assembly.repair;
-  for (const auto& part : assembly.parts) a.parts.push_back({part.id, part.name, part.file});
+  a.import_params = assembly.import_params;
+  a.unit = assembly.unit;
+  for (const auto& part : assembly.parts) {
+    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents});
+    if (part.colour) a.parts.back().colour->a = 255;
+  }
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)
     a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth});
@@ -202,8 +207,25 @@ void StepLedger::refresh_status() {
       for (const PartId id : groups_[g]) plan_.remaining.push_back(assembly_.parts[id].name);
 }
 
+PlanCertificate StepLedger::to_plan(const Certificate& certificate) const {
+  PlanCertificate written;
+  written.kind = certificate.kind;
+  for (const PartId id : certificate.parts) written.parts.push_back(assembly_.parts.at(id).name);
+  const bool assembled =
+      std::all_of(certificate.poses.begin(), certificate.poses.end(), [](const Pose& p) { return p.is_identity(); });
+  if (!assembled)
+    for (const Pose& p : certificate.poses) written.poses.push_back(assembly_.normalization.pose_to_input(p));
+  written.full_tolerance = certificate.full_tolerance;
+  written.margin = certificate.margin;
+  written.numbers = certificate.numbers;
+  written.text = certificate.text;
+  return written;
+}
+
 void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved) {
   plan_.unsolved.clear();
+  plan_.certificates.clear();
+  std::vector<const Certificate*> written;
   for (const auto& u : unsolved) {
     PlanUnsolved entry;
     entry.part = assembly_.parts.at(u.part).name;
@@ -212,6 +234,14 @@ void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved) {
     const Pose reached = u.best_pose.empty() ? poses_[u.part] : u.best_pose.front();
     entry.best_pose = assembly_.normalization.pose_to_input(reached);
     entry.message = u.message;
+    if (u.certificate != nullptr) {
+      const auto known = std::find(written.begin(), written.end(), u.certificate);
+      entry.certificate = static_cast<std::size_t>(known - written.begin());
+      if (known == written.end()) {
+        written.push_back(u.certificate);
+        plan_.certificates.push_back(to_plan(*u.certificate));
+      }
+    }
     plan_.unsolved.push_back(std::move(entry));
   }
 }

@@ -44,7 +44,7 @@ class StepLedger {
   bool complete() const;
   /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
   bool fulfilled() const;
-  /// Sets plan().unsolved.
+  /// Sets plan().unsolved, and plan().certificates, each once.
   void set_unsolved(const std::vector<Unsolved>& unsolved);
   /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
   void set_needed(const std::vector<std::vector<std::size_t>>& needed);
@@ -56,6 +56,7 @@ class StepLedger {
   bool stays_together(const std::vector<PartId>& group) const;
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
   PlanStep to_step(const Removal& removal) const;
+  PlanCertificate to_plan(const Certificate& certificate) const;
   bool goes_on(const Removal& removal, std::size_t from) const;
   void take_back_last(PlanStep& step, Path& path);
   void refresh_status();

@@ -148,26 +148,6 @@ TEST(Oracle, StartIsGoalHasToBeTrue) {
   EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome(), Outcome::crashed);
 }
 
-TEST(Oracle, WhatIsShutInIsNotSearchedFor) {
-  bool asked = false;
-  const auto planner = [&](const PathQuery&, RunContext&) {
-    asked = true;
-    return outcome(Outcome::depth_limit);
-  };
-  Rig s(fake::closed_box(), fake::ingredients(planner));
-  for (const PartId part : {PartId{0}, PartId{1}}) {
-    const AttemptResult& r = s.ask(leave(s.assembly, part));
-    EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
-    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1 - part});
-    EXPECT_NE(r.result.message.find("shut in"), std::string::npos) << r.result.message;
-  }
-  EXPECT_FALSE(asked);
-  Attempt shallow = leave(s.assembly, 1);
-  shallow.max_depth = 1;
-  EXPECT_EQ(s.ask(shallow).result.outcome(), Outcome::depth_limit) << "a short search is cheaper than a proof";
-  EXPECT_TRUE(asked);
-}
-
 TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   const auto throws = [](const PathQuery& q, RunContext&) -> PathResult {
     if (q.cast.moving[0].part == 0) throw std::runtime_error("index out of range");

@@ -7,11 +7,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/animation.h"
 #include "shading.h"
 #include "timeline.h"
+#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {
@@ -101,6 +103,38 @@ Json material(const std::string& name, Json colour) {
   return {{"name", name},
           {"pbrMetallicRoughness",
            {{"baseColorFactor", std::move(colour)}, {"metallicFactor", 0.1}, {"roughnessFactor", 0.6}}}};
+}
+
+/// A part's own colour; light grey for one that has none.
+Json own_colour(const std::optional<Rgba>& colour) {
+  const Rgba c = colour.value_or(Rgba{200, 200, 200});
+  Json out = Json::array();
+  for (const std::uint8_t channel : {c.r, c.g, c.b}) out.push_back(static_cast<float>(linear(channel / 255.0)));
+  out.push_back(static_cast<float>(c.a / 255.0));
+  return out;
+}
+
+/// Whether parts are shown in their own colours: most have one, and these tell parts apart. A CAD program that gives
+/// every part the same grey has given none.
+bool has_own_colours(const Assembly& assembly) {
+  std::set<std::string> different;
+  std::size_t coloured = 0;
+  for (const Part& part : assembly.parts) {
+    if (!part.colour) continue;
+    ++coloured;
+    different.insert(to_hex(*part.colour));
+  }
+  return 2 * coloured > assembly.parts.size() && different.size() > 1;
+}
+
+/// In the colour of the part, with that of the order in `extras.order_color` (linear RGBA) for viewers that can switch;
+/// or in that of the order alone.
+Json material_of(const Part& part, bool own_colours, Json order_colour) {
+  if (!own_colours) return material(part.name, std::move(order_colour));
+  Json out = material(part.name, own_colour(part.colour));
+  if (part.colour && part.colour->a < 255) out["alphaMode"] = "BLEND";
+  out["extras"] = {{"order_color", std::move(order_colour)}};
+  return out;
 }
 
 template <class Scalar, class Vector>
@@ -208,6 +242,7 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
 
   std::size_t leavers = 0;
   const std::vector<std::size_t> ranks = ranks_of(plan, assembly, leavers);
+  const bool own_colours = has_own_colours(assembly);
   std::vector<Eigen::Vector3d> centers;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const Part& part = assembly.parts[i];
@@ -218,8 +253,8 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
     if (Json shape = primitive(part, assembly.normalization, centers[i], materials.size(), buffer); !shape.is_null()) {
       node["mesh"] = meshes.size();
       meshes.push_back({{"name", part.name}, {"primitives", Json::array({std::move(shape)})}});
-      materials.push_back(
-          material(part.name, ranks[i] == leavers ? Json::array({0.4, 0.4, 0.4, 1}) : colour_of(ranks[i], leavers)));
+      materials.push_back(material_of(
+          part, own_colours, ranks[i] == leavers ? Json::array({0.4, 0.4, 0.4, 1}) : colour_of(ranks[i], leavers)));
     }
     root["children"].push_back(nodes.size());
     nodes.push_back(std::move(node));

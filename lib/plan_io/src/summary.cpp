@@ -1,42 +1,14 @@
 #include "dismantle/plan_io/summary.h"
-#include "dismantle/plan_io/plan_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
+#include "dismantle/plan_io/text_columns.h"
+
 namespace dismantle {
 namespace {
-
-std::size_t width_of(const std::string& utf8) {
-  return static_cast<std::size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
-std::string padded(std::string text, std::size_t width) {
-  const std::size_t now = width_of(text);
-  return now < width ? text.append(width - now, ' ') : text;
-}
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string out;
-  for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
-std::string counted(std::size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); }
-
-std::string movers(const PlanStep& step) {
-  std::vector<std::string> names;
-  for (const auto& move : step.moves) names.push_back(move.part);
-  return joined(names);
-}
-
-std::size_t widest_mover(const Plan& plan) {
-  std::size_t width = 4;
-  for (const auto& step : plan.disassembly) width = std::max(width, std::min<std::size_t>(width_of(movers(step)), 40));
-  return width;
-}
 
 const char* meaning(Outcome outcome) {
   switch (outcome) {
@@ -90,26 +62,26 @@ std::string summary_text(const Plan& plan) {
   const auto& a = plan.assembly;
   double worst = 0;
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
-  std::string out = fmt::format("{}: {}, {}, {}\n", a.source, counted(a.parts.size(), "part"),
-                                counted(plan.disassembly.size(), "step"),
+  std::string out = fmt::format("{}: {}, {}, {}\n", a.source, text::counted(a.parts.size(), "part"),
+                                text::counted(plan.disassembly.size(), "step"),
                                 plan.status == PlanStatus::complete ? "complete" : "partial");
-  const std::size_t width = widest_mover(plan);
+  const std::size_t width = text::widest_step(plan);
   for (const auto& step : plan.disassembly)
-    out += fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {:.2g}\n", step.step, padded(movers(step), width),
-                       step.seconds, step.max_penetration);
+    out += fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {:.2g}\n", step.step,
+                       text::padded(text::names_of(step), width), step.seconds, step.max_penetration);
   if (!plan.disassembly.empty())
     out += fmt::format("every step is verified: penetration <= {:.2g} of {:.2g} allowed (assembly units)\n", worst,
                        plan.verified_max_penetration);
   if (plan.assembly_status == AssemblyStatus::complete)
-    out +=
-        fmt::format("assembly: {} from the layout, verified likewise\n", counted(plan.assembly_steps.size(), "step"));
+    out += fmt::format("assembly: {} from the layout, verified likewise\n",
+                       text::counted(plan.assembly_steps.size(), "step"));
   if (plan.assembly_status == AssemblyStatus::partial)
     out += fmt::format("assembly: partial: {}\n", plan.assembly_message);
-  if (!plan.remaining.empty()) out += fmt::format("stays: {}\n", joined(plan.remaining));
+  if (!plan.remaining.empty()) out += fmt::format("stays: {}\n", text::joined(plan.remaining));
   out += excluded_text(a.excluded);
   for (const auto& u : plan.unsolved) {
     out += fmt::format("unsolved: {}: {}", u.part, to_string(u.outcome));
-    if (!u.blocked_by.empty()) out += fmt::format(", blocked by {}", joined(u.blocked_by));
+    if (!u.blocked_by.empty()) out += fmt::format(", blocked by {}", text::joined(u.blocked_by));
     out += '\n';
   }
   return out;
@@ -117,8 +89,8 @@ std::string summary_text(const Plan& plan) {
 
 std::string explain_text(const Plan& plan) {
   const auto& a = plan.assembly;
-  std::string out = fmt::format("{}: {}, {} done, {} not removed\n", a.source, counted(a.parts.size(), "part"),
-                                counted(plan.disassembly.size(), "step"), plan.remaining.size());
+  std::string out = fmt::format("{}: {}, {} done, {} not removed\n", a.source, text::counted(a.parts.size(), "part"),
+                                text::counted(plan.disassembly.size(), "step"), plan.remaining.size());
   out += excluded_text(a.excluded);
   if (plan.status == PlanStatus::complete) return out + "Every part came out: there is nothing to explain.\n";
   if (plan.unsolved.empty()) out += "No attempt that failed is on record: the parts that remain were not tried.\n";
@@ -127,59 +99,22 @@ std::string explain_text(const Plan& plan) {
     if (u.blocked_by.empty())
       out += "  blocked by: no contact is on record\n";
     else
-      out += fmt::format("  blocked by: {} (touched most often first)\n", joined(u.blocked_by));
+      out += fmt::format("  blocked by: {} (touched most often first)\n", text::joined(u.blocked_by));
     out += fmt::format("  came furthest: {}\n", way_text(plan, u.best_pose));
     for (const auto& o : a.overlaps)
       if (o.a == u.part || o.b == u.part)
         out +=
             fmt::format("  overlaps {} by {:.2g} assembly units when assembled\n", o.a == u.part ? o.b : o.a, o.depth);
     if (!u.message.empty()) out += fmt::format("  said: {}\n", u.message);
+    if (u.certificate && *u.certificate < plan.certificates.size()) {
+      const PlanCertificate& c = plan.certificates[*u.certificate];
+      out += fmt::format("  certificate {} ({}), {}; `dismantle verify` checks it again\n", *u.certificate, c.kind,
+                         c.full_tolerance
+                             ? std::string("for all motions within the tolerance")
+                             : fmt::format("for motions that cut in by no more than {:.4g} assembly units", c.margin));
+      if (c.text != u.message) out += fmt::format("    {}\n", c.text);
+    }
   }
-  return out;
-}
-
-std::string check_text(const Plan& plan, const PlanCheck& check) {
-  std::string out = fmt::format("{}: {}\n", plan.assembly.source, counted(plan.disassembly.size(), "step"));
-  const std::size_t width = widest_mover(plan);
-  for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
-    const auto& step = plan.disassembly[i];
-    const bool bad = std::ranges::any_of(check.problems, [&](const PlanProblem& p) { return p.step == step.step; });
-    out += fmt::format("{:>5}  {}  ", step.step, padded(movers(step), width));
-    if (bad)
-      out += "NOT VALID\n";
-    else if (i < check.step_penetration.size())
-      out += fmt::format("valid, penetration <= {:.2g}\n", check.step_penetration[i]);
-    else
-      out += "not checked\n";
-  }
-  for (const auto& p : check.problems)
-    out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
-                       : fmt::format("problem in step {}: {}\n", p.step, p.message);
-  if (!check.valid) return out + "The plan is NOT VALID.\n";
-  out += fmt::format("The plan is valid, penetration <= {:.2g} assembly units, and {}.\n", check.max_penetration,
-                     check.complete ? "complete" : "partial: some parts are still together");
-  return out;
-}
-
-std::string prepare_text(const Assembly& assembly, const PrepareReport& report) {
-  std::size_t width = 4;
-  for (const auto& part : report.parts) width = std::max(width, std::min<std::size_t>(width_of(part.name), 40));
-  std::string out = fmt::format("{}: {} read, {} kept\n", assembly.source, counted(report.parts.size(), "part"),
-                                assembly.parts.size());
-  out += fmt::format("  {}  {:>9}  {:>6}  {:>12}  done\n", padded("part", width), "triangles", "shells", "volume");
-  for (const auto& part : report.parts) {
-    std::string done = part.kept ? "" : "LEFT OUT: " + part.reason;
-    for (const auto& action : part.actions) done += (done.empty() ? "" : "; ") + action;
-    out += fmt::format("  {}  {:>9}  {:>6}  {:>12.6g}  {}\n", padded(part.name, width), part.triangles, part.shells,
-                       part.volume, done.empty() ? "nothing" : done);
-  }
-  for (const auto& o : assembly.overlaps)
-    out += fmt::format("overlap when assembled: {} and {}, {:.2g} assembly units\n", assembly.parts[o.a].name,
-                       assembly.parts[o.b].name, o.depth);
-  for (const auto& warning : report.warnings) out += fmt::format("warning: {}\n", warning);
-  const Eigen::Vector3d size = assembly.input_box.size();
-  out += fmt::format("size {:.6g} x {:.6g} x {:.6g} input units, scale {:.6g}\n", size.x(), size.y(), size.z(),
-                     assembly.normalization.scale);
   return out;
 }
 

@@ -8,9 +8,9 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/run_context.h"
 #include "dismantle/write_file.h"
-#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle {
 namespace {
@@ -84,6 +84,16 @@ Plan any_plan(Rng& rng) {
   plan.verified_max_penetration = rng.uniform() + 1e-6;
   plan.remaining = {part()};
   if (rng.below(2)) plan.unsolved.push_back({part(), static_cast<Outcome>(rng.below(9)), {part()}, any_pose(rng), "m"});
+  for (std::uint64_t k = rng.below(3); k > 0 && n > 1; --k) {
+    PlanCertificate c{"ring", {a.parts[0].name, a.parts[1].name}, {}, rng.below(2) == 0, rng.uniform() + 1e-6, {},
+                      "why"};
+    if (rng.below(2)) c.poses = {any_pose(rng), any_pose(rng)};
+    c.numbers["center"] = {any_number(rng), any_number(rng), any_number(rng)};
+    if (rng.below(2)) c.numbers["none"] = {};
+    plan.certificates.push_back(c);
+  }
+  if (!plan.certificates.empty() && !plan.unsolved.empty())
+    plan.unsolved[0].certificate = rng.below(plan.certificates.size());
   return plan;
 }
 
@@ -150,6 +160,19 @@ TEST(PlanIo, ReadingGivesBackWhatWasWritten) {
       EXPECT_EQ(a.unsolved[i].outcome, b.unsolved[i].outcome);
       EXPECT_EQ(a.unsolved[i].blocked_by, b.unsolved[i].blocked_by);
       expect_same(a.unsolved[i].best_pose, b.unsolved[i].best_pose);
+      EXPECT_EQ(a.unsolved[i].certificate, b.unsolved[i].certificate);
+    }
+    ASSERT_EQ(a.certificates.size(), b.certificates.size());
+    for (std::size_t i = 0; i < a.certificates.size(); ++i) {
+      EXPECT_EQ(a.certificates[i].kind, b.certificates[i].kind);
+      EXPECT_EQ(a.certificates[i].parts, b.certificates[i].parts);
+      EXPECT_EQ(a.certificates[i].full_tolerance, b.certificates[i].full_tolerance);
+      EXPECT_EQ(a.certificates[i].margin, b.certificates[i].margin);
+      EXPECT_EQ(a.certificates[i].numbers, b.certificates[i].numbers);
+      EXPECT_EQ(a.certificates[i].text, b.certificates[i].text);
+      ASSERT_EQ(a.certificates[i].poses.size(), b.certificates[i].poses.size());
+      for (std::size_t k = 0; k < a.certificates[i].poses.size(); ++k)
+        expect_same(a.certificates[i].poses[k], b.certificates[i].poses[k]);
     }
   }
 }
@@ -224,6 +247,20 @@ TEST(PlanIo, ProblemsNameTheFileAndThePlace) {
       {"[\"hole\"]", "[\"hole\", \"hole\"]", "/remaining/1: part 'hole' stands here twice"},
       {"\"separates\": [", "\"separates\": [[], ", "/disassembly/0/separates/0: expected at least one part"},
       {"{", "[", "not valid JSON"},
+      {"\"seed\": 0", "\"seed\": 0, \"certificates\": {}", "/certificates: expected an array"},
+      {"\"seed\": 0",
+       "\"seed\": 0, \"certificates\": [{\"kind\": \"ring\", \"parts\": [\"peg\"], \"full_tolerance\": true, "
+       "\"margin\": "
+       "0.01, \"numbers\": {}, \"text\": \"\"}]",
+       "/certificates/0/parts: expected two parts at least"},
+      {"\"seed\": 0",
+       "\"seed\": 0, \"certificates\": [{\"kind\": \"ring\", \"parts\": [\"peg\", \"hole\"], \"full_tolerance\": 1, "
+       "\"margin\": 0.01, \"numbers\": {}, \"text\": \"\"}]",
+       "/certificates/0/full_tolerance: expected true or false"},
+      {"\"seed\": 0",
+       "\"seed\": 0, \"certificates\": [{\"kind\": \"ring\", \"parts\": [\"peg\", \"hole\"], \"full_tolerance\": true, "
+       "\"margin\": 0.01, \"numbers\": {\"x\": [\"1\"]}, \"text\": \"\"}]",
+       "/certificates/0/numbers/x/0: expected a number"},
       {"\"overlaps\": []", "\"overlaps\": [], \"repair\": {\"weld\": 0.5, \"repair\": true, \"max_hole\": 0}",
        "/assembly/repair/weld: expected a number between 0 and 0.01"},
       {"\"overlaps\": []", "\"overlaps\": [], \"repair\": {\"weld\": 0, \"repair\": 1, \"max_hole\": 0}",

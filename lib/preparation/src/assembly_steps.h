@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct Candidate {
   Mesh mesh;
   Aabb box;
   double volume = 0;
+  std::optional<Rgba> colour;
+  std::vector<std::string> parents;
+  std::string unit;
 };
 
 /// Removes `candidates[i]` from the assembly and writes the reason down.

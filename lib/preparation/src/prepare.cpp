@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "assembly_steps.h"
 #include "dismantle/errors.h"
@@ -40,11 +41,12 @@ class Preparation {
     if (options_.min_thickness > 0) drop(find_thin(parts_, options_.min_thickness, context_));
     connect();
     if (parts_.size() < 2) refuse();
+    find_unit();
     normalize();
     subdivide_parts();
     measure_overlaps();
     for (const auto& part : report_.parts)
-      if (!part.kept) assembly_.excluded.push_back({part.name, part.reason});
+      if (!part.kept) assembly_.excluded.push_back({part.name, part.reason, part.by_choice});
     for (const auto& warning : report_.warnings) context_.log(LogLevel::warning, warning);
     return std::move(assembly_);
   }
@@ -67,7 +69,12 @@ class Preparation {
         [&](std::size_t i) {
           report_.parts[i].name = raw[i].name;
           report_.parts[i].file = raw[i].file;
-          repair_part(raw[i].mesh, options_, report_.parts[i]);
+          if (raw[i].problem.empty()) {
+            repair_part(raw[i].mesh, options_, report_.parts[i]);
+          } else {
+            report_.parts[i].kept = false;
+            report_.parts[i].reason = raw[i].problem;
+          }
         },
         [&](std::size_t i) { return raw[i].name; });
     for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -84,6 +91,9 @@ class Preparation {
       c.file = report.file;
       c.report = i;
       c.mesh = std::move(raw[i].mesh);
+      c.colour = raw[i].colour;
+      c.parents = std::move(raw[i].parents);
+      c.unit = raw[i].unit;
       c.box = c.mesh.box();
       c.volume = report.volume;
       warn_precision(c);
@@ -107,6 +117,7 @@ class Preparation {
     for (const auto& [i, reason] : dropped) {
       PartReport& report = report_.parts[parts_[i].report];
       report.kept = false;
+      report.by_choice = true;
       report.reason = reason;
       report_.warnings.push_back(fmt::format("part '{}' is left out: {}", report.name, reason));
     }
@@ -162,6 +173,18 @@ class Preparation {
     throw InputError(assembly_.source, text);
   }
 
+  /// The unit that all parts with a known unit share.
+  void find_unit() {
+    std::map<std::string, std::string> units;  // and a part of each
+    for (const auto& c : parts_)
+      if (!c.unit.empty()) units.emplace(c.unit, c.name);
+    if (units.size() == 1) assembly_.unit = units.begin()->first;
+    if (units.size() < 2) return;
+    std::string text;
+    for (const auto& [unit, name] : units) text += fmt::format("{}'{}' in {}", text.empty() ? "" : ", ", name, unit);
+    report_.warnings.push_back("parts are given in different length units, none is converted: " + text);
+  }
+
   void normalize() {
     assembly_.input_box = box_of(parts_);
     if (options_.normalize) {
@@ -178,6 +201,8 @@ class Preparation {
       part.name = parts_[i].name;
       part.file = parts_[i].file;
       part.volume = signed_volume(mesh);
+      part.colour = parts_[i].colour;
+      part.parents = parts_[i].parents;
       if (mesh.box().size().maxCoeff() < 0.002 * options_.size && count++ < 5)
         small += fmt::format("{}'{}' ({:.2g})", small.empty() ? "" : ", ", part.name, mesh.box().size().maxCoeff());
       part.mesh = std::make_shared<const Mesh>(std::move(mesh));

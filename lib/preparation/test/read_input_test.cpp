@@ -17,11 +17,17 @@ class BoxImporter : public Importer {
  public:
   std::vector<std::string> extensions() const override { return {"box", "cube"}; }
   std::optional<std::uint64_t> count_triangles(const fs::path& file) const override { return fs::file_size(file); }
-  std::vector<RawPart> read(const fs::path& file) override {
+  std::vector<RawPart> read(const fs::path& file, const RunContext&) override {
     ++files_read;
     std::ifstream in(file);
     std::vector<RawPart> parts;
-    for (std::string line; std::getline(in, line);) parts.push_back({line, "", box({0, 0, 0}, {1, 1, 1})});
+    for (std::string line; std::getline(in, line);) {
+      if (line == "broken") throw InputError(file.string(), "line 1 is broken");
+      parts.push_back({line, "", box({0, 0, 0}, {1, 1, 1})});
+      if (line == "surface") parts.back().problem = "it is a surface";
+      if (line == "red") parts.back().colour = Rgba{255, 0, 0};
+      if (line == "blue") parts.back().colour = Rgba{0, 0, 255};
+    }
     return parts;
   }
   int files_read = 0;
@@ -111,6 +117,9 @@ TEST(ReadInput, NamesBecomeValidUtf8) {
             "b\xEF\xBF\xBD");
   EXPECT_EQ(valid_utf8("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
   EXPECT_EQ(valid_utf8("a\nb"), "a_b");
+  EXPECT_EQ(valid_utf8("a\xC2\x9B"
+                       "2Jb\xC2\xA0"),
+            "a_2Jb\xC2\xA0");  // C1: a terminal would obey
   const TempFolder folder;
   const auto in = read_input(folder.write("a.box", "\xFFnut\nbolt\n"), importers());
   EXPECT_EQ(in.parts[0].name, "\xEF\xBF\xBDnut");
@@ -125,14 +134,46 @@ TEST(ReadInput, UnusableInputNamesItself) {
             std::string::npos);
   EXPECT_NE(error(folder.write("none.box", "")).find("none.box: the file is empty"), std::string::npos);
   EXPECT_NE(error("").find("no input"), std::string::npos);
-  fs::remove(folder / "none.box");
-  fs::create_symlink(folder / "nowhere", folder / "broken.box");
-  EXPECT_NE(error(folder.path()).find("broken.box"), std::string::npos);
-  fs::remove(folder / "broken.box");
+  EXPECT_NE(error(folder.write("bad.box", "broken\n")).find("bad.box: line 1 is broken"), std::string::npos);
+}
+
+TEST(ReadInput, AFileOfAFolderThatCannotBeReadIsAPartWithAProblem) {
+  const TempFolder folder;
+  folder.write("1.box", "x\n");
+  folder.write("2.box", "broken\n");
+  folder.write("3.box", "");
+  fs::create_symlink(folder / "nowhere", folder / "4.box");
+  folder.write("5.box", "x\n");
+  std::size_t broken = 3;
   if (::geteuid() != 0) {
-    ::chmod(folder.write("secret.box", "x").c_str(), 0);
-    EXPECT_NE(error(folder.path()).find("secret.box"), std::string::npos);
+    ::chmod(folder.write("6.box", "x").c_str(), 0);
+    ++broken;
   }
+  const auto in = read_input(folder.path(), importers());
+  ASSERT_EQ(in.parts.size(), 2 + broken);
+  for (std::size_t i = 0; i < in.parts.size(); ++i) {
+    EXPECT_EQ(in.parts[i].name, std::to_string(i + 1));
+    EXPECT_EQ(in.parts[i].problem.empty(), i == 0 || i == 4) << in.parts[i].problem;
+  }
+  EXPECT_EQ(in.parts[1].problem, "2.box cannot be read: line 1 is broken");
+  EXPECT_EQ(in.parts[2].problem, "3.box cannot be read: the file is empty");
+  EXPECT_EQ(in.sha256, read_input(folder.path(), importers()).sha256);
+}
+
+TEST(ReadInput, BodiesOfOneFileInAFolderAreOnePartOfWhatCanBeUsed) {
+  const TempFolder folder;
+  folder.write("1.box", "x\nsurface\ny\n");
+  folder.write("2.box", "surface\n");
+  folder.write("3.box", "red\nred\n");
+  folder.write("4.box", "red\nblue\n");
+  const auto in = read_input(folder.path(), importers());
+  ASSERT_EQ(in.parts.size(), 4u);
+  EXPECT_EQ(in.parts[0].mesh.triangles.size(), 24u);
+  EXPECT_EQ(in.parts[0].problem, "");
+  EXPECT_TRUE(any_contains(in.warnings, "'surface' of 1.box is left aside: it is a surface"));
+  EXPECT_EQ(in.parts[1].problem, "it is a surface");
+  EXPECT_EQ(in.parts[2].colour, (Rgba{255, 0, 0}));
+  EXPECT_EQ(in.parts[3].colour, std::nullopt);
 }
 
 TEST(ReadInput, PipesSubFoldersAndOtherFormatsAreLeftAside) {

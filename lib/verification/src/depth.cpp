@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "dismantle/verification/verifier.h"
-#include "patch.h"
-#include "solid.h"
+#include "dismantle/geometry/patch.h"
+#include "dismantle/geometry/solid.h"
+#include "geometry_names.h"
 #include "starts_off.h"
 
 namespace dismantle {

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "dismantle/run_context.h"
-#include "patch.h"
-#include "relative_motion.h"
-#include "solid.h"
+#include "dismantle/geometry/patch.h"
+#include "dismantle/geometry/relative_motion.h"
+#include "dismantle/geometry/solid.h"
+#include "geometry_names.h"
 #include "winding.h"
 
 namespace dismantle::verify {

@@ -1,8 +1,9 @@
 /// Is a solid certainly not within a shrunken copy of another?
 #pragma once
 
-#include "relative_motion.h"
-#include "solid.h"
+#include "dismantle/geometry/relative_motion.h"
+#include "dismantle/geometry/solid.h"
+#include "geometry_names.h"
 
 namespace dismantle::verify {
 

@@ -59,12 +59,7 @@ Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
 }  // namespace
 
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
-    : assembly_overlaps(a.overlaps),
-      options(o),
-      rungs(rungs_up_to(o.max_penetration)),
-      bodies(a.parts.size()),
-      middles(a.parts.size()),
-      balls(a.parts.size()) {
+    : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)), bodies(a.parts.size()) {
   const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
   parallel_for(
@@ -76,11 +71,6 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
         bodies[i] = std::move(body);
       },
       never);
-  std::vector<std::optional<Lock>> found(assembly_overlaps.size());
-  parallel_for(
-      found.size(), executor, [&](std::size_t i) { found[i] = locking_point(assembly_overlaps[i]); }, never);
-  for (const auto& lock : found)
-    if (lock) locks.push_back(*lock);
 }
 
 double Verifier::Impl::overlap(PartId a, PartId b) const {
@@ -234,7 +224,7 @@ std::size_t Verifier::parts() const { return impl_->bodies.size(); }
 
 const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodies.at(part).corners; }
 
-const std::vector<Lock>& Verifier::locks() const { return impl_->locks; }
+const std::vector<geometry::Solid>& Verifier::solids(PartId part) const { return impl_->bodies.at(part).solids; }
 
 MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
                                    const Path& path) const {
@@ -278,8 +268,6 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
   Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
   Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
   if (!a.swept.overlaps(b.swept)) return true;
-  for (const Lock& lock : impl_->locks)
-    if (std::minmax(lock.inside, lock.other) == std::minmax(moving, still)) return false;
   const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
   for (const auto& x : impl_->bodies[moving].solids)
     for (const auto& y : impl_->bodies[still].solids) {

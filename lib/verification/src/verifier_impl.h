@@ -1,20 +1,15 @@
-/// What a Verifier keeps of the parts; shared by its judging and its proofs.
+/// What a Verifier keeps of the parts.
 #pragma once
 
-#include <deque>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "bar_middle.h"
-#include "computed_once.h"
+#include "dismantle/geometry/solid.h"
 #include "dismantle/verification/verifier.h"
+#include "geometry_names.h"
 #include "hulls_apart.h"
-#include "shut_in.h"
-#include "solid.h"
 
 namespace dismantle {
 
@@ -35,15 +30,7 @@ struct Verifier::Impl {
 
   /// The pair's when assembled.
   double overlap(PartId a, PartId b) const;
-  std::optional<Lock> locking_point(const InitialOverlap& overlap) const;
-  verify::Ball ball_of(PartId part) const;
-  std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& inner, const std::vector<PlacedPart>& outer) const;
   verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
-
-  using Middles = std::vector<std::vector<verify::InnerBall>>;  // by solid
-  /// Null when told to stop.
-  const Middles* middles_of(PartId part, const RunContext& context) const;
-  std::optional<Cage> caged(PartId a, PartId b, const RunContext& context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
   /// What was seen of a pair.
   struct Look {
@@ -62,13 +49,8 @@ struct Verifier::Impl {
   std::vector<InitialOverlap> assembly_overlaps;
   VerifyOptions options;
   std::vector<double> rungs;
-  std::vector<Lock> locks;
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
-  mutable std::mutex cages_guard;
-  mutable std::map<std::pair<PartId, PartId>, std::optional<Cage>> cages;  // of pairs that were asked for
-  mutable std::deque<verify::ComputedOnce<Middles>> middles;               // by part
-  mutable std::deque<verify::ComputedOnce<verify::Ball>> balls;            // by part
 };
 
 }  // namespace dismantle

@@ -14,8 +14,9 @@
 #include <vector>
 
 #include "dismantle/geometry/triangle_bvh.h"
-#include "relative_motion.h"
-#include "sweep.h"
+#include "dismantle/geometry/relative_motion.h"
+#include "dismantle/geometry/sweep.h"
+#include "geometry_names.h"
 
 namespace dismantle::verify {
 

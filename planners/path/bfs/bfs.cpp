@@ -1,7 +1,5 @@
-#include <memory>
-
 #include "dismantle/plugin.h"
-#include "dismantle/push/push_path_search.h"
+#include "dismantle/push/plan.h"
 #include "parameters.h"
 
 namespace dismantle::bfs {
@@ -15,7 +13,7 @@ class Bfs final : public PathPlanner {
     return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
   }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
-    return std::make_unique<push::PushPathSearch>(query, tactics_, context);
+    return push::start(query, tactics_, context);
   }
 
  private:

@@ -1,7 +1,9 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <memory>
+#include <vector>
 
+#include "dismantle/path/ended_search.h"
+#include "dismantle/path/growing_turns.h"
 #include "dismantle/path/touched.h"
 #include "dismantle/plugin.h"
 #include "random_tree.h"
@@ -13,81 +15,100 @@ constexpr Capabilities kNeeds{.dynamics = true};
 /// Simulated steps of the first turn of a tree where two grow in turn; each round doubles it.
 constexpr std::uint64_t kFirstTurn = 4'000;
 
-class BkRrt final : public FunctionPathPlanner {
+class BkRrtSearch final : public PathSearch {
  public:
-  explicit BkRrt(const Parameters& parameters) : parameters_(parameters) {}
-  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
+  BkRrtSearch(const Parameters& parameters, const PathQuery& query, RunContext& context)
+      : parameters_(parameters),
+        query_(query),
+        context_(context),
+        deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
+                                           : context.deadline),
+        level_(path::doubled_per_level(parameters.level_steps, query.budget.max_depth)),
+        turns_(parameters.motion == Motion::automatic ? 2 : 1, kFirstTurn) {
+    if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
+    if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
+  }
 
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    PathResult result;
-    const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || has.max_moving < query.cast.moving.size())
-      return PathResult::failure(Outcome::unsupported, "needs a simulator with dynamics for all moving parts");
-    const Deadline deadline = query.budget.timeout > 0
-                                  ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                  : context.deadline;
-    std::vector<std::unique_ptr<RandomTree>> trees;
-    const auto add = [&](MotionSpace motion, std::uint64_t stream) {
-      trees.push_back(std::make_unique<RandomTree>(query, motion, parameters_, context.rng.fork(stream)));
-    };
-    if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
-    if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
-    if (trees.front()->starts_out()) {
-      result.start_is_goal();
-      return result;
+  SearchStatus run(const Budget& portion) override {
+    if (is_success(result_.outcome())) return SearchStatus::solved;
+    if (used() == 0 && trees_.front()->starts_out()) {
+      result_.start_is_goal();
+      return SearchStatus::solved;
     }
+    const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+    const std::uint64_t until = path::end_of_portion(used(), portion.max_steps, level_);
+    turns_.run(
+        until, [&] { return used(); },
+        [&](std::size_t tree, std::uint64_t share) {
+          while (used() < share)
+            if (stopped() || end.passed() || trees_[tree]->iterate(result_)) return true;
+          return false;
+        });
+    if (is_success(result_.outcome())) return SearchStatus::solved;
+    result_.fail(context_.cancel.cancelled() ? Outcome::cancelled
+                 : stopped()                 ? Outcome::timeout
+                                             : Outcome::depth_limit);
+    if (stopped() || used() >= level_) return status_of(result_.outcome());
+    return SearchStatus::paused;
+  }
 
-    const std::uint64_t budget = query.budget.max_steps > 0 ? query.budget.max_steps : kNone;
-    const std::uint64_t level = level_limit(query.budget);
-    const auto used = [&] {
-      std::uint64_t steps = 0;
-      for (const auto& t : trees) steps += t->steps();
-      return steps;
-    };
-    bool solved = false, stopped = false;
-    for (std::uint64_t turn = kFirstTurn; !solved && !stopped && used() < level; turn *= 2)
-      for (const auto& tree : trees) {
-        const std::uint64_t until = trees.size() > 1 ? std::min(level, used() + turn) : level;
-        while (!solved && used() < until) {
-          if (stopped = context.should_stop() || deadline.passed() || used() >= budget; stopped) break;
-          solved = tree->iterate(result);
-        }
-        if (solved || stopped) break;
-      }
-    if (!solved) {
-      result.fail(!stopped ? Outcome::depth_limit : context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout);
-      const auto& best = *std::max_element(trees.begin(), trees.end(), [](const auto& a, const auto& b) {
+  PathResult result() override {
+    PathResult result = result_;
+    if (!result.path() && result.outcome() != Outcome::start_is_goal) {
+      const auto& best = *std::max_element(trees_.begin(), trees_.end(), [](const auto& a, const auto& b) {
         return a->farthest_way() < b->farthest_way();
       });
       result.best_pose = best->farthest();
     }
-    finish(trees, query.cast.moving, result);
-    return result;
-  }
-
- private:
-  static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
-
-  std::uint64_t level_limit(const Budget& effort) const {
-    if (effort.max_depth == 0) return kNone;
-    const double steps =
-        std::ldexp(static_cast<double>(parameters_.level_steps), static_cast<int>(std::min(effort.max_depth, 60u)) - 1);
-    return steps < 1e18 ? static_cast<std::uint64_t>(steps) : kNone;
-  }
-
-  static void finish(const std::vector<std::unique_ptr<RandomTree>>& trees, const std::vector<PlacedPart>& moving,
-                     PathResult& result) {
     std::map<PartId, std::uint64_t> touched;
-    for (const auto& tree : trees) {
+    for (const auto& tree : trees_) {
       result.stats += {.steps = tree->steps(),
                        .nodes = tree->size(),
                        .refused = tree->refused(),
                        .cost = static_cast<double>(tree->steps())};
       for (const auto& [part, times] : tree->touched()) touched[part] += times;
     }
-    result.blocked_by = path::most_touched(touched, moving);
+    result.blocked_by = path::most_touched(touched, query_.cast.moving);
+    return result;
   }
 
+ private:
+  void add(MotionSpace motion, std::uint64_t stream) {
+    trees_.push_back(std::make_unique<RandomTree>(query_, motion, parameters_, context_.rng.fork(stream)));
+  }
+  std::uint64_t used() const {
+    std::uint64_t steps = 0;
+    for (const auto& t : trees_) steps += t->steps();
+    return steps;
+  }
+  bool stopped() const {
+    return context_.should_stop() || deadline_.passed() ||
+           (query_.budget.max_steps > 0 && used() >= query_.budget.max_steps);
+  }
+
+  const Parameters parameters_;
+  const PathQuery& query_;
+  RunContext& context_;
+  Deadline deadline_;
+  std::uint64_t level_;  ///< simulated steps that the depth limit allows
+  path::GrowingTurns turns_;
+  std::vector<std::unique_ptr<RandomTree>> trees_;
+  PathResult result_;
+};
+
+class BkRrt final : public PathPlanner {
+ public:
+  explicit BkRrt(const Parameters& parameters) : parameters_(parameters) {}
+  PathPlannerTraits traits() const noexcept override { return {.needs = kNeeds}; }
+
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    const Capabilities has = query.simulator.capabilities();
+    if (!has.dynamics || has.max_moving < query.cast.moving.size())
+      return path::unsupported("needs a simulator with dynamics for all moving parts");
+    return std::make_unique<BkRrtSearch>(parameters_, query, context);
+  }
+
+ private:
   Parameters parameters_;
 };
 

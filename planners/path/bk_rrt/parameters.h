@@ -2,10 +2,11 @@
 #pragma once
 
 #include "dismantle/parameters.h"
+#include "dismantle/path/motion.h"
 
 namespace dismantle::bk_rrt {
 
-enum class Motion { translation, rotation, automatic };
+using path::Motion;
 enum class Actions { sphere, axes };
 
 struct Parameters {

@@ -101,7 +101,7 @@ Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of
   return path;
 }
 
-bool RandomTree::judged(std::uint32_t node, PathResult& result) {
+bool RandomTree::verified(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
   const Path path = path::thin(full, bodies_, parameters_.thinning);
@@ -145,7 +145,7 @@ bool RandomTree::iterate(PathResult& result) {
   if (!report.finite || way.empty()) return false;
   way = path::thin(way, bodies_, parameters_.thinning);
   const std::uint32_t node = add(std::move(state), from, std::move(way));
-  return world_->separated(nodes_[node].state) && judged(node, result);
+  return world_->separated(nodes_[node].state) && verified(node, result);
 }
 
 }  // namespace dismantle::bk_rrt

@@ -18,8 +18,8 @@ class RandomTree {
  public:
   RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng);
 
-  /// One iteration: random state, nearest node, random action, simulation. True when that led to a path that the judge
-  /// accepts; then `result` holds it.
+  /// One iteration: random state, nearest node, random action, simulation. True
+  /// when that led to a path that the checker accepts; then `result` holds it.
   bool iterate(PathResult& result);
 
   bool starts_out();
@@ -44,7 +44,7 @@ class RandomTree {
   StateType place(const State& state) const;
   Action random_action();
   Path path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const;
-  bool judged(std::uint32_t node, PathResult& result);
+  bool verified(std::uint32_t node, PathResult& result);
   void discard(std::uint32_t node);
   void note_contacts(const State& state);
 

@@ -13,8 +13,9 @@ struct Parameters : sampling::TreeParameters {
   std::int64_t max_vectors = 256;
 
   static void describe(Schema<Parameters>& s) {
-    sampling::describe_tree(
-        s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
+    sampling::describe_tree(s,
+                            "Probability of extending a node towards the nearest state outside "
+                            "the box of the rest (table 7).");
     s.add("neighbor_reach", &Parameters::neighbor_reach,
           {.unit = "unit", .min = 0, .doc = "Still parts whose boxes are this near to the part's are its neighbours."});
     s.add("merge_angle", &Parameters::merge_angle,
@@ -24,12 +25,12 @@ struct Parameters : sampling::TreeParameters {
   }
 };
 
-class MatingVectorTargetlessRrt final : public FunctionPathPlanner {
+class MatingVectorTargetlessRrt final : public PathPlanner {
  public:
   explicit MatingVectorTargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    return sampling::plan_by_trees(
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return sampling::start_trees(
         query, context, parameters_,
         [](sampling::Scene& scene, Rng) { return std::make_unique<sampling::NearestExit>(scene); },
         [this](const PathQuery& q) {

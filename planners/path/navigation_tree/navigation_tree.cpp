@@ -2,7 +2,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <utility>
 
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/plugin.h"
@@ -21,7 +20,7 @@ class State final : public SearchState {
   std::shared_ptr<const SearchState> tree, near_start;
 };
 
-bool in_vain(const PathResult& r) { return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted; }
+bool unsuccessful(const PathResult& r) { return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted; }
 
 /// One search; of a group that is thinner than its initial overlap, two: that overlap is first allowed near the start
 /// only. A group that has only some play so may be held with interference all the way out, and then it is allowed
@@ -43,7 +42,6 @@ class Search final : public PathSearch {
 
   PathResult result() override {
     PathResult result = last_;
-    result.stats += first_stats_;
     if (is_success(result.outcome())) return result;
     auto state = std::make_shared<State>();
     state->tree = tree_state_;
@@ -54,32 +52,27 @@ class Search final : public PathSearch {
 
  private:
   SearchStatus run_on(const Budget& portion) {
-    if (!walk_) {
+    const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+    if (!tree_) {
       thin_ = free_space::overlaps_through(query_);
       begin(thin_ ? Overlap::near_start : Overlap::everywhere);
     }
     const std::uint64_t begun_at = used();
     while (true) {
-      if (walk_->leads_out() || walk_->looks() > 0) {
-        free_space::LedWalk::Limits limits;
-        limits.patience = patience_;
-        limits.most_detours = detours_;
-        if (query_.budget.max_steps > 0)
-          limits.most_looks = query_.budget.max_steps - std::min(query_.budget.max_steps, before_);
+      if (tree_->leads_out() && left_of_budget() > 0) {
+        Budget own{.timeout = portion.timeout > 0 ? std::max(1e-9, end.seconds_left()) : 0};
         if (portion.max_steps > 0)
-          limits.pause_after =
-              std::max<std::uint64_t>(1, portion.max_steps - std::min(portion.max_steps, used() - begun_at));
-        if (portion.timeout > 0) limits.pause_at = Deadline::after_seconds(portion.timeout);
-        last_ = walk_->run(limits);
+          own.max_steps = std::max<std::uint64_t>(1, portion.max_steps - std::min(portion.max_steps, used() - begun_at));
+        const SearchStatus status = tree_->run(own);
+        last_ = tree_->result();
         (near_start_ ? near_start_state_ : tree_state_) = last_.state;
-        if (walk_->paused()) return SearchStatus::paused;
+        if (status == SearchStatus::paused) return status;
       }
-      if (in_vain(last_) && query_.budget.max_steps > 0 && used() >= query_.budget.max_steps)
-        last_.fail(Outcome::timeout);
-      if (!near_start_ || !in_vain(last_) || !walk_->held()) return status_of(last_.outcome());
-      before_ += walk_->looks();
+      if (unsuccessful(last_) && left_of_budget() == 0) last_.fail(Outcome::timeout);
+      if (!near_start_ || !unsuccessful(last_) || !tree_->held()) return status_of(last_.outcome());
+      before_ += tree_->looks();
       first_stats_ = std::exchange(last_.stats, {});
-      first_stats_.extra.clear();  // what is left of the way, say, does not add up
+      first_stats_.extra.clear();  // the distance that is left does not add up
       begin(Overlap::everywhere);
     }
   }
@@ -89,13 +82,21 @@ class Search final : public PathSearch {
     const auto* state = dynamic_cast<const State*>(query_.resume_from);
     PathQuery own = query_;
     own.resume_from = state != nullptr ? (near_start_ ? state->near_start : state->tree).get() : nullptr;
-    walk_.reset();
+    if (query_.budget.max_steps > 0)  // what the first search has used is not there for the second
+      own.budget.max_steps = std::max<std::uint64_t>(1, query_.budget.max_steps - std::min(query_.budget.max_steps, before_));
+    tree_.reset();
     own_query_.emplace(own);
-    walk_.emplace(parameters_.tree(thin_ && !near_start_), *own_query_, context_,
-                  static_cast<std::size_t>(parameters_.cells), overlap, cache_);
+    tree_.emplace(parameters_.tree(thin_ && !near_start_), *own_query_, context_,
+                  free_space::LedWalk::Effort{static_cast<std::size_t>(parameters_.cells), patience_, detours_}, overlap,
+                  cache_);
   }
 
-  std::uint64_t used() const { return before_ + walk_->looks(); }
+  /// State checks of both searches.
+  std::uint64_t used() const { return before_ + tree_->looks(); }
+  std::uint64_t left_of_budget() const {
+    if (query_.budget.max_steps == 0) return ~std::uint64_t{0};
+    return query_.budget.max_steps - std::min(query_.budget.max_steps, used());
+  }
 
   const Parameters& parameters_;
   tolerant_walk::GeometryCache& cache_;
@@ -105,9 +106,8 @@ class Search final : public PathSearch {
   unsigned detours_ = 0;
   bool thin_ = false, near_start_ = false;
   std::optional<PathQuery> own_query_;
-  std::optional<free_space::LedWalk> walk_;
+  std::optional<free_space::LedWalk> tree_;
   std::uint64_t before_ = 0;  // state checks of the first search
-  SearchStats first_stats_;
   PathResult last_ = PathResult::failure(Outcome::depth_limit);
   std::shared_ptr<const SearchState> tree_state_, near_start_state_;
   SearchStatus status_ = SearchStatus::paused;

@@ -34,13 +34,13 @@ class OneGoal final : public TargetRule {
   std::set<std::uint32_t> tried_;
 };
 
-class Rrt final : public FunctionPathPlanner {
+class Rrt final : public PathPlanner {
  public:
   explicit Rrt(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    return sampling::plan_by_trees(query, context, parameters_,
-                                   [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return sampling::start_trees(query, context, parameters_,
+                                 [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
   }
 
  private:

@@ -8,17 +8,18 @@ namespace {
 struct Parameters : sampling::TreeParameters {
   Parameters() { goal_bias = 0.2; }
   static void describe(Schema<Parameters>& s) {
-    sampling::describe_tree(
-        s, "Probability of extending a node towards the nearest state outside the box of the rest (table 7).");
+    sampling::describe_tree(s,
+                            "Probability of extending a node towards the nearest state outside "
+                            "the box of the rest (table 7).");
   }
 };
 
-class TargetlessRrt final : public FunctionPathPlanner {
+class TargetlessRrt final : public PathPlanner {
  public:
   explicit TargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
-  PathResult plan(const PathQuery& query, RunContext& context) override {
-    return sampling::plan_by_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return sampling::start_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
       return std::make_unique<sampling::NearestExit>(scene);
     });
   }

@@ -269,7 +269,7 @@ bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
   const Index end = keep(from, trip);
   if (end == Roadmap::kNone) return false;
   try_joins(end, stop);
-  return map_.tree(map_.node(0).tree).out > 0 && judged(result);
+  return map_.tree(map_.node(0).tree).out > 0 && verified(result);
 }
 
 }  // namespace dismantle::tunnel_forest

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/path/candidates.h"
 #include "dismantle/path_planner.h"
 #include "guide.h"
 #include "narrow_places.h"
@@ -24,10 +25,12 @@ class Forest {
          std::function<bool()> halted);
 
   bool starts_out() { return world_->separated(map_.node(0).state); }
-  /// One extension, and what joins follow from it. True when that led to a path that the judge accepts; then `result`
-  /// holds it. `stop` is asked before each push; once it says so, this returns soon.
+  /// One extension, and what joins follow from it. True when that led to a path
+  /// that the checker accepts; then `result` holds it. `stop` is asked before
+  /// each push; once it says so, this returns soon.
   bool iterate(PathResult& result, const std::function<bool()>& stop);
-  /// Grants what the judge does where parts overlap (World::relax). Nodes stay as they are.
+  /// Grants what the checker does where parts overlap (World::relax). Nodes
+  /// stay as they are.
   void relax() { world_->relax(); }
 
   std::uint64_t steps() const { return guide_.steps(); }  ///< simulated so far
@@ -67,8 +70,8 @@ class Forest {
   bool join(Index n, Index to, const std::function<bool()>& stop);
   void note_contacts(const State& state);
 
-  bool judged(PathResult& result);
-  bool passes(const Path& path, unsigned depth, PathResult& result, PathCheck& check, Path& shown);
+  bool verified(PathResult& result);
+  path::Shown show(const Path& path, unsigned depth, PathResult& result);
   Path eased(const Path& path);
   Path shortcut(const Path& path);
   bool is_free(const std::vector<Pose>& poses);

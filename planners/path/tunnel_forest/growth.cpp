@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dismantle/path/growing_turns.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tunnel_forest {
@@ -16,12 +17,13 @@ constexpr unsigned kBarren = 3;
 
 }  // namespace
 
-Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext& context)
+Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps)
     : parameters_(parameters),
       query_(query),
       context_(context),
       deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                         : context.deadline) {
+                                         : context.deadline),
+      most_steps_(most_steps) {
   if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
   if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
 }
@@ -32,33 +34,36 @@ void Growth::add(MotionSpace motion, std::uint64_t stream) {
        kFirstTurn});
 }
 
-PathResult Growth::run(std::uint64_t until, const Deadline& pause_at) {
-  until_ = until;
-  pause_at_ = pause_at;
-  PathResult result;
+SearchStatus Growth::run(const Budget& portion) {
+  if (is_success(result_.outcome())) return SearchStatus::solved;
   if (forests_.front().forest->starts_out()) {
-    result.start_is_goal();
-    return result;
+    result_.start_is_goal();
+    return SearchStatus::solved;
   }
+  until_ = path::end_of_portion(used(), portion.max_steps, most_steps_);
+  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
   bool solved = false;
-  while (!solved && !over() && used() < until_ && !pause_at_.passed()) {
+  while (!solved && !over() && used() < until_ && !end.passed()) {
     Grown& grown = forests_[next_];
     next_ = (next_ + 1) % forests_.size();
-    if (grown.barren < kBarren) solved = take_turn(grown, result);
+    if (grown.barren < kBarren) solved = take_turn(grown);
   }
-  if (!solved) say_why(result);
-  finish(result);
-  return result;
+  if (solved) return SearchStatus::solved;
+  result_.fail(context_.cancel.cancelled() ? Outcome::cancelled
+               : stopped()                 ? Outcome::timeout
+               : given_up()                ? Outcome::exhausted
+                                           : Outcome::depth_limit);
+  return over() || used() >= most_steps_ ? status_of(result_.outcome()) : SearchStatus::paused;
 }
 
-bool Growth::take_turn(Grown& grown, PathResult& result) {
+bool Growth::take_turn(Grown& grown) {
   const std::uint64_t begin = used(), end = std::min(until_, begin + grown.turn);
-  const auto stop = [&] { return used() >= end || stopped() || pause_at_.passed(); };
+  const auto stop = [&] { return used() >= end || stopped(); };
   bool solved = false;
   // Extensions that are stopped at once, as where nothing can move, need a count of their own.
   std::uint64_t extensions = 0;
   for (; !solved && !stop() && !given_up() && extensions < grown.turn; ++extensions)
-    solved = grown.forest->iterate(result, stop);
+    solved = grown.forest->iterate(result_, stop);
   const std::size_t cells = grown.forest->cells();
   const bool whole = used() - begin >= grown.turn || extensions == grown.turn;
   if (cells != grown.cells)
@@ -90,18 +95,15 @@ bool Growth::given_up() const {
          std::all_of(forests_.begin(), forests_.end(), [](const Grown& g) { return g.barren >= kBarren; });
 }
 
-void Growth::say_why(PathResult& result) const {
-  result.fail(context_.cancel.cancelled() ? Outcome::cancelled
-              : stopped()                 ? Outcome::timeout
-              : given_up()                ? Outcome::exhausted
-                                          : Outcome::depth_limit);
-  const auto& best = *std::max_element(forests_.begin(), forests_.end(), [](const Grown& a, const Grown& b) {
-    return a.forest->farthest_way() < b.forest->farthest_way();
-  });
-  result.best_pose = best.forest->farthest();
-}
-
-void Growth::finish(PathResult& result) const {
+PathResult Growth::result() {
+  PathResult result = result_;
+  if (result.outcome() == Outcome::start_is_goal) return result;
+  if (!is_success(result.outcome())) {
+    const auto& best = *std::max_element(forests_.begin(), forests_.end(), [](const Grown& a, const Grown& b) {
+      return a.forest->farthest_way() < b.forest->farthest_way();
+    });
+    result.best_pose = best.forest->farthest();
+  }
   std::map<PartId, std::uint64_t> touched;
   for (const auto& g : forests_) {
     result.stats += {.steps = g.forest->steps(),
@@ -113,6 +115,7 @@ void Growth::finish(PathResult& result) const {
     for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
   }
   result.blocked_by = path::most_touched(touched, query_.cast.moving);
+  return result;
 }
 
 }  // namespace dismantle::tunnel_forest

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,17 +11,16 @@ namespace dismantle::tunnel_forest {
 
 /// What the simulator has to be capable of.
 inline constexpr Capabilities kNeeds{.dynamics = true, .distance = true};
-inline constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
 
-class Growth {
+class Growth final : public PathSearch {
  public:
-  /// All three outlive this.
-  Growth(const Parameters& parameters, const PathQuery& query, RunContext& context);
+  /// All three outlive this. Ends with `depth_limit` when `most_steps` were
+  /// simulated; with `exhausted` when the checker has refused too many paths,
+  /// or nothing new is seen any more.
+  Growth(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps);
 
-  /// Goes on where the last call stopped, until so many steps were simulated in all calls together. `depth_limit`: that
-  /// is the case; `exhausted`: the judge has refused too much, or nothing new is seen any more.
-  /// ... or until `pause_at`.
-  PathResult run(std::uint64_t until, const Deadline& pause_at = {});
+  SearchStatus run(const Budget& portion) override;
+  PathResult result() override;
   /// Simulated so far.
   std::uint64_t used() const;
 
@@ -36,13 +34,11 @@ class Growth {
   };
 
   void add(MotionSpace motion, std::uint64_t stream);
-  bool take_turn(Grown& grown, PathResult& result);
+  bool take_turn(Grown& grown);
   bool halted() const;
   bool stopped() const;
   bool given_up() const;
   bool over() const { return stopped() || given_up(); }
-  void say_why(PathResult& result) const;
-  void finish(PathResult& result) const;
 
   const Parameters parameters_;
   const PathQuery& query_;
@@ -50,8 +46,9 @@ class Growth {
   Deadline deadline_;
   std::vector<Grown> forests_;
   std::size_t next_ = 0;  ///< whose turn it is
-  std::uint64_t until_ = 0;
-  Deadline pause_at_;
+  const std::uint64_t most_steps_;
+  std::uint64_t until_ = 0;  ///< steps at which this portion ends
+  PathResult result_;
 };
 
 }  // namespace dismantle::tunnel_forest

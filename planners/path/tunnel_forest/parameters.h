@@ -2,10 +2,11 @@
 #pragma once
 
 #include "dismantle/parameters.h"
+#include "dismantle/path/motion.h"
 
 namespace dismantle::tunnel_forest {
 
-enum class Motion { translation, rotation, automatic };
+using path::Motion;
 
 struct Parameters {
   Motion motion = Motion::automatic;

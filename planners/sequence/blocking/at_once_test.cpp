@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "barred_shaft.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "blocking/blocking.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/verification/check_plan.h"

@@ -17,10 +17,11 @@ namespace dismantle::blocking {
 namespace {
 
 /// Parts whose overlap proves that no motion can separate them.
-InseparablePairs overlap_locks(const PathOracle& oracle) {
+InseparablePairs overlap_locks(const Assembly& assembly, PathOracle& oracle, const RunContext& context) {
   InseparablePairs pairs;
-  if (oracle.judge() != nullptr)
-    for (const Lock& lock : oracle.judge()->locks()) pairs.emplace_back(lock.inside, lock.other);
+  for (const InitialOverlap& overlap : assembly.overlaps)
+    if (const Certificate* lock = oracle.prove({{overlap.a, overlap.b}, ProofEffort::trivial, 1}, context))
+      pairs.emplace_back(lock->parts[0], lock->parts[1]);
   return pairs;
 }
 
@@ -30,14 +31,14 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
                          SequenceObserver& observer, RunContext& context)
     : params_(params),
       oracle_(oracle),
-      state_(assembly, oracle.constraints(), overlap_locks(oracle), params.order, observer, context),
+      state_(assembly, oracle.constraints(), overlap_locks(assembly, oracle, context), params.order, observer, context),
       history_(state_, params),
       report_(state_, oracle) {
   state_.add_listener(history_);
   if (const Verifier* verifier = oracle.judge(); verifier != nullptr && params.straight) {
     straight_ = std::make_unique<StraightMotion>(state_, oracle, *verifier);
     state_.add_listener(*straight_);
-    if (params.cages) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, *verifier, params);
+    if (params.cages) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle, immobility_.get(), straight_.get());
   if (immobility_)

@@ -2,20 +2,23 @@
 
 #include <algorithm>
 
-#include "dismantle/verification/explanations.h"
-
 namespace dismantle::blocking {
+namespace {
+
+constexpr double kInterlockedShare = 0.5;  // of the tolerance
+
+}  // namespace
 
 using Kind = HoldQuestion::Kind;
 
 Immobility::Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history,
-                       const Verifier& verifier, const ImmobilityParams& params)
+                       PathOracle& oracle, const ImmobilityParams& params)
     : state_(state),
       straight_(straight),
       history_(history),
-      verifier_(verifier),
+      oracle_(oracle),
       params_(params),
-      answers_(verifier, state.assembly(), state.context().executor) {}
+      answers_(oracle, state.context().executor) {}
 
 bool Immobility::limit_reached(Kind kind) const {
   const auto known = proofs_.find(kind);
@@ -55,9 +58,9 @@ bool Immobility::merge_first(GroupState& group, const Questions& questions) {
       const Questions likely = before_proof(group, q);
       next.insert(next.end(), likely.begin(), likely.end());
     }
-    const auto why = answers_.answer(q, next, state_.context());
-    if (!why) continue;
-    state_.merge(group, {q.a, q.b}, *why);
+    const Certificate* proof = answers_.answer(q, next, state_.context());
+    if (proof == nullptr) continue;
+    state_.merge(group, {q.a, q.b}, *proof);
     return true;
   }
   return false;
@@ -128,9 +131,9 @@ bool Immobility::merge_interlocked(GroupState& group) {
     return false;
   if (!interlocked_.insert(parts).second) return false;
   state_.show_progress(parts.front());
-  const auto proof = verifier_.interlocked(parts, state_.context());
-  if (!proof) return false;
-  state_.merge(group, parts, describe(*proof, state_.assembly()));
+  const Certificate* proof = oracle_.prove({parts, ProofEffort::high, kInterlockedShare}, state_.context());
+  if (proof == nullptr) return false;
+  state_.merge(group, parts, *proof);
   return true;
 }
 

@@ -24,7 +24,7 @@ class Immobility {
   using Questions = std::vector<HoldQuestion>;
 
   /// All references must outlive this.
-  Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history, const Verifier& verifier,
+  Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history, PathOracle& oracle,
              const ImmobilityParams& params);
 
   /// Quick proofs about all pairs.
@@ -64,7 +64,7 @@ class Immobility {
   DisassemblyState& state_;
   StraightMotion& straight_;
   const SearchHistory& history_;
-  const Verifier& verifier_;
+  PathOracle& oracle_;
   const ImmobilityParams& params_;
   std::set<HoldQuestion> asked_;  // or not worth asking
   std::map<HoldQuestion::Kind, unsigned> proofs_;

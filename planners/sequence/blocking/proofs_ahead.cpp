@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verification/explanations.h"
-
 namespace dismantle::blocking {
 namespace {
 
@@ -17,22 +15,18 @@ constexpr std::size_t kAtATime = 4;
 
 }  // namespace
 
-std::optional<std::string> ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
-  const auto why = [&](const auto& found) -> std::optional<std::string> {
-    if (!found) return std::nullopt;
-    return describe(*found, assembly_);
-  };
+const Certificate* ProofsAhead::ask(const HoldQuestion& q, const RunContext& context) const {
   switch (q.kind) {
     case Kind::cage:
-      return why(judge_.caged(q.a, q.b, context));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::low, 1}, context);
     case Kind::flat:
-      return why(judge_.caged_flat(q.a, q.b, context));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::medium, 1}, context);
     case Kind::confined_for_sure:
-      return why(judge_.confined(q.a, q.b, context, kShareForSure));
+      return oracle_.prove({{q.a, q.b}, ProofEffort::high, kShareForSure}, context);
     case Kind::confined_at_last:
       break;
   }
-  return why(judge_.confined(q.a, q.b, context, kShareAtLast));
+  return oracle_.prove({{q.a, q.b}, ProofEffort::high, kShareAtLast}, context);
 }
 
 void ProofsAhead::begin(std::span<const HoldQuestion> wanted, const RunContext& context) {
@@ -45,8 +39,8 @@ void ProofsAhead::begin(std::span<const HoldQuestion> wanted, const RunContext& 
   known_.prefetch(std::move(first), context);
 }
 
-std::optional<std::string> ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
-                                               const RunContext& context) {
+const Certificate* ProofsAhead::answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
+                                       const RunContext& context) {
   std::vector<HoldQuestion> wanted;
   if (known_.is_running(question)) wanted.push_back(question);  // it goes on
   wanted.insert(wanted.end(), next.begin(), next.end());

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "barred_shaft.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {

@@ -56,10 +56,12 @@ Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
   Attempt attempt;
   for (const PartId other : state_.parts_of(id))
     (other == part ? attempt.moving : attempt.still).push_back({other, state_.pose(other)});
-  const PathResult& result = oracle_.attempt(attempt, state_.context()).result;
+  const AttemptResult& answer = oracle_.attempt(attempt, state_.context());
+  const PathResult& result = answer.result;
   reason.outcome = is_success(result.outcome()) ? Outcome::exhausted : result.outcome();
   reason.blocked_by = result.blocked_by;
   reason.message = result.message;
+  reason.certificate = answer.certificate;
   return reason;
 }
 
@@ -70,7 +72,7 @@ Outcome Report::outcome() const {
   const auto all = [&](Outcome o) { return std::all_of(unsolved_.begin(), unsolved_.end(), is(o)); };
   if (any(Outcome::crashed)) return Outcome::crashed;
   if (state_.interrupted()) return state_.context().cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
-  for (const Outcome o : {Outcome::unsupported, Outcome::invalid_start})
+  for (const Outcome o : {Outcome::unsupported, Outcome::invalid_start, Outcome::infeasible})
     if (all(o)) return o;
   for (const Outcome o : {Outcome::timeout, Outcome::depth_limit})
     if (any(o)) return o;

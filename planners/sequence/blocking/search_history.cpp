@@ -31,7 +31,10 @@ Attempt SearchHistory::attempt_for(const GroupState& group, SubassemblyId id, un
 
 bool SearchHistory::reached_depth_limit(SubassemblyId id) const {
   const PastSearch* search = last(id);
-  return search != nullptr && search->outcome == Outcome::depth_limit;
+  if (search == nullptr) return false;
+  const Certificate* proof = search->answer != nullptr ? search->answer->certificate : nullptr;
+  return search->outcome == Outcome::depth_limit ||
+         (search->outcome == Outcome::infeasible && proof != nullptr && proof->poses.empty());
 }
 
 bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, unsigned depth) const {
@@ -42,7 +45,7 @@ bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, uns
       search->depth > 1 ? std::min<std::size_t>(touched.size(), params_.touched_parts) : touched.size();
   const bool room = std::any_of(touched.begin(), touched.begin() + static_cast<std::ptrdiff_t>(count),
                                 [&](PartId part) { return !group.contains(state_.subassembly_of(part)); });
-  return room || (search->outcome == Outcome::depth_limit && search->depth < depth);
+  return room || (reached_depth_limit(id) && search->depth < depth);
 }
 
 unsigned SearchHistory::max_depth(const GroupState& group) const {

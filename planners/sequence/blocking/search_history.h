@@ -33,7 +33,8 @@ class SearchHistory final : public GroupListener {
 
   /// The search for a path of `id` out of its group. It resumes the last one unless the part has been moved since.
   Attempt attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const;
-  /// Did its last search end because of the depth limit?
+  /// Did its last search end because of the depth limit? Or with a proof that it and another part hold each other as
+  /// assembled: then it is merged when the turn of such proofs comes, as others that reached the limit.
   bool reached_depth_limit(SubassemblyId id) const;
   /// A search that failed is not repeated to the same depth while all that it touched are in the group, or, from depth
   /// 2 on, those that it touched most: it would most likely fail again. It may succeed all the same (the hulls of

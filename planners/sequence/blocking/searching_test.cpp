@@ -5,7 +5,7 @@
 #include <map>
 
 #include "blocking/blocking.h"
-#include "one_by_one/fake_oracle.h"
+#include "dismantle/testing/fake_oracle.h"
 
 namespace dismantle {
 namespace {

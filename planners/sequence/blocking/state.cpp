@@ -166,13 +166,14 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   show_progress(removal.parts.front());
 }
 
-void DisassemblyState::merge(GroupState& group, const std::vector<PartId>& parts, const std::string& why) {
-  context_.log(LogLevel::info, why);
+void DisassemblyState::merge(GroupState& group, const std::vector<PartId>& parts, const Certificate& proof) {
+  context_.log(LogLevel::info, proof.text);
+  const Outcome outcome = proof.full_tolerance ? Outcome::infeasible : Outcome::exhausted;
   for (const PartId part : parts) {
     std::vector<PartId> rest = parts;
     std::erase(rest, part);
     inseparable_[part] = true;
-    proofs_.try_emplace(part, Unsolved{part, Outcome::exhausted, rest, {}, why});
+    proofs_.try_emplace(part, Unsolved{part, outcome, rest, {}, proof.text, &proof});
   }
   for (std::size_t i = 1; i < parts.size(); ++i)
     if (of_part_[parts[i]] != of_part_[parts[0]]) merge_two(group, of_part_[parts[0]], of_part_[parts[i]]);

@@ -137,7 +137,7 @@ class DisassemblyState {
   void commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt, const AttemptResult& answer,
               GroupChange::Kind kind);
   /// Makes one subassembly of all that have one of `parts`, which are proved inseparable.
-  void merge(GroupState& group, const std::vector<PartId>& parts, const std::string& why);
+  void merge(GroupState& group, const std::vector<PartId>& parts, const Certificate& proof);
 
   // Progress and result.
   /// The run is to end: it was interrupted, or the target is out.

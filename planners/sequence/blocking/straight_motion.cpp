@@ -318,7 +318,8 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
     const std::vector<PartId> parts = state_.parts_of(ids);
     refused_.insert({parts, direction});
     for (const PartId id : parts)
-      state_.set_failure({id, answer.result.outcome(), answer.result.blocked_by, {}, answer.result.message});
+      state_.set_failure(
+          {id, answer.result.outcome(), answer.result.blocked_by, {}, answer.result.message, answer.certificate});
     return false;
   }
   state_.commit(group, ids, attempt, answer, GroupChange::Kind::removed);

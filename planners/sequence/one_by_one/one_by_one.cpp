@@ -68,7 +68,8 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
     observer_.removed(removals_.back(), left_.size());
     context_.progress("sequence", removals_.size(), assembly_.parts.size() - 1, assembly_.parts[part].name);
   } else if (!interrupted() || !last_[part]) {  // an interrupted attempt says less than the one before it
-    last_[part] = Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message};
+    last_[part] =
+        Unsolved{part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate};
   }
   return result.outcome();
 }
@@ -85,7 +86,7 @@ Outcome OneByOne::outcome() const {
     return std::all_of(left_.begin(), left_.end(), [&](PartId id) { return last_[id] && last_[id]->outcome == o; });
   };
   if (any(Outcome::crashed)) return Outcome::crashed;
-  for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported})
+  for (const Outcome o : {Outcome::invalid_start, Outcome::unsupported, Outcome::infeasible})
     if (all(o)) return o;
   if (any(Outcome::timeout)) return Outcome::timeout;
   if (any(Outcome::depth_limit)) return Outcome::depth_limit;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "one_by_one/fake_oracle.h"
+#include "dismantle/testing/fake_oracle.h"
 
 namespace dismantle {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "one_by_one/fake_oracle.h"
+#include "dismantle/testing/fake_oracle.h"
 
 namespace dismantle {
 namespace {

@@ -32,7 +32,7 @@ std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::p
   return std::nullopt;
 }
 
-std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file) {
+std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file, const RunContext&) {
   const std::string e = ending(file);
   try {
     if (e == "obj") return read_obj(file);

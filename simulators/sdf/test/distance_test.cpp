@@ -142,7 +142,9 @@ TEST(DistanceGrid, SignIsRightWhereverTheSurfaceIsFurtherThanACell) {
       inside += exact < 0;
       EXPECT_EQ(grid.value(p) < 0, exact < 0) << p.transpose() << " exact " << exact << " grid " << grid.value(p);
     }
-    if (std::string_view(c.name) == "box" || std::string_view(c.name) == "torus") EXPECT_GT(inside, 50);
+    if (std::string_view(c.name) == "box" || std::string_view(c.name) == "torus") {
+      EXPECT_GT(inside, 50);
+    }
   }
 }
 

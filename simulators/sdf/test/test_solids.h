@@ -1,22 +1,17 @@
 /// Closed test surfaces with known insides.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "dismantle/mesh.h"
 #include "dismantle/run_context.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::sdf::test {
 
-inline Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
-  Mesh m;
-  for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back((i & 1) ? hi.x() : lo.x(), (i & 2) ? hi.y() : lo.y(), (i & 4) ? hi.z() : lo.z());
-  m.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return m;
-}
+using shapes::box, shapes::inside_out, shapes::joined;
 
 /// Ring of `around` x `across` quads: point(u, v) on a closed torus-like surface, u and v in [0, 1).
 template <class F>
@@ -66,18 +61,6 @@ inline Mesh threaded_rod(double radius, double depth, double length, int turns, 
     m.triangles.push_back({bottom, id(0, i + 1), id(0, i)});
     m.triangles.push_back({top, id(rows, i), id(rows, i + 1)});
   }
-  return m;
-}
-
-inline Mesh joined(Mesh a, const Mesh& b) {
-  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  return a;
-}
-
-inline Mesh inside_out(Mesh m) {
-  for (auto& t : m.triangles) std::swap(t[1], t[2]);
   return m;
 }
 

@@ -11,47 +11,17 @@
 
 #include "dismantle/host/registry.h"
 #include "dismantle/simulator.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::sdf::test {
 
 using Eigen::Vector3d;
-
-inline Mesh box(const Vector3d& lo, const Vector3d& hi) {
-  Mesh m;
-  for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back((i & 1) != 0 ? hi.x() : lo.x(), (i & 2) != 0 ? hi.y() : lo.y(),
-                            (i & 4) != 0 ? hi.z() : lo.z());
-  m.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                 {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return m;
-}
-
-inline Mesh joined(Mesh a, const Mesh& b) {
-  const auto offset = static_cast<std::uint32_t>(a.vertices.size());
-  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
-  for (const auto& t : b.triangles) a.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-  return a;
-}
+using shapes::box, shapes::joined, shapes::assembly_of;
 
 /// A box with a closed room inside; `half`: of the room, `wall`: thickness all around.
 inline Mesh closed_room(const Vector3d& half, double wall) {
   const Vector3d outer = half + Vector3d::Constant(wall);
-  Mesh inner = box(-half, half);
-  for (auto& t : inner.triangles) std::swap(t[1], t[2]);
-  return joined(box(-outer, outer), inner);
-}
-
-inline Assembly assembly_of(std::vector<Mesh> meshes) {
-  Assembly a;
-  for (auto& mesh : meshes) {
-    Part part;
-    part.id = static_cast<PartId>(a.parts.size());
-    part.name = "part" + std::to_string(part.id);
-    part.mesh = part.surface = std::make_shared<const Mesh>(std::move(mesh));
-    a.input_box.extend(part.mesh->box());
-    a.parts.push_back(std::move(part));
-  }
-  return a;
+  return shapes::closed_box(-outer, outer, wall);
 }
 
 inline const Registry& registry() {

@@ -115,6 +115,7 @@ void RunningTrial::take_result() {
     row_.prepare_seconds = r.at("prepare_seconds").get<double>();
     row_.plan_seconds = r.at("plan_seconds").get<double>();
     row_.solve_seconds = r.at("solve_seconds").get<double>();
+    row_.proof_seconds = r.at("proof_seconds").get<double>();
     row_.attempts = r.at("attempts").get<std::int64_t>();
     row_.memoised = r.at("memoised").get<std::int64_t>();
     const nlohmann::json& counts = r.at("counts");

@@ -176,7 +176,8 @@ void Results::finish(std::size_t trial, const TrialRow& row) {
       "input = ?, "
       "input_sha256 = ?, parts = ?, excluded = ?, removed = ?, left_together = ?, steps = ?, wall_seconds = ?, "
       "cpu_seconds = ?, "
-      "peak_rss_mb = ?, load_seconds = ?, prepare_seconds = ?, plan_seconds = ?, solve_seconds = ?, judge_seconds = ?, "
+      "peak_rss_mb = ?, load_seconds = ?, prepare_seconds = ?, plan_seconds = ?, solve_seconds = ?, "
+      "proof_seconds = ?, judge_seconds = ?, "
       "attempts = ?, memoised = ?, simulated_steps = ?, nodes = ?, collision_checks = ?, counts = ?, host = ?, "
       "cpu_model = ?, "
       "version = ?, started = ?, ended = strftime('%Y-%m-%dT%H:%M:%SZ', 'now') WHERE id = ? AND state = 'running' AND "
@@ -185,7 +186,7 @@ void Results::finish(std::size_t trial, const TrialRow& row) {
   update.bind(row.judgement).bind(row.signal).bind(row.exit_status).bind(row.last_words).bind(row.input);
   update.bind(row.input_sha256).bind(row.parts).bind(row.excluded).bind(row.removed).bind(row.left).bind(row.steps);
   update.bind(row.wall_seconds).bind(row.cpu_seconds).bind(row.peak_rss_mb).bind(row.load_seconds);
-  update.bind(row.prepare_seconds).bind(row.plan_seconds).bind(row.solve_seconds).bind(row.judge_seconds);
+  update.bind(row.prepare_seconds).bind(row.plan_seconds).bind(row.solve_seconds).bind(row.proof_seconds).bind(row.judge_seconds);
   update.bind(row.attempts).bind(row.memoised).bind(row.simulated_steps).bind(row.nodes).bind(row.collision_checks);
   update.bind(row.counts).bind(host_.substr(0, host_.find(' '))).bind(cpu_).bind(DISMANTLE_VERSION).bind(row.started);
   update.bind(id).bind(owner_).done();

@@ -46,7 +46,7 @@ struct TrialRow {
   std::string input, input_sha256;
   std::optional<std::int64_t> parts, excluded, removed, left, steps;
   double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0;
-  std::optional<double> load_seconds, prepare_seconds, plan_seconds, solve_seconds, judge_seconds;
+  std::optional<double> load_seconds, prepare_seconds, plan_seconds, solve_seconds, proof_seconds, judge_seconds;
   std::optional<std::int64_t> attempts, memoised;
   std::optional<double> simulated_steps, nodes, collision_checks;
   std::string counts;  ///< all counts of the planner, JSON
@@ -91,6 +91,6 @@ class Results {
 };
 
 /// Version of the tables.
-inline constexpr int kStoreVersion = 1;
+inline constexpr int kStoreVersion = 2;
 
 }  // namespace dismantle::bench

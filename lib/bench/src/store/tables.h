@@ -22,7 +22,7 @@ CREATE TABLE IF NOT EXISTS trials (
   signal INTEGER, exit_status INTEGER, last_words TEXT,
   input TEXT, input_sha256 TEXT, parts INTEGER, excluded INTEGER, removed INTEGER, left_together INTEGER, steps INTEGER,
   wall_seconds REAL, cpu_seconds REAL, peak_rss_mb REAL, load_seconds REAL, prepare_seconds REAL, plan_seconds REAL,
-  solve_seconds REAL, judge_seconds REAL,
+  solve_seconds REAL, proof_seconds REAL, judge_seconds REAL,
   attempts INTEGER, memoised INTEGER, simulated_steps REAL, nodes REAL, collision_checks REAL, counts TEXT,
   host TEXT, cpu_model TEXT, version TEXT, started TEXT, ended TEXT,
   UNIQUE (assembly, variant, planner, seed));

@@ -119,6 +119,7 @@ void plan_trial(const fs::path& folder) {
                                {"prepare_seconds", result.prepare_seconds},
                                {"plan_seconds", result.plan_seconds},
                                {"solve_seconds", solve_seconds},
+                               {"proof_seconds", result.proof_seconds},
                                {"attempts", result.counts.attempts},
                                {"memoised", result.counts.memoised},
                                {"proposed", result.counts.proposed},

@@ -12,6 +12,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {
@@ -52,6 +53,21 @@ class Place {
     for (std::size_t i = 0; i < value_.size(); ++i)
       out.emplace_back(value_[i], source_, fmt::format("{}/{}", path_, i));
     return out;
+  }
+
+  std::vector<std::pair<std::string, Place>> members() const {
+    if (!value_.is_object()) fail("expected an object");
+    std::vector<std::pair<std::string, Place>> out;
+    for (const auto& item : value_.items()) out.emplace_back(item.key(), at(item.key()));
+    return out;
+  }
+
+  ParamValue parameter() const {
+    if (value_.is_boolean()) return value_.get<bool>();
+    if (value_.is_number_integer()) return value_.get<std::int64_t>();
+    if (value_.is_number()) return value_.get<double>();
+    if (!value_.is_string()) fail("expected a number, a string, true or false");
+    return value_.get<std::string>();
   }
 
   std::string text() const {
@@ -149,8 +165,16 @@ std::vector<std::string> read_group(const Place& place, const Names& parts) {
   return out;
 }
 
+ImportParams read_import(const Place& place) {
+  ImportParams out;
+  for (const auto& [importer, values] : place.members())
+    for (const auto& [name, value] : values.members()) out[importer][name] = value.parameter();
+  return out;
+}
+
 PlanAssembly read_assembly(const Place& place, Names& parts) {
-  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"}, {"repair"});
+  place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"},
+               {"repair", "unit", "import"});
   PlanAssembly a;
   a.source = place.at("source").text();
   a.sha256 = place.at("sha256").text();
@@ -164,8 +188,14 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     if (a.box.empty()) box.fail("the first corner is above the second");
   }
   for (const Place& item : place.at("parts").items()) {
-    item.object({"id", "name", "file"});
+    item.object({"id", "name", "file"}, {"color", "parents"});
     PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
+    if (item.has("color")) {
+      p.colour = rgba_from_hex(item.at("color").text());
+      if (!p.colour) item.at("color").fail("expected a colour as in \"#rrggbb\"");
+    }
+    if (item.has("parents"))
+      for (const Place& parent : item.at("parents").items()) p.parents.push_back(parent.text());
     if (p.id != a.parts.size())
       item.at("id").fail(fmt::format("expected {}: parts are numbered in order", a.parts.size()));
     if (!parts.insert(p.name).second) item.at("name").fail(fmt::format("there are two parts '{}'", p.name));
@@ -181,6 +211,8 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     if (o.a == o.b) item.fail("a part cannot overlap itself");
     a.overlaps.push_back(std::move(o));
   }
+  if (place.has("unit")) a.unit = place.at("unit").name();
+  if (place.has("import")) a.import_params = read_import(place.at("import"));
   if (place.has("repair")) {
     const Place repair = place.at("repair");
     repair.object({"weld", "repair", "max_hole"});
@@ -258,7 +290,7 @@ std::vector<PlanStep> read_steps(const Place& place, StepKind kind, const Names&
 }
 
 PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
-  place.object({"part", "outcome", "blocked_by", "best_pose", "message"});
+  place.object({"part", "outcome", "blocked_by", "best_pose", "message"}, {"certificate"});
   PlanUnsolved u;
   u.part = read_part(place.at("part"), parts);
   const std::string outcome = place.at("outcome").text();
@@ -268,7 +300,26 @@ PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
   u.blocked_by = read_group(place.at("blocked_by"), parts);
   u.best_pose = read_pose(place.at("best_pose"));
   u.message = place.at("message").text();
+  if (place.has("certificate")) u.certificate = place.at("certificate").count();
   return u;
+}
+
+PlanCertificate read_certificate(const Place& place, const Names& parts) {
+  place.object({"kind", "parts", "full_tolerance", "margin", "numbers", "text"}, {"poses"});
+  PlanCertificate c;
+  c.kind = place.at("kind").name();
+  c.parts = read_group(place.at("parts"), parts);
+  if (c.parts.size() < 2) place.at("parts").fail("expected two parts at least");
+  if (place.has("poses")) {
+    for (const Place& item : place.at("poses").items()) c.poses.push_back(read_pose(item));
+    if (c.poses.size() != c.parts.size()) place.at("poses").fail("expected one pose for each part");
+  }
+  c.full_tolerance = place.at("full_tolerance").truth();
+  c.margin = place.at("margin").positive();
+  for (const auto& [name, values] : place.at("numbers").members())
+    for (const Place& value : values.items()) c.numbers[name].push_back(value.number());
+  c.text = place.at("text").text();
+  return c;
 }
 
 AssemblyStatus read_assembly_status(const Place& place) {
@@ -310,7 +361,7 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
     root.at("version").fail(fmt::format("this program reads version 1 of the plan format, not {}", version));
   root.object({"format", "version", "generator", "assembly", "status", "seed", "verified_max_penetration",
                "disassembly", "assembly_steps", "remaining", "unsolved"},
-              {"assembly_status", "assembly_message"});
+              {"assembly_status", "assembly_message", "certificates"});
 
   Plan plan;
   Names parts;
@@ -330,6 +381,12 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   if (root.has("assembly_message")) plan.assembly_message = root.at("assembly_message").text();
   plan.remaining = read_group(root.at("remaining"), parts);
   for (const Place& item : root.at("unsolved").items()) plan.unsolved.push_back(read_unsolved(item, parts));
+  if (root.has("certificates"))
+    for (const Place& item : root.at("certificates").items())
+      plan.certificates.push_back(read_certificate(item, parts));
+  for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
+    if (plan.unsolved[i].certificate && *plan.unsolved[i].certificate >= plan.certificates.size())
+      root.at("unsolved").items()[i].at("certificate").fail("there is no such certificate");
   return plan;
 }
 

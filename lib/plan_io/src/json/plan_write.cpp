@@ -2,6 +2,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
+#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {
@@ -59,9 +60,20 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
   return out;
 }
 
+Json import_json(const ImportParams& params) {
+  Json out;
+  for (const auto& [importer, values] : params)
+    for (const auto& [name, value] : values) std::visit([&](const auto& v) { out[importer][name] = v; }, value);
+  return out;
+}
+
 Json assembly_json(const PlanAssembly& a) {
   Json parts = Json::array(), excluded = Json::array(), overlaps = Json::array();
-  for (const PlanPart& p : a.parts) parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
+  for (const PlanPart& p : a.parts) {
+    parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
+    if (p.colour) parts.back()["color"] = to_hex(*p.colour);
+    if (!p.parents.empty()) parts.back()["parents"] = p.parents;
+  }
   for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
   for (const PlanOverlap& o : a.overlaps) overlaps.push_back({{"a", o.a}, {"b", o.b}, {"depth", o.depth}});
   Json out;
@@ -75,6 +87,28 @@ Json assembly_json(const PlanAssembly& a) {
   out["overlaps"] = std::move(overlaps);
   if (a.repair != SurfaceRepair{})
     out["repair"] = {{"weld", a.repair.weld}, {"repair", a.repair.repair}, {"max_hole", a.repair.max_hole}};
+  if (!a.unit.empty()) out["unit"] = a.unit;
+  if (!a.import_params.empty()) out["import"] = import_json(a.import_params);
+  return out;
+}
+
+Json certificates_json(const std::vector<PlanCertificate>& certificates) {
+  Json out = Json::array();
+  for (const PlanCertificate& c : certificates) {
+    Json one = {{"kind", c.kind}, {"parts", c.parts}};
+    if (!c.poses.empty()) {
+      Json poses = Json::array();
+      for (const Pose& p : c.poses) poses.push_back(pose_json(p, canonical_sign(p.q)));
+      one["poses"] = std::move(poses);
+    }
+    one["full_tolerance"] = c.full_tolerance;
+    one["margin"] = c.margin;
+    Json numbers = Json::object();
+    for (const auto& [name, values] : c.numbers) numbers[name] = values;
+    one["numbers"] = std::move(numbers);
+    one["text"] = c.text;
+    out.push_back(std::move(one));
+  }
   return out;
 }
 
@@ -100,6 +134,8 @@ std::string to_json(const Plan& plan) {
                         {"blocked_by", u.blocked_by},
                         {"best_pose", pose_json(u.best_pose, canonical_sign(u.best_pose.q))},
                         {"message", u.message}});
+  for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
+    if (plan.unsolved[i].certificate) unsolved[i]["certificate"] = *plan.unsolved[i].certificate;
   Json out;
   out["format"] = "dismantle.plan";
   out["version"] = 1;
@@ -114,6 +150,7 @@ std::string to_json(const Plan& plan) {
   out["assembly_message"] = plan.assembly_message;
   out["remaining"] = plan.remaining;
   out["unsolved"] = std::move(unsolved);
+  if (!plan.certificates.empty()) out["certificates"] = certificates_json(plan.certificates);
   return json_text(out) + "\n";
 }
 

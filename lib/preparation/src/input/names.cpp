@@ -42,6 +42,9 @@ std::string valid_utf8(std::string_view bytes) {
     } else if (n == 1 && (static_cast<unsigned char>(bytes[i]) < 0x20 || bytes[i] == 0x7F)) {
       out += '_';
       ++i;
+    } else if (n == 2 && bytes[i] == '\xC2' && static_cast<unsigned char>(bytes[i + 1]) < 0xA0) {
+      out += '_';  // a terminal takes these for commands
+      i += 2;
     } else {
       out += bytes.substr(i, n);
       i += n;

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "input/own_files.h"
 #include "input/sha256.h"
 
 namespace dismantle {
@@ -74,6 +75,8 @@ std::vector<fs::path> meshes_in(const fs::path& folder, const Readers& readers, 
       // Broken links come through, so that reading them names the trouble; pipes and devices would hang.
       if (fs::is_other(status))
         warnings.push_back(fmt::format("'{}' is no regular file: left aside", valid_utf8(name)));
+      else if (extension == "glb" && is_own_animation(path))
+        warnings.push_back(fmt::format("'{}' is the animation of a plan and no part: left aside", valid_utf8(name)));
       else
         meshes.push_back(path);
     } else if (!companions().count(extension)) {
@@ -125,6 +128,12 @@ std::string too_many(std::uint64_t count, const std::string& where, std::int64_t
       count, where, limit);
 }
 
+/// Passing the limit of triangles refuses the whole input.
+class TooLarge : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 class Reader {
  public:
   Reader(const ReadOptions& options, const RunContext& context, InputParts& out)
@@ -132,7 +141,7 @@ class Reader {
 
   /// All parts of one file, checked; adds its bytes to the fingerprint.
   std::vector<RawPart> read(const fs::path& file, Importer& importer) {
-    if (context_.should_stop()) throw Error("stopped while reading " + file.string());
+    stop_if_told(file);
     std::error_code ec;
     const auto bytes = fs::file_size(file, ec);
     if (ec) throw InputError(file.string(), fmt::format("cannot be read: {}", ec.message()));
@@ -141,21 +150,39 @@ class Reader {
     if (bytes / 4 > static_cast<std::uint64_t>(options_.max_triangles)) {
       const auto count = importer.count_triangles(file);
       if (count && *count > static_cast<std::uint64_t>(options_.max_triangles))
-        throw InputError(file.string(), too_many(*count, "", options_.max_triangles));
+        throw TooLarge(file.string(), too_many(*count, "", options_.max_triangles));
     }
     hash_.add_file(file);
     if (lower_extension(file) == "gltf")
       for (const auto& buffer : buffers_of_gltf(file)) hash_.add_file(buffer);
-    std::vector<RawPart> parts = importer.read(file);
+    std::vector<RawPart> parts = importer.read(file, context_);
+    stop_if_told(file);
     if (parts.empty()) throw InputError(file.string(), "the file holds no mesh");
     for (auto& part : parts) {
       total_ += part.mesh.triangles.size();
       part.name = valid_utf8(part.name);
       part.file = valid_utf8(file.filename().string());
+      for (auto& parent : part.parents) parent = valid_utf8(parent);
     }
-    if (total_ > static_cast<std::uint64_t>(options_.max_triangles))
-      throw InputError(file.string(), too_many(total_, " up to this file", options_.max_triangles));
     return parts;
+  }
+
+  /// One file of a folder: what cannot be read is a part that cannot be used.
+  RawPart read_whole(const fs::path& file, Importer& importer) {
+    try {
+      return joined(read(file, importer), file);
+    } catch (const TooLarge&) {
+      throw;
+    } catch (const InputError& e) {
+      RawPart broken;
+      broken.file = valid_utf8(file.filename().string());
+      broken.problem = e.what();
+      // The subject is the file, which its name stands for already.
+      if (const std::string subject = e.subject() + ": "; broken.problem.starts_with(subject))
+        broken.problem.erase(0, subject.size());
+      broken.problem = fmt::format("{} cannot be read: {}", broken.file, valid_utf8(broken.problem));
+      return broken;
+    }
   }
 
   void add_folder(const fs::path& folder, const Readers& readers) {
@@ -165,9 +192,8 @@ class Reader {
     std::size_t done = 0;
     for (const auto& file : files) {
       context_.progress("read", done++, files.size(), file.filename().string());
-      auto parts = read(file, *readers.at(lower_extension(file)));
-      RawPart whole = std::move(parts.front());
-      for (std::size_t i = 1; i < parts.size(); ++i) append(whole.mesh, parts[i].mesh);
+      RawPart whole = read_whole(file, *readers.at(lower_extension(file)));
+      check_total(file);
       whole.name = valid_utf8(file.stem().string());
       if (stems[whole.name] > 1) {
         out_.warnings.push_back(
@@ -186,6 +212,7 @@ class Reader {
                                                   file.extension().string(), readable(readers)));
     context_.progress("read", 0, 1, file.filename().string());
     out_.parts = read(file, *found->second);
+    check_total(file);
     for (auto& part : out_.parts)
       if (part.name.empty()) part.name = valid_utf8(file.stem().string());
     context_.progress("read", 1, 1);
@@ -194,6 +221,41 @@ class Reader {
   std::string fingerprint() { return hash_.hex(); }
 
  private:
+  void stop_if_told(const fs::path& file) const {
+    if (context_.should_stop()) throw Error("stopped while reading " + file.string());
+  }
+
+  void check_total(const fs::path& file) const {
+    if (total_ > static_cast<std::uint64_t>(options_.max_triangles))
+      throw TooLarge(file.string(), too_many(total_, " up to this file", options_.max_triangles));
+  }
+
+  /// All bodies of a file as one part; those that cannot be used are named in a warning, unless there are no others.
+  RawPart joined(std::vector<RawPart> parts, const fs::path& file) {
+    RawPart whole;
+    whole.file = parts.front().file;
+    bool first = true;
+    for (auto& part : parts) {
+      if (!part.problem.empty()) {
+        if (whole.problem.empty()) whole.problem = part.problem;
+        out_.warnings.push_back(
+            fmt::format("'{}' of {} is left aside: {}", part.name, valid_utf8(file.filename().string()), part.problem));
+        continue;
+      }
+      if (first) {
+        whole.colour = part.colour;
+        whole.unit = part.unit;
+        whole.mesh = std::move(part.mesh);
+        first = false;
+        continue;
+      }
+      if (whole.colour != part.colour) whole.colour.reset();  // there is no one colour for all
+      append(whole.mesh, part.mesh);
+    }
+    if (!first) whole.problem.clear();
+    return whole;
+  }
+
   static void append(Mesh& to, const Mesh& from) {
     const auto base = static_cast<std::uint32_t>(to.vertices.size());
     to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "plan/check_certificates.h"
 #include "plan/plan_state.h"
 
 namespace dismantle {
@@ -24,8 +25,14 @@ Group without(const Group& group, const Group& taken) {
 
 class Checker {
  public:
-  Checker(const Plan& plan, const Assembly& assembly, const VerifyOptions& options, RunContext& context)
-      : plan_(plan), assembly_(assembly), context_(context), verifier_(assembly, options), state_(assembly) {}
+  Checker(const Plan& plan, const Assembly& assembly, const VerifyOptions& options, RunContext& context,
+          const ProverOfKind& prover_of)
+      : plan_(plan),
+        assembly_(assembly),
+        context_(context),
+        prover_of_(prover_of),
+        verifier_(assembly, options),
+        state_(assembly) {}
 
   PlanCheck run() {
     check_names();
@@ -41,6 +48,7 @@ class Checker {
     const bool complete =
         std::all_of(state_.groups.begin(), state_.groups.end(), [](const Group& g) { return g.size() <= 1; });
     check_end(complete);
+    check_certificates();
     if (!stopped()) assembly_steps(done, total);
     step_ = 0;
     if (stopped()) problem("the check was stopped before its end");
@@ -103,6 +111,7 @@ class Checker {
     if (step.step != index + 1) problem(fmt::format("it is numbered {}, expected {}", step.step, index + 1));
     const auto motion = read(step, "");
     if (!motion) return;
+    motions_.push_back(*motion);
     for (std::size_t i = 0; i < motion->moving.size(); ++i)
       if (const auto wrong = state_.wrong_start(motion->moving[i], motion->path.front()[i])) problem(*wrong);
     const auto group = std::find_if(state_.groups.begin(), state_.groups.end(), [&](const Group& g) {
@@ -180,6 +189,13 @@ class Checker {
     for (const auto& name : plan_.remaining)
       if (!state_.find(name) || !seen.insert(name).second)
         problem(fmt::format("remaining: '{}' is unknown or listed twice", name));
+  }
+
+  void check_certificates() {
+    if (stopped()) return;
+    const auto wrong = problems_of_certificates(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
+    if (wrong.empty()) result_.certificates = plan_.certificates.size();
+    for (const auto& text : wrong) problem(text);
   }
 
   /// How far a pose may be off and still be taken for another, assembly units: what is left of numbers that were
@@ -311,17 +327,20 @@ class Checker {
   const Plan& plan_;
   const Assembly& assembly_;
   RunContext& context_;
+  const ProverOfKind& prover_of_;
   Verifier verifier_;
   PlanState state_;
   PlanCheck result_;
-  std::vector<Group> passed_;  // by disassembly step: what its parts were checked against
+  std::vector<StepMotion> motions_;  // of the disassembly steps that could be read
+  std::vector<Group> passed_;        // by disassembly step: what its parts were checked against
   unsigned step_ = 0;
 };
 
 }  // namespace
 
-PlanCheck check_plan(const Plan& plan, const Assembly& assembly, const VerifyOptions& options, RunContext& context) {
-  return Checker(plan, assembly, options, context).run();
+PlanCheck check_plan(const Plan& plan, const Assembly& assembly, const VerifyOptions& options, RunContext& context,
+                     const ProverOfKind& prover_of) {
+  return Checker(plan, assembly, options, context, prover_of).run();
 }
 
 }  // namespace dismantle

@@ -216,7 +216,7 @@ TEST(Resume, LessonsAreKept) {
 
 /// What other planners have kept is none of its business.
 TEST(Resume, WhatIsNotItsOwnIsIgnored) {
-  class Strange final : public Reached {};
+  class Strange final : public SearchState {};
   const Strange strange;
   const RandomMaze m = random_maze(2);
   const Made with(m, "bfs", 0, {}, &strange), without(m, "bfs", 0, {});

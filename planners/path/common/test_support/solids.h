@@ -9,39 +9,21 @@
 #include "dismantle/aabb.h"
 #include "dismantle/assembly.h"
 #include "dismantle/run_context.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::path::test {
 
 using Eigen::Vector3d;
+using shapes::boxes, shapes::moved;
 
 inline Aabb block(double x0, double y0, double z0, double x1, double y1, double z1) {
   return {{x0, y0, z0}, {x1, y1, z1}};
-}
-
-inline Mesh boxes(const std::vector<Aabb>& list) {
-  Mesh mesh;
-  for (const auto& b : list) {
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int i = 0; i < 8; ++i)
-      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
-                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
-    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
-                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
-                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
-      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  return mesh;
 }
 
 /// Turned anyhow, within a cube about the origin of half width `spread`.
 inline Pose random_pose(Rng& rng, double spread) {
   const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
   return {spread * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
-}
-
-inline Mesh moved(Mesh mesh, const Pose& pose) {
-  for (auto& v : mesh.vertices) v = pose * v;
-  return mesh;
 }
 
 /// A square ring of bars 0.5 x 0.5 in the plane z = 0, 3 wide, with a gap in the middle of the side at +x.

@@ -5,41 +5,47 @@
 #include <cmath>
 #include <utility>
 
+#include "dismantle/path/growing_turns.h"
+
 namespace dismantle::free_space {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr std::size_t kPoints = 24;     // of all bodies together
-constexpr std::size_t kCorners = 3;     // of these tell where a body is and how it is turned
-constexpr double kPlace = 0.12;         // assembly units: edge of a place, at least ...
-constexpr double kPlaceOfBody = 0.15;   // ... and of the body's radius
-constexpr std::size_t kKept = 8;        // nodes of a place
-constexpr double kVisit = 0.02;         // assembly units: so much further off does each visit make a place look
-constexpr unsigned kInTheWall = 2;      // cells: a point that is deeper in what is not free has no way
-constexpr double kMostPoints = 0.5;     // share of the points that has to have a way
-constexpr double kDetour = 2;           // of the body's radius: how far ahead the way is closed where it got stuck ...
-constexpr double kNear = 0.2;           // ... and assembly units
-constexpr double kWorthIt = 0.15;       // share of the way, or ...
-constexpr double kOfBody = 2;           // ... so often the body's radius, without which nothing more is tried
-constexpr double kDistances = 1000;     // of a look that counts as one ...
-constexpr double kLeast = 0.25;         // ... and what one counts at least
-constexpr double kMostOfPatience = 12;  // what a walk that gets on may take, by what it may without progress
-constexpr std::uint64_t kFirst = 100;   // looks, after which ...
-constexpr double kHeld = 0.02;          // ... what has not come so far (of the body's radius) is held where it is, ...
-constexpr double kMoves = 0.05;         // ... unless it is thin and so far away, in any direction
-constexpr double kThrough = 0.5;        // of a thin body's radius: an overlap that lets it pass through walls
-constexpr double kAskEvery = 0.03;      // assembly units of the way: whether it is out
-constexpr double kProgress = 0.05;      // likewise: less is none
-constexpr int kLongestFlight = 200;     // steps
-constexpr double kFaster = 1.25, kFastest = 10;      // as in tolerant_walk::Walk
-constexpr double kOctaves = 3;                       // between the largest and the smallest first steps
-constexpr double kSlip = 0.2, kBesideSlip = 0.1;     // share of flights along the body; how far these go aside
-constexpr double kDownhill = 0.7;                    // share of the others that are led
-constexpr double kTogether = 0.4;                    // ... in which all points lead alike, not those near one ...
-constexpr double kNearest = 0.2;                     // ... (so near at least, of the body's radius) ...
-constexpr double kOthers = 0.02;                     // ... and the others by so much
-constexpr int kLongestAside = 20;                    // steps of a flight that is not led
+constexpr std::size_t kPoints = 24;               // of all bodies together
+constexpr std::size_t kCorners = 3;               // of these tell where a body is and how it is turned
+constexpr double kPlace = 0.12;                   // assembly units: edge of a place, at least ...
+constexpr double kPlaceOfBody = 0.15;             // ... and of the body's radius
+constexpr std::size_t kKept = 8;                  // nodes of a place
+constexpr double kVisit = 0.02;                   // assembly units: so much further off does each
+                                                  // visit make a place look
+constexpr unsigned kInTheWall = 2;                // cells: a point that is deeper in what is not free has no way
+constexpr double kMostPoints = 0.5;               // share of the points that has to have a way
+constexpr double kDetour = 2;                     // of the body's radius: how far ahead the way is
+                                                  // closed where it got stuck ...
+constexpr double kNear = 0.2;                     // ... and assembly units
+constexpr double kWorthIt = 0.15;                 // share of the way, or ...
+constexpr double kOfBody = 2;                     // ... so often the body's radius, without which nothing more is tried
+constexpr double kDistances = 1000;               // of a look that counts as one ...
+constexpr double kLeast = 0.25;                   // ... and what one counts at least
+constexpr double kMostOfPatience = 12;            // what a walk that gets on may take, by what it may without progress
+constexpr std::uint64_t kFirst = 100;             // looks, after which ...
+constexpr double kHeld = 0.02;                    // ... what has not come so far (of the body's
+                                                  // radius) is held where it is, ...
+constexpr double kMoves = 0.05;                   // ... unless it is thin and so far away, in any direction
+constexpr double kThrough = 0.5;                  // of a thin body's radius: an overlap that lets it pass through walls
+constexpr double kAskEvery = 0.03;                // assembly units of the way: whether it is out
+constexpr double kProgress = 0.05;                // likewise: less is none
+constexpr int kLongestFlight = 200;               // steps
+constexpr double kFaster = 1.25, kFastest = 10;   // as in tolerant_walk::Walk
+constexpr double kOctaves = 3;                    // between the largest and the smallest first steps
+constexpr double kSlip = 0.2, kBesideSlip = 0.1;  // share of flights along the
+                                                  // body; how far these go aside
+constexpr double kDownhill = 0.7;                 // share of the others that are led
+constexpr double kTogether = 0.4;                 // ... in which all points lead alike, not those near one ...
+constexpr double kNearest = 0.2;                  // ... (so near at least, of the body's radius) ...
+constexpr double kOthers = 0.02;                  // ... and the others by so much
+constexpr int kLongestAside = 20;                 // steps of a flight that is not led
 constexpr std::array kShares{0.01, 0.25, 0.5, 1.0};  // of the points: the foremost ones, by rank
 constexpr double kBest = 0.6;                        // share that begins where the place is least far
 
@@ -73,15 +79,16 @@ bool overlaps_through(const PathQuery& query) {
 }
 
 LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-                 std::size_t most_cells, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache)
+                 const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x1ed0a1c)),
       tree_(parameters_, query, context, rng_, overlap, cache),
       body_(points_of(query)),
-      ways_(query.assembly, query.cast.still, ball_of(body_), most_cells),
+      ways_(query.assembly, query.cast.still, ball_of(body_), effort.cells),
       leads_out_(have_ways()),
-      thin_(overlap == tolerant_walk::Overlap::near_start) {
+      thin_(overlap == tolerant_walk::Overlap::near_start),
+      effort_(effort) {
   if (query.cast.moving.size() == 1) {
     const PlacedPart& m = query.cast.moving.front();
     for (const Twist& slip : slips(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
@@ -242,9 +249,9 @@ LedWalk::PoseTree::Step LedWalk::along(std::uint32_t node, const Twist& slip) co
   return {q * slip.way, q * slip.turn};
 }
 
-/// Steps downhill and a little aside, always the same; or only aside; or along the body itself. Longer and longer while
-/// nothing is in the way.
-bool LedWalk::fly(PathResult& result) {
+/// Steps downhill and a little aside, always the same; or only aside; or along
+/// the body itself. Longer and longer while nothing is in the way.
+bool LedWalk::fly() {
   std::uint32_t at = choose();
   if (tree_[at].cut) return false;
   const auto in_cube = [&] { return Vec3(rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)); };
@@ -282,9 +289,10 @@ bool LedWalk::fly(PathResult& result) {
     const Left to_go = left(next);
     put(at, to_go);
     if (arrived(at, to_go)) {
-      if (tree_.judged(at, result)) return true;
+      if (tree_.verified(at, result_)) return true;
       begin_again();
-      // Where the judge left nothing of the tree, there is everything to be tried again.
+      // Where the checker left nothing of the tree, there is everything to be
+      // tried again.
       first_look_ = looks();
       first_work_ = work();
       return false;
@@ -294,40 +302,52 @@ bool LedWalk::fly(PathResult& result) {
   return false;
 }
 
-PathResult LedWalk::run(const Limits& limits) {
-  PathResult result;
-  const std::uint64_t most_looks =
-      query_.budget.max_steps > 0 ? std::min(limits.most_looks, query_.budget.max_steps) : limits.most_looks;
-  const double patience = limits.patience;
+/// Is more of the same not worth it? Takes a detour where that helps.
+bool LedWalk::gives_up() {
+  // What is held where it is has some play, too: it takes a good piece of the
+  // way to be worth more checks.
+  const bool play = !moves_ && at_first_.back() - best_left_ < kHeld * tree_.radius();
+  held_ = held_ && play;
+  if (looks() >= first_look_ + kFirst && play) return true;
+  bool worth_it = moves_;  // what is threaded through somewhere has long come no further
+  for (std::size_t r = 0; r < kRanks; ++r)
+    worth_it = worth_it || at_first_[r] - least_[r] > std::min(kWorthIt * at_first_[r], kOfBody * tree_.radius());
+  const bool stuck = work() >= progress_at_ + effort_.patience;
+  if (!worth_it && (stuck || work() >= first_work_ + 2 * effort_.patience)) return true;
+  return stuck && (++detours_ > effort_.detours || !detour());
+}
+
+SearchStatus LedWalk::run(const Budget& portion) {
+  if (is_success(result_.outcome())) return SearchStatus::solved;
+  const std::uint64_t most = query_.budget.max_steps > 0 ? query_.budget.max_steps : ~std::uint64_t{0};
+  const std::uint64_t until = path::end_of_portion(looks(), portion.max_steps, most);
+  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
   bool solved = false;
-  paused_ = false;
   if (!std::exchange(begun_, true)) {
     progress_at_ = work();
     at_first_ = left(Pose{});
+    // What was in the way where an earlier walk had come may have left.
+    if (resumed_ && leads_out_ && best_ != 0 && tree_.separated(tree_[best_].pose)) {
+      solved = tree_.verified(best_, result_);
+      if (!solved) begin_again();
+    }
   }
-  // What was in the way where an earlier walk had come may have left.
-  if (std::exchange(resumed_, false) && leads_out_ && best_ != 0 && tree_.separated(tree_[best_].pose)) {
-    solved = tree_.judged(best_, result);
-    if (!solved) begin_again();
+  const auto over = [&] {
+    return over_ || !leads_out_ || looks() >= most || work() >= kMostOfPatience * effort_.patience || tree_.halted() ||
+           tree_.given_up();
+  };
+  while (!solved && looks() < until && !over() && !end.passed()) {
+    solved = fly();
+    over_ = !solved && gives_up();
   }
-  const std::uint64_t pause_at = limits.pause_after > 0 ? looks() + limits.pause_after : ~std::uint64_t{0};
-  while (!solved && leads_out_ && looks() < most_looks && work() < kMostOfPatience * patience && !tree_.halted() &&
-         !tree_.given_up()) {
-    if ((paused_ = looks() >= pause_at || limits.pause_at.passed())) break;
-    solved = fly(result);
-    if (solved) break;
-    // What is held where it is has some play, too: it takes a good piece of the way to be worth more looks.
-    const bool play = !moves_ && at_first_.back() - best_left_ < kHeld * tree_.radius();
-    held_ = held_ && play;
-    if (looks() >= first_look_ + kFirst && play) break;
-    bool worth_it = moves_;  // what is threaded through somewhere has long come no further
-    for (std::size_t r = 0; r < kRanks; ++r)
-      worth_it = worth_it || at_first_[r] - least_[r] > std::min(kWorthIt * at_first_[r], kOfBody * tree_.radius());
-    const bool in_vain = work() >= progress_at_ + patience;
-    if (!worth_it && (in_vain || work() >= first_work_ + 2 * patience)) break;
-    if (in_vain && (++detours_ > limits.most_detours || !detour())) break;
-  }
-  tree_.finish(solved, best_, result);
+  if (!solved) tree_.explain(result_);
+  if (!solved && !over()) return SearchStatus::paused;
+  return status_of(result_.outcome());
+}
+
+PathResult LedWalk::result() {
+  PathResult result = result_;
+  tree_.finish(best_, result);
   result.stats.extra["detours"] = detours_;
   result.stats.extra["left"] = best_left_;
   return result;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "dismantle/path/ended_search.h"
+
 namespace dismantle::push {
 namespace {
 
@@ -32,92 +34,14 @@ Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, 
   return search;
 }
 
+/// It ended without a path, though it had all that it asked for.
 bool in_vain(const PathResult& result) {
   return result.outcome() == Outcome::exhausted || result.outcome() == Outcome::depth_limit;
-}
-
-/// One search after the other, the first that finds something ending it.
-class OneByOne {
- public:
-  OneByOne(const PathQuery& query, const Tactics& tactics, RunContext& context)
-      : query_(query), tactics_(tactics), context_(context) {}
-
-  /// With a part of the steps that are left: `share`, or all. What ends because it has had that part may go on another
-  /// time. The work that an earlier search has spared counts, up to a half. True: on to the next.
-  bool run(MotionSpace space, Search::Limits limits, std::optional<std::uint64_t> share) {
-    Search search = begun(query_, space, tactics_, context_);
-    const std::uint64_t left = limits.steps_left != nullptr ? *limits.steps_left : ~std::uint64_t{0};
-    if (share) *share -= std::min(search.spared(), *share / 2);
-    const std::uint64_t most = share ? std::min(left, *share) : left;
-    std::uint64_t own = most;
-    std::uint64_t* const all = share ? std::exchange(limits.steps_left, &own) : nullptr;
-    PathResult result = search.run(limits);
-    if (all != nullptr) *all -= most - own;
-    if (share && result.outcome() == Outcome::timeout && own == 0 && most < left) result.fail(Outcome::depth_limit);
-    if (!is_success(result.outcome()))
-      (space == MotionSpace::translation ? reached_->translation : reached_->rigid) = search.tree();
-    result_ = any_ ? merged(result_, std::move(result)) : std::move(result);
-    any_ = true;
-    return in_vain(result_);
-  }
-
-  PathResult result() {
-    if (in_vain(result_) || result_.outcome() == Outcome::timeout) result_.state = reached_;
-    return result_;
-  }
-  PathResult result(Outcome instead) {
-    result_.fail(instead);
-    return result();
-  }
-
- private:
-  const PathQuery& query_;
-  const Tactics& tactics_;
-  RunContext& context_;
-  bool any_ = false;
-  PathResult result_;
-  std::shared_ptr<Reached> reached_ = std::make_shared<Reached>();
-};
-
-/// Under a depth limit somebody asks for all parts in turn: most of them are blocked, and have to be found so soon. A
-/// part that slides or turns in its play can do so for long, so simulated steps are limited, too.
-PathResult up_to_depth(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
-                       RunContext& context) {
-  OneByOne searches(query, tactics, context);
-  const auto level = static_cast<std::uint64_t>(depth);
-  limits.rank = depth;  // the first level: what the contacts leave free, and the axes
-  limits.expansions = static_cast<std::uint64_t>(tactics.translation_nodes) * level;
-  if (!searches.run(MotionSpace::translation, limits, kStepsPerLevel * level)) return searches.result();
-  if (depth == 1) return searches.result(Outcome::depth_limit);  // what cannot move may still be turned
-  limits.expansions = static_cast<std::uint64_t>(tactics.rotation_nodes) * level;
-  searches.run(MotionSpace::rigid, limits, kStepsPerLevel * level);
-  return searches.result();
-}
-
-/// Likewise where each part moves in its own way. A state has many more actions then, so it is simulated steps that are
-/// counted, and somebody mostly turns, so that is looked at from the first level on.
-PathResult each_its_way(const PathQuery& query, const Tactics& tactics, unsigned depth, Search::Limits limits,
-                        RunContext& context) {
-  OneByOne searches(query, tactics, context);
-  limits.rank = 1 + depth / 2;  // one driven, and two along one axis; from the second level on across, too
-  const std::uint64_t share = static_cast<std::uint64_t>(tactics.steps_at_once) * depth;
-  if (searches.run(MotionSpace::translation, limits, share)) searches.run(MotionSpace::rigid, limits, share);
-  return searches.result();
 }
 
 }  // namespace
 
 Capabilities required() { return {.dynamics = true, .contacts = true, .distance = false, .max_moving = 1}; }
-
-bool supported(const PathQuery& query) {
-  const Capabilities has = query.simulator.capabilities();
-  return has.dynamics && has.contacts && has.max_moving >= query.cast.moving.size();
-}
-
-void ByTurns::go_on() {
-  for (PathResult* result : {&first_, &second_})
-    if (result->outcome() == Outcome::timeout) result->fail(Outcome::depth_limit);
-}
 
 ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& context)
     : query_(query),
@@ -156,28 +80,136 @@ std::shared_ptr<const Reached> ByTurns::reached() const {
   return reached;
 }
 
-PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
-                const std::function<void()>& between) {
-  if (!supported(query))
-    return PathResult::failure(Outcome::unsupported,
-                               "pushing needs a simulator with dynamics and contacts for all moving parts");
-  std::uint64_t steps_left = query.budget.max_steps;
-  Search::Limits limits;
-  limits.deadline = query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline();
-  limits.steps_left = query.budget.max_steps > 0 ? &steps_left : nullptr;
-  limits.between = between;
+/// Under a depth limit somebody asks for all parts in turn: most of them are
+/// blocked, and have to be found soon. A part that slides or turns in its play
+/// can do so for long, so simulated steps are limited, too. Where parts move
+/// independently, a state has many more actions, so it is simulated steps alone
+/// that are counted, and some part mostly turns, so that is searched from the
+/// first level on.
+std::vector<ContactSearch::Leg> ContactSearch::legs_of(const PathQuery& query, const Tactics& tactics) {
+  if (tactics.motion != Motion::automatic)
+    return {{tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid}};
   const unsigned depth = query.budget.max_depth;
-  if (tactics.motion != Motion::automatic) {
-    OneByOne search(query, tactics, context);
-    search.run(tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid, limits, {});
-    return search.result();
+  const auto level = static_cast<std::uint64_t>(depth);
+  if (!query.goal.any_of.empty()) {
+    const unsigned rank = 1 + depth / 2;  // one driven, and two along one axis;
+                                          // from the second level on across, too
+    const std::uint64_t share = static_cast<std::uint64_t>(tactics.steps_at_once) * level;
+    return {{MotionSpace::translation, rank, 0, share}, {MotionSpace::rigid, rank, 0, share}};
   }
-  if (depth > 0 && !query.goal.any_of.empty()) return each_its_way(query, tactics, depth, limits, context);
-  if (depth > 0) return up_to_depth(query, tactics, depth, limits, context);
-  ByTurns turns(query, tactics, context);
-  PathResult result = turns.run(limits);
-  if (in_vain(result) || result.outcome() == Outcome::timeout) result.state = turns.reached();
+  // The rank: at the first level what the contacts leave free, and the axes.
+  const std::uint64_t share = kStepsPerLevel * level;
+  std::vector<Leg> legs{
+      {MotionSpace::translation, depth, static_cast<std::uint64_t>(tactics.translation_nodes) * level, share}};
+  if (depth > 1)
+    legs.push_back({MotionSpace::rigid, depth, static_cast<std::uint64_t>(tactics.rotation_nodes) * level, share});
+  return legs;
+}
+
+ContactSearch::ContactSearch(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                             std::function<void()> between)
+    : query_(query),
+      tactics_(tactics),
+      context_(context),
+      between_(std::move(between)),
+      deadline_(query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline()),
+      steps_left_(query.budget.max_steps) {
+  if (tactics.motion == Motion::automatic && query.budget.max_depth == 0)
+    turns_.emplace(query, tactics, context);
+  else
+    legs_ = legs_of(query, tactics);
+  now_.fail(Outcome::depth_limit);
+}
+
+SearchStatus ContactSearch::run(const Budget& portion) {
+  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  Search::Limits limits;
+  limits.deadline = deadline_.earlier(end);
+  limits.steps_left = query_.budget.max_steps > 0 ? &steps_left_ : nullptr;
+  limits.pause_after = portion.max_steps;
+  limits.between = between_;
+  if (is_success(now_.outcome())) return SearchStatus::solved;
+  if (turns_) {
+    now_ = turns_->run(limits);
+    if (turns_->paused()) return SearchStatus::paused;
+  } else if (const SearchStatus status = run_legs(limits); status == SearchStatus::paused) {
+    return status;
+  }
+  const bool only_the_portion = now_.outcome() == Outcome::timeout && end.passed() && !deadline_.passed() &&
+                                !context_.deadline.passed() && (query_.budget.max_steps == 0 || steps_left_ > 0);
+  return only_the_portion ? SearchStatus::paused : status_of(now_.outcome());
+}
+
+/// One after the other, the first that finds something ending it.
+SearchStatus ContactSearch::run_legs(Search::Limits limits) {
+  while (!legs_.empty()) {
+    const SearchStatus status = run_leg(legs_.front(), limits);
+    if (status != SearchStatus::exhausted) return status;
+    legs_.erase(legs_.begin());
+    limits.pause_after = 0;
+    ended_ = now_;
+    any_ = true;
+    // What cannot move may still be turned, which the first level leaves out.
+    if (legs_.empty() && tactics_.motion == Motion::automatic && query_.budget.max_depth == 1 &&
+        query_.goal.any_of.empty())
+      now_.fail(Outcome::depth_limit);
+  }
+  return status_of(now_.outcome());
+}
+
+/// What ends because it has had its share may go on another time. The work that
+/// an earlier search has spared counts, up to a half. `exhausted`: on to the
+/// next.
+SearchStatus ContactSearch::run_leg(const Leg& leg, Search::Limits limits) {
+  if (!current_) {
+    current_.emplace(begun(query_, leg.space, tactics_, context_));
+    if (leg.share) share_left_ = share_ = *leg.share - std::min(current_->spared(), *leg.share / 2);
+  }
+  limits.rank = leg.rank;
+  limits.expansions = leg.expansions;
+  std::uint64_t* const all = limits.steps_left;
+  const std::uint64_t left = all != nullptr ? *all : ~std::uint64_t{0};
+  const std::uint64_t most = std::min(left, share_left_);
+  std::uint64_t own = most;
+  if (leg.share) limits.steps_left = &own;
+  PathResult result = current_->run(limits);
+  if (leg.share) {
+    share_left_ -= most - own;
+    if (all != nullptr) *all -= most - own;
+  }
+  const bool paused = current_->paused();
+  if (leg.share && result.outcome() == Outcome::timeout && own == 0 && most < left) result.fail(Outcome::depth_limit);
+  now_ = any_ ? merged(ended_, std::move(result)) : std::move(result);
+  if (paused) return SearchStatus::paused;
+  const SearchStatus status = status_of(now_.outcome());
+  if (status == SearchStatus::exhausted) keep_tree();
+  if (status == SearchStatus::exhausted) current_.reset();
+  return status;
+}
+
+/// What the current leg has reached.
+void ContactSearch::keep_tree() {
+  if (!current_) return;
+  if (reached_.use_count() > 1) reached_ = std::make_shared<Reached>(*reached_);  // results are immutable
+  (legs_.front().space == MotionSpace::translation ? reached_->translation : reached_->rigid) = current_->tree();
+}
+
+PathResult ContactSearch::result() {
+  PathResult result = now_;
+  if (!in_vain(result) && result.outcome() != Outcome::timeout) return result;
+  if (!turns_) keep_tree();
+  result.state = turns_ ? turns_->reached() : reached_;
   return result;
+}
+
+std::unique_ptr<PathSearch> start(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                                  std::function<void()> between) {
+  const Capabilities has = query.simulator.capabilities();
+  if (!has.dynamics || !has.contacts || has.max_moving < query.cast.moving.size())
+    return path::unsupported(
+        "pushing needs a simulator with dynamics and "
+        "contacts for all moving parts");
+  return std::make_unique<ContactSearch>(query, tactics, context, std::move(between));
 }
 
 }  // namespace dismantle::push

@@ -155,7 +155,7 @@ bool Search::out_of_budget() const {
 }
 
 /// The state of node `last` is out: is the way there valid?
-Search::RunEnd Search::judge(std::int32_t last, const State& start, PathResult& result) {
+Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult& result) {
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the checker said of it could not be learned
@@ -200,7 +200,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) return RunEnd::blocked;
     if (way.size() > before && out(state))
-      return judge(add_node(last, depth, state, std::move(way), false), start, result);
+      return verify(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
       // The start of the run is a past state too, but only once the run has left it.
@@ -311,10 +311,12 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
 }
 
 Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
-  const std::uint64_t end_at = expanded_ + expansions - std::min(kept_, expansions / 2);
+  if (!std::exchange(sweep_paused_, false) || expansions == 0)
+    sweep_end_ = expanded_ + expansions - std::min(kept_, expansions / 2);
   while (!waiting_.empty() || take_up_middles()) {
-    if (expansions > 0 && expanded_ >= end_at) return RunEnd::blocked;
+    if (expansions > 0 && expanded_ >= sweep_end_) return RunEnd::blocked;
     paused_ = limits_.pause_after > 0 && steps_ + looks_ >= pause_at_;
+    sweep_paused_ = paused_ && limits_.expansions > 0;
     if (paused_) return RunEnd::blocked;
     const Waiting next = *waiting_.begin();
     if (next.rank > limits_.rank) return RunEnd::blocked;
@@ -355,7 +357,7 @@ PathResult Search::run(const Limits& limits) {
   }
   RunEnd end = RunEnd::blocked;
   for (const std::int32_t node : out_by_now()) {
-    end = judge(node, nodes_[static_cast<std::size_t>(node)].state, result);
+    end = verify(node, nodes_[static_cast<std::size_t>(node)].state, result);
     if (end == RunEnd::refused_learned) reset();
     if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }

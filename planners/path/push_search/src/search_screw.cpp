@@ -207,9 +207,9 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
     const GlideEnd end = glide(twist, depth, run);
     if (end == GlideEnd::stop) return RunEnd::stop;
     if (end == GlideEnd::out) {
-      const RunEnd judged = judge(add_node(run.last, depth, run.state, std::move(run.way), false), origin, result);
-      if (judged == RunEnd::refused || judged == RunEnd::refused_learned) short_glides_ = true;
-      return judged;
+      const RunEnd verified = verify(add_node(run.last, depth, run.state, std::move(run.way), false), origin, result);
+      if (verified == RunEnd::refused || verified == RunEnd::refused_learned) short_glides_ = true;
+      return verified;
     }
     if (end == GlideEnd::known) return RunEnd::blocked;
     const Pose& here = run.state.bodies[0].pose;

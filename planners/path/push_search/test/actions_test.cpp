@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "dismantle/run_context.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::push {
 namespace {
@@ -18,23 +19,12 @@ Pose random_pose(Rng& rng) {
   return {Vector3d(rng.normal(), rng.normal(), rng.normal()), rotation_from_vector(2 * w)};
 }
 
-Mesh block(const Vector3d& lo, const Vector3d& hi) {
-  Mesh mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.vertices.emplace_back((i & 1) != 0 ? hi.x() : lo.x(), (i & 2) != 0 ? hi.y() : lo.y(),
-                               (i & 4) != 0 ? hi.z() : lo.z());
-  mesh.triangles = {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
-                    Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
-                    Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}};
-  return mesh;
-}
-
 /// Two blocks, the first of which moves; in the frame `turned`.
 Assembly blocks(Rng& rng, const Pose& turned) {
   Assembly a;
   for (PartId id = 0; id < 2; ++id) {
     const Vector3d lo(rng.uniform(-2, -1), rng.uniform(-2, -1), rng.uniform(-2, -1)), size(1.1, 2.3, 3.7);
-    Mesh mesh = block(lo, lo + size);
+    Mesh mesh = shapes::box(lo, lo + size);
     for (auto& v : mesh.vertices) v = turned * v;
     Part part;
     part.id = id;

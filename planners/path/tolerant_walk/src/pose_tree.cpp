@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/path/candidates.h"
+#include "dismantle/path/shortcuts.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tolerant_walk {
@@ -14,8 +16,9 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kLookEvery = 0.02;  // assembly units, along a shortcut
 constexpr double kTurn = 0.2;        // rad between the instants of a path
 constexpr double kInstants = 0.25;   // assembly units, likewise
-constexpr double kRoom = 0.1;        // share of the looks in vain at which a tree was stuck; less is not what held it
-constexpr int kRepairs = 4;          // tries to shorten the same way, after it has been learned where it cuts
+constexpr double kRoom = 0.1;        // share of the looks in vain at which a tree was
+                                     // stuck; less is not what held it
+constexpr std::size_t kRepairs = 4;  // tries to shorten the same way, after it has been learned where it cuts
 
 bool stands(const Cast& cast, PartId part) {
   return std::any_of(cast.still.begin(), cast.still.end(), [part](const PlacedPart& s) { return s.part == part; });
@@ -153,19 +156,12 @@ bool PoseTree::straight(const Pose& a, const Pose& b) {
 
 /// Piece by piece, the longest first; then between any two.
 std::vector<Pose> PoseTree::shortened(std::vector<Pose> way) {
-  for (std::size_t piece = way.size() / 2; piece > 1 && !halted(); piece /= 2)
-    for (std::size_t k = 0; k + piece < way.size() && !halted(); ++k)
-      if (straight(way[k], way[k + piece]))
-        way.erase(way.begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                  way.begin() + static_cast<std::ptrdiff_t>(k + piece));
-      else
-        k += piece - 1;
-  for (std::int64_t k = 0; k < parameters_.shortcuts && way.size() > 2 && !halted(); ++k) {
-    auto a = static_cast<std::size_t>(rng_.below(way.size())), b = static_cast<std::size_t>(rng_.below(way.size()));
-    if (a > b) std::swap(a, b);
-    if (b - a < 2 || !straight(way[a], way[b])) continue;
-    way.erase(way.begin() + static_cast<std::ptrdiff_t>(a) + 1, way.begin() + static_cast<std::ptrdiff_t>(b));
-  }
+  const auto stop = [this] { return halted(); };
+  path::shortcut_pieces(
+      way, [this](const Pose& a, const Pose& b) { return straight(a, b); }, stop);
+  path::shortcut_at_random(
+      way, parameters_.shortcuts, rng_,
+      [&](std::size_t a, std::size_t b, std::vector<Pose>&) { return straight(way[a], way[b]); }, stop);
   return way;
 }
 
@@ -181,36 +177,37 @@ Path PoseTree::path_of(const std::vector<Pose>& way) const {
   return path::thin(path, bodies_, parameters_.thinning);
 }
 
-/// True when the judge accepts a way to the node; then `result` holds it.
-bool PoseTree::judged(std::uint32_t node, PathResult& result) {
+bool PoseTree::verified(std::uint32_t node, PathResult& result) {
   const std::vector<std::uint32_t> chain = chain_to(node);
-  std::vector<Pose> way;
+  std::vector<Pose> way, shorter;
   for (const std::uint32_t n : chain) way.push_back(nodes_[n].pose);
   Pose at_fault = way.back();
   std::optional<PartId> by;
-  for (int round = 0; round <= kRepairs && !halted() && !given_up(); ++round) {
-    const std::vector<Pose> shorter = shortened(way);
-    const Path path = path_of(shorter);
-    PathCheck check = query_.checker.check(path);
-    if (check.accepted()) {
-      result.solve(std::move(*check.verified), static_cast<unsigned>(shorter.size() - 1));
-      return true;
-    }
-    ++refused_;
+  bool tightened = false;
+  const auto form = [&](std::size_t round) -> std::optional<Path> {
+    if (round > kRepairs || halted() || given_up()) return std::nullopt;
+    shorter = shortened(way);
+    return path_of(shorter);
+  };
+  const auto learn = [&](const PathCheck& check, const Path& path) {
     result.message = check.reason;
-    if (!check.has_witness) break;
+    if (!check.has_witness) return false;
     const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
     by = stands(query_.cast, check.other) ? check.other : check.part;
     at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
     lessons_.push_back({check.part, check.other, check.point, at_fault});
-    if (tolerance_.learn(check.part, check.other, check.point, at_fault)) {
-      cut_disallowed();
-      return false;
-    }
+    tightened = tolerance_.learn(check.part, check.other, check.point, at_fault);
     // What was learned may rule out some of the way itself.
-    if (!std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); })) break;
-  }
-  if (!halted()) cut(chain, at_fault, by);
+    return !tightened && std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); });
+  };
+  const auto accept = [&](VerifiedPath path) {
+    result.solve(std::move(path), static_cast<unsigned>(shorter.size() - 1));
+  };
+  if (path::show_forms(query_.checker, refused_, form, learn, accept).accepted) return true;
+  if (tightened)
+    cut_disallowed();
+  else if (!halted())
+    cut(chain, at_fault, by);
   return false;
 }
 
@@ -249,13 +246,16 @@ void PoseTree::cut_disallowed() {
   }
 }
 
-void PoseTree::finish(bool solved, std::uint32_t best, PathResult& result) const {
-  if (!solved) {
-    result.fail(context_.cancel.cancelled()                                        ? Outcome::cancelled
-                : deadline_.passed()                                               ? Outcome::timeout
-                : given_up()                                                       ? Outcome::exhausted
-                : query_.budget.max_steps > 0 && looks_ >= query_.budget.max_steps ? Outcome::timeout
-                                                                                   : Outcome::depth_limit);
+void PoseTree::explain(PathResult& result) const {
+  result.fail(context_.cancel.cancelled()                                        ? Outcome::cancelled
+              : deadline_.passed()                                               ? Outcome::timeout
+              : given_up()                                                       ? Outcome::exhausted
+              : query_.budget.max_steps > 0 && looks_ >= query_.budget.max_steps ? Outcome::timeout
+                                                                                 : Outcome::depth_limit);
+}
+
+void PoseTree::finish(std::uint32_t best, PathResult& result) const {
+  if (!is_success(result.outcome())) {
     result.best_pose = poses(nodes_[best].pose);
     result.state = reached();
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "dismantle/path/growing_turns.h"
+
 namespace dismantle::tolerant_walk {
 namespace {
 
@@ -33,15 +35,18 @@ const std::array<Vec3, 26>& directions() {
 
 }  // namespace
 
-Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache)
+Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& context, GeometryCache& cache,
+           std::uint64_t most_looks)
     : parameters_(parameters),
       query_(query),
       rng_(context.rng.fork(0x5c9ee2e)),
-      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache) {
+      tree_(parameters_, query, context, rng_, Overlap::everywhere, cache),
+      most_looks_(query.budget.max_steps > 0 ? std::min(most_looks, query.budget.max_steps) : most_looks) {
   const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
   if (reached == nullptr || !reached->has_room_now(query.cast)) return;
   tree_.resume(*reached);
   resumed_ = true;
+  most_looks_ -= std::min(tree_.spared(), most_looks_ / 2);
   note_all();
 }
 
@@ -81,8 +86,9 @@ std::uint32_t Walk::choose(PoseTree::Step& step) {
   return static_cast<std::uint32_t>(from);
 }
 
-/// The same step again and again, longer and longer, while nothing is in the way.
-bool Walk::fly(PathResult& result) {
+/// The same step again and again, longer and longer, while nothing is in the
+/// way.
+bool Walk::fly() {
   PoseTree::Step step;
   std::uint32_t at = choose(step);
   if (tree_[at].cut) return false;
@@ -98,7 +104,7 @@ bool Walk::fly(PathResult& result) {
     }
     at = tree_.add(next, at);
     note(at);
-    if (out(at)) return judged(at, result);
+    if (out(at)) return verified(at);
     faster = std::min(fastest, kFaster * faster);
   }
   return false;
@@ -111,35 +117,39 @@ bool Walk::out(std::uint32_t node) {
   return tree_.separated(tree_[node].pose);
 }
 
-bool Walk::judged(std::uint32_t node, PathResult& result) {
+bool Walk::verified(std::uint32_t node) {
   looked_at_ = 0;
-  if (tree_.judged(node, result)) return true;
+  if (tree_.verified(node, result_)) return true;
   note_all();
   return false;
 }
 
-PathResult Walk::run(std::uint64_t most_looks, std::uint64_t pause_after, const Deadline& pause_at) {
-  PathResult result;
-  paused_ = false;
-  if (tree_.separated(Pose{})) {
-    result.start_is_goal();
-    return result;
+SearchStatus Walk::run(const Budget& portion) {
+  if (is_success(result_.outcome())) return SearchStatus::solved;
+  if (!std::exchange(begun_, true) && tree_.separated(Pose{})) {
+    result_.start_is_goal();
+    return SearchStatus::solved;
   }
-  if (query_.budget.max_steps > 0) most_looks = std::min(most_looks, query_.budget.max_steps);
-  most_looks -= std::min(tree_.spared(), most_looks / 2);
+  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  const std::uint64_t until = path::end_of_portion(looks(), portion.max_steps, most_looks_);
   bool solved = false;
   if (std::exchange(resumed_, false))  // what was in the way there may have left
     for (const std::uint32_t n : std::array(furthest_))
-      if (!solved && !tree_.halted() && !tree_[n].cut && tree_.separated(tree_[n].pose)) solved = judged(n, result);
-  const std::uint64_t until = pause_after > 0 ? looks() + pause_after : ~std::uint64_t{0};
-  while (!solved && looks() < most_looks && !tree_.halted() && !tree_.given_up()) {
-    if ((paused_ = looks() >= until || pause_at.passed())) break;
-    solved = fly(result);
-  }
+      if (!solved && !tree_.halted() && !tree_[n].cut && tree_.separated(tree_[n].pose)) solved = verified(n);
+  const auto over = [&] { return looks() >= most_looks_ || tree_.halted() || tree_.given_up(); };
+  while (!solved && looks() < until && !over() && !end.passed()) solved = fly();
+  if (!solved) tree_.explain(result_);
+  if (!solved && !over()) return SearchStatus::paused;
+  return status_of(result_.outcome());
+}
+
+PathResult Walk::result() {
+  PathResult result = result_;
+  if (result.outcome() == Outcome::start_is_goal) return result;
   std::uint32_t best = 0;
   for (const std::uint32_t n : furthest_)
     if ((tree_[n].center - tree_.center()).norm() > (tree_[best].center - tree_.center()).norm()) best = n;
-  tree_.finish(solved, best, result);
+  tree_.finish(best, result);
   return result;
 }
 

@@ -54,7 +54,7 @@ TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
     PoseTree tree = s.tree(all);
     const std::uint32_t a = tree.add(up(0.5), 0), b = tree.add(up(1.0), a), c = tree.add(up(0.7), 0);
     PathResult result;
-    EXPECT_FALSE(tree.judged(b, result));
+    EXPECT_FALSE(tree.verified(b, result));
     EXPECT_GT(s.judged, 0U);
     ASSERT_TRUE(tree[b].cut);
     ASSERT_FALSE(tree[c].cut);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "config/binder.h"
 #include "config/constraints.h"
@@ -28,6 +29,7 @@ class Loader {
     for (const auto& section : plugin_sections()) choose(section);
     collect_homes();
     for (const auto& section : plugin_sections()) bind_plugin(section);
+    bind_importers();
     for (const auto& [name, specs] : fixed_sections()) {
       const ConfigNode* section = node(name);
       ConfigNode plain;
@@ -36,6 +38,11 @@ class Loader {
         section = &plain;
       }
       config_.sections[name] = binder().section(specs, section, {name, "", ""});
+    }
+    ParamSet immobility = binder().section({provers_parameter(registry_)}, node("immobility"), {"immobility", "", ""});
+    if (const auto found = immobility.find("provers"); found != immobility.end()) {
+      config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
+      check_provers();
     }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
       config_.constraints = read_constraints(*section, problems_);
@@ -55,8 +62,17 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
+  /// Each is asked once.
+  void check_provers() {
+    std::set<std::string> seen;
+    for (const PluginChoice& choice : config_.provers)
+      if (!seen.insert(choice.type).second)
+        problems_.push_back({config_.origins["immobility.provers"], 0, 0,
+                             fmt::format("immobility.provers lists '{}' twice", choice.type)});
+  }
+
   void check_top_level() {
-    std::vector<std::string> known = {"schema", "extends", "plugins", "constraints"};
+    std::vector<std::string> known = {"schema", "extends", "plugins", "immobility", "importers", "constraints"};
     for (const auto& section : plugin_sections()) known.emplace_back(section.name);
     for (const auto& section : fixed_sections()) known.push_back(section.first);
     for (const auto& member : root_.members)
@@ -146,6 +162,8 @@ class Loader {
     for (const auto& [name, specs] : fixed_sections())
       for (const auto& spec : specs) homes_[spec.name].push_back(name);
     homes_["poses"].push_back("layout");
+    for (const auto* type : registry_.types(PluginKind::importer))
+      for (const auto& spec : type->type.params) homes_[spec.name].push_back("importers." + type->type.id);
     for (const auto& [member, known] : unknown_top_)
       problems_.push_back(member->key_mark.error(unknown_key_message(member->key, {"", "", ""}, known, homes_)));
     for (const auto* member : unknown_plugins_)
@@ -183,6 +201,28 @@ class Loader {
     }
     choice(section.kind).parameters = binder().section(
         type->type.params, map, {section.name, type->type.id, source_text(*type)}, default_origin(*type));
+  }
+
+  /// `importers`: a map from ids to maps of parameters. Every importer is in use, whether it is named or not.
+  void bind_importers() {
+    const ConfigNode* section = node("importers");
+    if (section != nullptr && !section->is_map()) {
+      problems_.push_back(section->mark.error(
+          fmt::format("importers must be a map from ids of importers to their keys, not {}", section->kind_name())));
+      section = nullptr;
+    }
+    for (const auto* type : registry_.types(PluginKind::importer)) {
+      const std::string& id = type->type.id;
+      const ConfigMember* member = section == nullptr ? nullptr : section->find(id);
+      if (type->type.params.empty() && member == nullptr) continue;
+      const std::string source = fmt::format("{} {}, {}", id, type->file->version, type->file->path.filename().string());
+      config_.importers[id] = bind_section(type->type.params, member == nullptr ? nullptr : &member->value,
+                                           {"importers." + id, "", source}, homes_, config_.origins, problems_);
+    }
+    if (section == nullptr) return;
+    for (const auto& member : section->members)
+      if (registry_.lookup(PluginKind::importer, member.key) == nullptr)
+        problems_.push_back(member.key_mark.error(registry_.why_missing(PluginKind::importer, member.key)));
   }
 
   void check_capabilities() {

@@ -16,6 +16,8 @@ Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
     };
     out.transfer_planner_id = config.transfer_planner.type;
   }
+  for (const PluginChoice& choice : config.provers)
+    out.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   return out;
 }
 
@@ -30,10 +32,26 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   return out;
 }
 
-std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry) {
+std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, const ImportParams& params) {
+  for (const auto& [id, values] : params) registry.find(PluginKind::importer, id);
   std::vector<std::shared_ptr<Importer>> out;
-  for (const RegisteredType* type : registry.types(PluginKind::importer))
-    out.push_back(registry.create<Importer>(type->type.id));
+  for (const RegisteredType* type : registry.types(PluginKind::importer)) {
+    const auto given = params.find(type->type.id);
+    ParamSet values = given == params.end() ? ParamSet{} : given->second;
+    // A plan file may hold a number without fraction as an integer.
+    for (const auto& spec : type->type.params)
+      if (const auto it = values.find(spec.name); it != values.end() && spec.type == ParamType::number)
+        if (const auto* integer = std::get_if<std::int64_t>(&it->second)) it->second = static_cast<double>(*integer);
+    out.push_back(registry.create<Importer>(type->type.id, values));
+  }
+  return out;
+}
+
+ImportParams import_params_of(const RunConfig& config, const Registry& registry) {
+  ImportParams out;
+  for (const auto& [id, values] : config.importers)
+    for (const auto& spec : registry.find(PluginKind::importer, id).type.params)
+      if (const auto& value = values.at(spec.name); value != spec.fallback) out[id][spec.name] = value;
   return out;
 }
 

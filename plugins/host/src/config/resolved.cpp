@@ -4,6 +4,7 @@
 
 #include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
+#include "dismantle/host/ingredients.h"
 
 namespace dismantle {
 namespace {
@@ -53,6 +54,21 @@ class Writer {
     yaml_.choice(section.name, 2, section.kind, {}, choice);
   }
 
+  /// Only what is not the default: a reader of meshes needs no importer of CAD files.
+  void importers(const ImportParams& params, const Registry& registry) {
+    if (params.empty()) return;
+    line("importers:");
+    for (const auto& [id, values] : params) {
+      line(fmt::format("  {}:", plain_or_quoted(id)));
+      yaml_.values("importers." + id, 4, registry.find(PluginKind::importer, id).type.params, values);
+    }
+  }
+
+  void provers(const std::vector<PluginChoice>& choices, const Registry& registry) {
+    line("immobility:");
+    yaml_.values("immobility", 2, {provers_parameter(registry)}, {{"provers", choices}});
+  }
+
   const std::string& text() const { return yaml_.text(); }
 
  private:
@@ -99,10 +115,12 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
       writer.values(name, specs, config.sections.at(name));
     }
   };
+  writer.importers(import_params_of(config, registry));
   fixed("assembly");
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i]);
+  writer.provers(config.provers, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
     writer.line("  poses:");

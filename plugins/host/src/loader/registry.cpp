@@ -42,6 +42,8 @@ std::string_view to_string(PluginKind kind) {
       return "sequence_planner";
     case PluginKind::transfer_planner:
       return "transfer_planner";
+    case PluginKind::immobility_prover:
+      return "immobility_prover";
     case PluginKind::importer:
       return "importer";
   }

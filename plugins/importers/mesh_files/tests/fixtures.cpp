@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "dismantle/errors.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::mesh_files::testing {
 namespace {
@@ -28,14 +29,7 @@ std::uint32_t crc32(std::string_view data) {
 
 }  // namespace
 
-Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
-  Mesh m;
-  for (int i = 0; i < 8; ++i)
-    m.vertices.emplace_back(i & 1 ? hi.x() : lo.x(), i & 2 ? hi.y() : lo.y(), i & 4 ? hi.z() : lo.z());
-  m.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return m;
-}
+Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) { return shapes::box(lo, hi); }
 
 TempFolder::TempFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "dismantle-XXXXXX").string();

@@ -83,7 +83,7 @@ TEST_P(SceneFormat, NodesArePartsWithTheirTransforms) {
   Assimp::Exporter exporter;
   ASSERT_EQ(exporter.Export(&scene, format, file.string()), aiReturn_SUCCESS) << exporter.GetErrorString();
   MeshFiles importer;
-  const auto parts = importer.read(file);
+  const auto parts = importer.read(file, {});
   ASSERT_EQ(parts.size(), 3u);
   EXPECT_EQ(parts[0].name, "left");
   EXPECT_EQ(parts[1].name, "mirrored");
@@ -110,7 +110,7 @@ TEST_P(MeshFormat, ComesBackAsItWas) {
   Assimp::Exporter exporter;
   ASSERT_EQ(exporter.Export(&scene, format, file.string()), aiReturn_SUCCESS) << exporter.GetErrorString();
   MeshFiles importer;
-  const auto parts = importer.read(file);
+  const auto parts = importer.read(file, {});
   ASSERT_EQ(parts.size(), 1u);
   expect_box(parts[0], {0, 0, 0}, {1, 2, 3});
 }
@@ -148,7 +148,7 @@ TEST(Dae, KeepsUnitsAndAxesOfTheFile) {
   MeshFiles importer;
   for (const std::string unit : {"1", "0.001", "0.0254"})
     for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {
-      const auto parts = importer.read(folder.write("a.dae", dae(unit, up)));
+      const auto parts = importer.read(folder.write("a.dae", dae(unit, up)), {});
       ASSERT_EQ(parts.size(), 2u) << unit << up;
       EXPECT_EQ(parts[0].name, "gear one");
       EXPECT_EQ(parts[1].name, "gear two");
@@ -188,9 +188,10 @@ TEST(Mf3, BuildItemsAndComponentsArePlaced) {
       R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
 <Relationship Target="/3D/3dmodel.model" Id="r0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>)";
   for (const std::string unit : {"millimeter", "inch"}) {
-    const auto parts = importer.read(folder.write(
-        "a.3mf",
-        testing::zip({{"[Content_Types].xml", types}, {"_rels/.rels", rels}, {"3D/3dmodel.model", model_3mf(unit)}})));
+    const auto parts = importer.read(folder.write("a.3mf", testing::zip({{"[Content_Types].xml", types},
+                                                                         {"_rels/.rels", rels},
+                                                                         {"3D/3dmodel.model", model_3mf(unit)}})),
+                                     {});
     ASSERT_EQ(parts.size(), 3u);
     EXPECT_EQ(parts[0].name, "plate");
     EXPECT_EQ(parts[1].name, "pin");
@@ -205,17 +206,17 @@ TEST(Assimp, RefusalsNameTheFile) {
   MeshFiles importer;
   for (const std::string ending : {"glb", "gltf", "3mf", "dae", "ply"}) {
     const auto file = folder.write("broken." + ending, "this is no mesh at all");
-    EXPECT_NE(testing::input_error([&] { importer.read(file); }).find("broken." + ending), std::string::npos);
+    EXPECT_NE(testing::input_error([&] { importer.read(file, {}); }).find("broken." + ending), std::string::npos);
   }
   const auto points = folder.write("points.ply",
                                    "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
                                    "property float z\nend_header\n0 0 0\n1 0 0\n");
-  EXPECT_NE(testing::input_error([&] { importer.read(points); }), "");
+  EXPECT_NE(testing::input_error([&] { importer.read(points, {}); }), "");
   const auto nan = folder.write("nan.ply",
                                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                                 "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
                                 "0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_NE(testing::input_error([&] { importer.read(nan); }).find("not finite"), std::string::npos);
+  EXPECT_NE(testing::input_error([&] { importer.read(nan, {}); }).find("not finite"), std::string::npos);
 }
 
 }  // namespace

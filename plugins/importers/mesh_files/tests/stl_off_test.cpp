@@ -109,7 +109,7 @@ TEST(AllReaders, RandomDamageGivesAMeshOrAnInputError) {
     }
     const auto file = folder.write("fuzz." + ending, bytes);
     input_error([&] {
-      for (const auto& part : importer.read(file))
+      for (const auto& part : importer.read(file, {}))
         for (const auto& t : part.mesh.triangles)
           for (const auto i : t) ASSERT_LT(i, part.mesh.vertices.size());
     });

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/immobility_prover.h"
 #include "dismantle/importer.h"
 #include "dismantle/parameters.h"
 #include "dismantle/path_planner.h"

@@ -11,6 +11,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/export.h"
+#include "dismantle/immobility_prover.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/plan.h"
 #include "dismantle/run_context.h"
@@ -19,6 +20,12 @@
 #include "dismantle/verification/verifier.h"
 
 namespace dismantle {
+
+/// A prover and its id, which names the kind of its certificates.
+struct NamedProver {
+  std::string id;
+  std::shared_ptr<const ImmobilityProver> prover;
+};
 
 /// How each kind is made; called once per thread for path and transfer planners.
 struct Ingredients {
@@ -29,6 +36,7 @@ struct Ingredients {
   /// Empty: assembly steps begin where the disassembly ended.
   std::function<std::shared_ptr<TransferPlanner>()> transfer_planner;
   std::string transfer_planner_id;
+  std::vector<NamedProver> provers{};  ///< in the order of asking; empty: nothing is proved
 };
 
 struct RunOptions {
@@ -51,6 +59,7 @@ struct RunResult {
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after)
   double prepare_seconds = 0;                                   ///< simulator preparation
   double plan_seconds = 0;
+  double proof_seconds = 0;  ///< of immobility provers, on all threads together; attempts do not count it as theirs
 };
 
 /// Runs to the end, the deadline or cancellation; in each case the result holds every finished step.

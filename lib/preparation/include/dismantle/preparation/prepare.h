@@ -33,6 +33,7 @@ struct PartReport {
   std::string name;
   std::string file;
   bool kept = true;
+  bool by_choice = false;             ///< not kept because of a rule of the configuration; it could have been used
   std::vector<std::string> actions;   ///< plain sentences with figures: "welded 3024 vertices to 506"
   std::string reason;                 ///< not kept: why
   std::size_t vertices = 0, triangles = 0, shells = 0;

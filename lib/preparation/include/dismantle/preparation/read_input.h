@@ -26,9 +26,11 @@ struct InputParts {
 };
 
 /// A folder: each mesh file in it is one part, whatever it is made of, named as the file without its ending;
-/// sub-folders and files that are no meshes are left aside. A file: its parts, named as in the file.
+/// sub-folders, files that are no meshes and animations that Dismantle wrote are left aside; a file that cannot be read is a
+/// part with a `problem`. A file: its parts, named as in the file.
 /// Names are made valid UTF-8 and unique ("a.obj" and "a.stl" for two files of one stem, "nut#2" for a second node).
-/// @throws InputError naming the file: missing, not readable, no importer for its ending, broken, no parts, too large.
+/// @throws InputError naming the input, or the file in it: missing, no importer for its ending, no parts, too large, and if it
+/// is one file, broken.
 /// @throws Error when `context` wants to stop.
 DISMANTLE_API InputParts read_input(const std::filesystem::path& input,
                                     const std::vector<std::shared_ptr<Importer>>& importers,
@@ -37,7 +39,7 @@ DISMANTLE_API InputParts read_input(const std::filesystem::path& input,
 /// Order for names: runs of digits compare as numbers, all else bytewise; a strict total order.
 DISMANTLE_API bool natural_less(std::string_view a, std::string_view b);
 
-/// `bytes` with every byte sequence that is not UTF-8 replaced by U+FFFD and control characters by '_'.
+/// `bytes` with every byte sequence that is not UTF-8 replaced by U+FFFD and control characters (C0, DEL, C1) by '_'.
 DISMANTLE_API std::string valid_utf8(std::string_view bytes);
 
 /// Makes the names of `parts` non-empty and unique: a repeated name gets "#2", "#3"...

@@ -1,11 +1,14 @@
 /// Judges a whole plan file against the assembly that it is for.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/assembly.h"
+#include "dismantle/export.h"
+#include "dismantle/immobility_prover.h"
 #include "dismantle/plan.h"
 #include "dismantle/run_context.h"
 #include "dismantle/verification/verifier.h"
@@ -18,14 +21,19 @@ struct PlanProblem {
 };
 
 struct PlanCheck {
-  bool valid = false;     ///< rules (a), (b), (c) of DESIGN section 7 hold for every step
+  bool valid = false;     ///< every step is a valid motion that separates what it says, and every certificate holds
   bool complete = false;  ///< valid, and every group is down to one part
-  double max_penetration = 0;  ///< worst certified bound over all steps
+  std::size_t certificates = 0;  ///< that hold
+  double max_penetration = 0;    ///< worst certified bound over all steps
   std::vector<double> step_penetration;
   std::vector<PlanProblem> problems;
 };
 
+/// The prover that makes and checks certificates of a kind; nullptr: there is none.
+using ProverOfKind = std::function<std::shared_ptr<const ImmobilityProver>(const std::string& kind)>;
+
+/// Certificates are checked by the provers of their kinds; without a prover a certificate does not hold.
 DISMANTLE_API PlanCheck check_plan(const Plan& plan, const Assembly& assembly, const VerifyOptions& options,
-                                   RunContext& context);
+                                   RunContext& context, const ProverOfKind& prover_of = {});
 
 }  // namespace dismantle

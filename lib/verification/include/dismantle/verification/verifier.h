@@ -15,6 +15,10 @@
 
 namespace dismantle {
 
+namespace geometry {
+struct Solid;
+}
+
 struct VerifyOptions {
   double max_penetration = 0.01;  ///< assembly units, > 0; above the pair's initial overlap
 };
@@ -36,62 +40,6 @@ struct MotionCheck {
   std::optional<Violation> violation;
   std::uint64_t tests = 0;   ///< elementary sweep tests done
   bool interrupted = false;  ///< not valid, for it was told to stop
-};
-
-/// Two parts that overlap when assembled in such a way that no motion within the limits can part them: a point lies in
-/// both, deeper below the surface of `inside` than the pair may penetrate. When they are apart it is outside `other`,
-/// so on any way there it passes through the surface of `other`, which then is as deep in `inside`.
-struct Lock {
-  PartId inside = 0, other = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< assembled
-  double depth = 0;                                 ///< of the point below the surface of `inside`, assembly units
-  double allowed = 0;                               ///< the pair's when assembled and max_penetration
-};
-
-/// A part that cannot leave, however it moves: a ball within `inside`, less what may be penetrated, is too large for
-/// every way out between the parts around it.
-struct Enclosure {
-  PartId inside = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the ball's centre, assembled
-  double radius = 0;                                ///< assembly units
-  std::vector<PartId> around;                       ///< those that bound its room, most of it first
-};
-
-/// Two parts that hold each other though nothing of them overlaps: no motion within the limits parts them.
-struct Cage {
-  enum class Kind {
-    ring,   ///< a circle within `inside` is in a chamber of `other`, all of whose openings are narrower
-    spool,  ///< `inside` goes through a hole in `other`, between two rims that are wider than a circle about the hole
-    hook,   ///< `inside` goes through a hole in `other`, between two bends that cannot follow
-    disc,   ///< a flat disc within `inside` is in a chamber of `other`, and gets through none of its openings
-  };
-  Kind kind = Kind::ring;
-  PartId inside = 0, other = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the circle's centre, or a point in the hole; assembled
-  double size = 0;     ///< diameter of the circle or disc, width of the narrower rim; assembly units; 0 for a hook
-  double opening = 0;  ///< diameter of the widest opening, of the circle about the hole, of the hole; 0 for a disc
-};
-
-/// Two parts that hold each other as rigid bodies: every motion that begins assembled, and along which they cut in by
-/// less than `depth`, stays within bounds. Where the depth is less than what the judge allows, this explains why no way
-/// was found, and does not spare the search for one.
-struct Confinement {
-  PartId inside = 0, other = 0;
-  double depth = 0;       ///< assembly units: the overlap of the two when assembled, and a share of max_penetration
-  double shift = 0;       ///< the middle of `inside` comes no further, seen from `other`; assembly units
-  double turn = 0;        ///< nor does it turn by more; rad
-  std::size_t cells = 0;  ///< boxes of poses that the proof is made of
-};
-
-/// Parts that hold each other in place as rigid bodies: whoever of them moves, in every motion that begins assembled,
-/// and along which no two cut in by `depth` more than when assembled, all of them stay within bounds. As a confinement,
-/// this does not spare the search for a way.
-struct Interlock {
-  std::vector<PartId> parts;    ///< ascending
-  double depth = 0;             ///< assembly units: half of max_penetration
-  double shift = 0;             ///< no middle comes further, seen from the largest part; assembly units
-  double turn = 0;              ///< none turns by more, seen from it; rad
-  std::size_t half_spaces = 0;  ///< of poses that the proof is made of
 };
 
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
@@ -141,25 +89,8 @@ class DISMANTLE_API Verifier {
   std::size_t parts() const;
   /// Corners of the convex hull of a part, in its assembled frame.
   const std::vector<Eigen::Vector3d>& hull(PartId part) const;
-  /// All pairs that are locked by their overlap, sorted by (a, b) as Assembly::overlaps. Found when built.
-  const std::vector<Lock>& locks() const;
-  /// Do the two, as they are assembled, hold each other? What is proved so holds wherever they were moved since, for
-  /// no motion within the limits leads out of it. Fractions of a second up to a few, of very fine meshes up to a
-  /// minute; nothing when told to stop.
-  std::optional<Cage> caged(PartId a, PartId b, const RunContext& context = {}) const;
-  /// The same for a large flat piece within `inside`; seconds up to ten, so it is not part of caged(). Nothing when
-  /// told to stop.
-  std::optional<Cage> caged_flat(PartId inside, PartId other, const RunContext& context) const;
-  /// The same for any shape of the two, over boxes of relative poses, and for motions that cut in by less than that
-  /// share (in (0, 1]) of max_penetration more than when assembled; with all of it much is not settled that is with
-  /// half. Asked with a fixed effort: seconds up to half a minute.
-  std::optional<Confinement> confined(PartId a, PartId b, const RunContext& context, double share = 0.5) const;
-  /// Do these parts (>= 2, distinct), as they are assembled, hold each other in place? Told where they have little
-  /// play: seconds for a handful of parts.
-  std::optional<Interlock> interlocked(std::vector<PartId> parts, const RunContext& context) const;
-  /// Are the moving parts shut in by the still ones, or (a single moving part) one of those by it? Found only when it
-  /// can be proved within a fixed effort; a fraction of a second up to a few.
-  std::optional<Enclosure> shut_in(const std::vector<PlacedPart>& moving, const std::vector<PlacedPart>& still) const;
+  /// The part's closed shells, as the checks see them.
+  const std::vector<geometry::Solid>& solids(PartId part) const;
 
  private:
   struct Impl;

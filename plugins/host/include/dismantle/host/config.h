@@ -45,11 +45,13 @@ DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const As
 struct RunConfig {
   /// With complete parameters, those of the plugins that they hold included.
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;
+  std::vector<PluginChoice> provers;  ///< of immobility, in the order of asking; empty: nothing is proved
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
   LayoutOptions layout;
   NamedConstraints constraints;
+  std::map<std::string, ParamSet> importers;  ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
   /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
@@ -90,6 +92,8 @@ struct PluginSection {
   const char* default_id;
 };
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
+/// The parameter `provers` of the section `immobility`. Its default: the built-in provers, as far as they are there.
+DISMANTLE_API ParamSpec provers_parameter(const Registry& registry);
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 
 }  // namespace dismantle

@@ -19,7 +19,12 @@ DISMANTLE_API Ingredients ingredients_of(const RunConfig& config, const Registry
 /// `part`: plan just this one; empty: all.
 DISMANTLE_API RunOptions run_options_of(const RunConfig& config, const std::string& part);
 
-/// All importers that are there, by id.
-DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry);
+/// All importers that are there, by id. `params`: those that are not the default.
+/// @throws PluginError when `params` names an importer that is not there, or a bad parameter.
+DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry,
+                                                                  const ImportParams& params = {});
+
+/// What of `config.importers` is not the default.
+DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
 
 }  // namespace dismantle

@@ -16,7 +16,7 @@
 namespace dismantle {
 
 /// The key of the kind in a configuration: "simulator", "path_planner", "sequence_planner",
-/// "transfer_planner", "importer".
+/// "transfer_planner", "immobility_prover", "importer".
 DISMANTLE_API std::string_view to_string(PluginKind kind);
 
 /// A plugin file that was accepted.

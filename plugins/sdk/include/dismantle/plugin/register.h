@@ -14,7 +14,8 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 World, Prepared, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal,
                 PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
-                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Deadline, CancelToken,
+                PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
+                ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
                 Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
                 PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);

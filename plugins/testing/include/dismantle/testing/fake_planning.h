@@ -12,6 +12,7 @@
 
 #include "dismantle/engine/run.h"
 #include "dismantle/testing/path_checking.h"
+#include "dismantle/testing/shapes.h"
 
 namespace dismantle::fake {
 
@@ -22,16 +23,7 @@ struct Box {
 /// One mesh with a closed shell for each box.
 inline Mesh boxes(const std::vector<Box>& list) {
   Mesh mesh;
-  for (const auto& b : list) {
-    const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int i = 0; i < 8; ++i)
-      mesh.vertices.emplace_back((i & 1) != 0 ? b.hi.x() : b.lo.x(), (i & 2) != 0 ? b.hi.y() : b.lo.y(),
-                                 (i & 4) != 0 ? b.hi.z() : b.lo.z());
-    for (const Triangle& t : {Triangle{0, 2, 1}, Triangle{1, 2, 3}, Triangle{4, 5, 6}, Triangle{5, 7, 6},
-                              Triangle{0, 1, 4}, Triangle{1, 5, 4}, Triangle{2, 6, 3}, Triangle{3, 6, 7},
-                              Triangle{0, 4, 2}, Triangle{2, 4, 6}, Triangle{1, 3, 5}, Triangle{3, 7, 5}})
-      mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
+  for (const auto& b : list) shapes::append(mesh, shapes::box(b.lo, b.hi));
   return mesh;
 }
 

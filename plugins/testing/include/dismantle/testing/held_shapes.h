@@ -183,12 +183,6 @@ struct Keyed {
   }
 };
 
-/// The same surface, turned inside out: a void.
-inline Mesh inside_out(Mesh m) {
-  for (Triangle& t : m.triangles) std::swap(t[1], t[2]);
-  return m;
-}
-
 /// A cube about the origin, in a block with a passage that is wider by `play` on every side: along x, then along y,
 /// each time by one cube; and there, perhaps, up and out. One solid, whose surface follows a grid.
 struct Passage {

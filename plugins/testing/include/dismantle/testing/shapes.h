@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/aabb.h"
 #include "dismantle/mesh.h"
 #include "dismantle/pose.h"
 #include "dismantle/assembly.h"
@@ -34,6 +35,24 @@ inline void append(Mesh& to, const Mesh& from, bool flip = false) {
   for (const auto& t : from.triangles)
     to.triangles.push_back(flip ? Triangle{base + t[0], base + t[2], base + t[1]}
                                 : Triangle{base + t[0], base + t[1], base + t[2]});
+}
+
+inline Mesh joined(Mesh a, const Mesh& b) {
+  append(a, b);
+  return a;
+}
+
+/// The same surface, turned inside out: a void.
+inline Mesh inside_out(Mesh m) {
+  for (Triangle& t : m.triangles) std::swap(t[1], t[2]);
+  return m;
+}
+
+/// One mesh with a closed shell for each box.
+inline Mesh boxes(const std::vector<Aabb>& list) {
+  Mesh m;
+  for (const auto& b : list) append(m, box(b.lo, b.hi));
+  return m;
 }
 
 /// Box with a closed hollow: walls of `wall`.

@@ -20,33 +20,32 @@ namespace dismantle::free_space {
 /// Is what moves so thin that what is allowed for its overlaps would let it pass through walls?
 bool overlaps_through(const PathQuery& query);
 
-/// The ways that points of the body still have to go say how far a pose has come: their mean, or that of the foremost
-/// ones alone. Poses of the tree are kept by place; the place that has come furthest is gone on from, and the more
-/// often that was in vain the less.
-class LedWalk {
+/// The ways that points of the body still have to go say how far a pose has
+/// come: their mean, or that of the foremost ones alone. Poses of the tree are
+/// kept by place; the place that has come furthest is gone on from, and the
+/// more often that was in vain the less.
+class LedWalk final : public PathSearch {
  public:
-  /// All outlive this. Several moving parts move as one rigid body. The grid has about `most_cells`. Overlaps near the
-  /// start only are for what overlaps_through().
+  /// How long it goes on. Unit of work: a state check that takes 1000
+  /// distances; no check counts less than a quarter.
+  struct Effort {
+    std::size_t cells;  ///< of the grid, about
+    double patience;    ///< work without coming further, after which the narrowest
+                        ///< place ahead is taken for closed; 12 times as much in all
+    unsigned detours;   ///< so often; then it gives up, sooner where the body has
+                        ///< only some play
+  };
+  /// All outlive this. Several moving parts move as one rigid body. Overlaps
+  /// near the start only are for what overlaps_through().
   LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
-          std::size_t most_cells, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
+          const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
   bool leads_out() const { return leads_out_; }
-  /// Of all calls of run() together, except for the last two. Unit of work: a state check of 1000 distance queries; none
-  /// counts less than a quarter.
-  struct Limits {
-    std::uint64_t most_looks = ~std::uint64_t{0};  ///< state checks
-    double patience = 0;                           ///< work without progress until a detour; 12 times that in all
-    unsigned most_detours = 0;                     ///< places that are taken for closed
-    std::uint64_t pause_after = 0;                 ///< state checks of this call, after which it pauses; 0: none
-    Deadline pause_at{};                           ///< of this call
-  };
-  /// Goes on where the last call paused. After work without progress the narrowest place ahead is taken for closed;
-  /// after the last detour it gives up, and soon where the body has only some play.
-  /// Outcomes as of tolerant_walk::Walk. Goes on from PathQuery::resume_from where that is of such a walk.
-  PathResult run(const Limits& limits);
-  /// The last call ended because of `pause_after` or `pause_at`.
-  bool paused() const { return paused_; }
+  /// Outcomes as of tolerant_walk::Walk. Resumes from PathQuery::resume_from
+  /// where that is of such a walk.
+  SearchStatus run(const Budget& portion) override;
+  PathResult result() override;
   std::uint64_t looks() const { return tree_.looks(); }
   /// It has only some play where it starts, by what was found until now.
   bool held() const { return held_; }
@@ -77,7 +76,8 @@ class LedWalk {
   PoseTree::Step along(std::uint32_t node, const Twist& slip) const;
   PoseTree::Step downhill(std::uint32_t node, const std::vector<double>& weights) const;
   std::vector<double> leaders();
-  bool fly(PathResult& result);
+  bool gives_up();
+  bool fly();
   bool clearly_off(std::uint32_t node) const;
   bool arrived(std::uint32_t node, const Left& left);
 
@@ -100,10 +100,11 @@ class LedWalk {
   double progress_at_ = 0;               // ... after so much work
   std::uint64_t first_look_ = 0;         // when the walk began, or the judge has last refused a way
   double first_work_ = 0;
-  bool resumed_ = false;
-  bool begun_ = false, paused_ = false;
+  bool resumed_ = false, begun_ = false, over_ = false;
+  const Effort effort_;
   unsigned detours_ = 0;
-  Left at_first_{};  // of the way, when the walk began
+  Left at_first_{};  // of the way: where it began
+  PathResult result_;
 };
 
 }  // namespace dismantle::free_space

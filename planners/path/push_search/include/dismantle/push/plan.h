@@ -1,9 +1,10 @@
-/// A path planner's answer by push search.
+/// Contact search: a path planner's searches over pushes.
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "dismantle/path_planner.h"
 #include "dismantle/push/search.h"
@@ -13,8 +14,6 @@ namespace dismantle::push {
 
 /// What the simulator has to be capable of.
 Capabilities required();
-/// Has the simulator all of that, for all moving parts?
-bool supported(const PathQuery& query);
 
 /// Search by translation and by rotation in turns of growing rank, until both are exhausted: what is new to each kind
 /// of motion comes before the rest of the other.
@@ -26,8 +25,6 @@ class ByTurns {
   /// Goes on where the last call stopped; Limits::rank is its own affair. `depth_limit`: it was paused.
   PathResult run(const Search::Limits& limits);
   bool paused() const { return paused_; }
-  /// After the deadline of a call, where the search has more time: another call goes on.
-  void go_on();
   /// What both have reached.
   std::shared_ptr<const Reached> reached() const;
 
@@ -43,11 +40,52 @@ class ByTurns {
   bool paused_ = false;
 };
 
-/// Searches in the motion space that the tactics name, or, with `motion: auto`, by translation and by rotation:
-/// in turns of growing rank until both are exhausted; under a depth limit with a number of states for each.
-/// Goes on from PathQuery::resume_from where that is one of its own, and says what it has reached where it finds
-/// nothing. `between`: see Search::Limits.
-PathResult plan(const PathQuery& query, const Tactics& tactics, RunContext& context,
-                const std::function<void()>& between = {});
+/// Searches in the motion space that the tactics name, or, with `motion: auto`,
+/// by translation and by rotation: in turns of growing rank until both are
+/// exhausted; under a depth limit one after the other, with a number of states
+/// for each. Resumes from PathQuery::resume_from where that is one of its own.
+class ContactSearch final : public PathSearch {
+ public:
+  /// All outlive this. `between`: see Search::Limits; may be empty.
+  ContactSearch(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                std::function<void()> between = {});
+
+  SearchStatus run(const Budget& portion) override;
+  PathResult result() override;
+
+ private:
+  /// One motion space, with its part of the effort.
+  struct Leg {
+    MotionSpace space = MotionSpace::translation;
+    unsigned rank = ~0U;
+    std::uint64_t expansions = 0;          ///< states, 0 = no limit
+    std::optional<std::uint64_t> share{};  ///< of the steps that are left: at most so many, or all
+  };
+  static std::vector<Leg> legs_of(const PathQuery& query, const Tactics& tactics);
+  SearchStatus run_legs(Search::Limits limits);
+  SearchStatus run_leg(const Leg& leg, Search::Limits limits);
+  void keep_tree();
+
+  const PathQuery& query_;
+  const Tactics& tactics_;
+  RunContext& context_;
+  std::function<void()> between_;
+  Deadline deadline_;
+  std::uint64_t steps_left_;
+  std::optional<ByTurns> turns_;
+  std::vector<Leg> legs_;  ///< those still to come, the current one first; where
+                           ///< there are no turns
+  std::optional<Search> current_;
+  std::uint64_t share_left_ = 0, share_ = 0;  ///< of the current leg
+  bool any_ = false;                          ///< a leg has ended
+  PathResult ended_,
+      now_;  ///< of the legs that have ended; with the current one
+  std::shared_ptr<Reached> reached_ = std::make_shared<Reached>();
+};
+
+/// A search as above, or one that is over because the simulator cannot do what
+/// it needs.
+std::unique_ptr<PathSearch> start(const PathQuery& query, const Tactics& tactics, RunContext& context,
+                                  std::function<void()> between = {});
 
 }  // namespace dismantle::push

@@ -41,12 +41,17 @@ class Search {
   /// What one call of run() may use.
   struct Limits {
     Deadline deadline;
-    std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down; nullptr = no limit
-    /// States given actions; 0 = no limit. What was taken over from an earlier search counts, up to a half.
+    std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down;
+                                          ///< nullptr = no limit
+    /// States given actions in this call and those that were paused before it;
+    /// 0 = no limit. What was taken over from an earlier search counts, up to a
+    /// half.
     std::uint64_t expansions = 0;
     unsigned rank = ~0U;            ///< states that wait longer than this are left waiting
-    std::uint64_t pause_after = 0;  ///< steps and looks of this call, rounded up to whole states; 0 = no pause
-    std::function<void()> between;  ///< called before each state is given actions, may wait; may be empty
+    std::uint64_t pause_after = 0;  ///< steps and looks of this call, rounded up
+                                    ///< to whole states; 0 = no pause
+    std::function<void()> between;  ///< called before each state is given
+                                    ///< actions, may wait; may be empty
   };
   /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
   /// no.
@@ -86,7 +91,7 @@ class Search {
   RunEnd follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result);
   enum class GlideEnd { blocked, out, known, stop };
   GlideEnd glide(const Twist& twist, unsigned depth, Run& run);
-  RunEnd judge(std::int32_t last, const State& start, PathResult& result);
+  RunEnd verify(std::int32_t last, const State& start, PathResult& result);
   std::vector<PartId> note_contacts(const State& state);
   void note_touched(std::int32_t node, const std::vector<PartId>& parts);
   Path path_to(std::int32_t node) const;
@@ -104,7 +109,8 @@ class Search {
   Eigen::Matrix3d axes_;  ///< columns: what the unit actions push along
   Extents extents_;       ///< where the query begins
   const std::vector<Stage>& stages_;
-  path::StateSet seen_, fine_;  ///< every recorded state, at the paper's and at a finer resolution
+  path::StateSet seen_,
+      fine_;  ///< every recorded state, at the paper's and at a finer resolution
   std::vector<Node> nodes_;
   path::StateSet places_;  ///< states searched from, at a coarser resolution
   struct Waiting {
@@ -120,6 +126,8 @@ class Search {
   Limits limits_;
   std::uint64_t pause_at_ = 0;  ///< work in all at which this call pauses
   bool paused_ = false;
+  bool sweep_paused_ = false;    ///< under a limit of expansions, which goes on to hold
+  std::uint64_t sweep_end_ = 0;  ///< expansions at which it ends
   bool may_relax_ = true;
   bool short_glides_ = false;  ///< the judge refused one
   std::vector<Lesson> lessons_;

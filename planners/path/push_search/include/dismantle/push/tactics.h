@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/path/motion.h"
+
 namespace dismantle::push {
 
-enum class Motion { translation, rotation, automatic };
+using path::Motion;
 
 /// What to push with, from stage to stage; a state is given one stage at a time.
 enum class Stage {
@@ -17,7 +19,8 @@ enum class Stage {
   diagonals,  ///< forces along the 20 diagonals
   screws,     ///< a torque and a force along its axis at once; in SE(3) only
   // For queries in which each part moves in its own way (Goal::any_of):
-  one_driven,  ///< a force along one of three axes (in SE(3) also a torque about it) on one part; contact drags others
+  one_driven,  ///< a force along one of three axes (in SE(3) also a torque about
+               ///< it) on one part; contact drags others
   two_along,   ///< on two parts at once, along the same axis, in all combinations
   two_across,  ///< on two parts at once, along different axes
 };

@@ -83,10 +83,13 @@ class PoseTree {
   /// Are the hulls of what moves and of what stays apart there?
   bool separated(const Pose& displacement) const;
 
-  /// True when the judge accepts a way to the node; then `result` holds it. Else some nodes of the way there are cut.
-  bool judged(std::uint32_t node, PathResult& result);
-  /// The search is over: how it ended if nothing was `solved`, `best` being the node that came furthest, and counts.
-  void finish(bool solved, std::uint32_t best, PathResult& result) const;
+  /// True when the checker accepts a path to the node; then `result` holds it.
+  /// Else some nodes on the way there are cut.
+  bool verified(std::uint32_t node, PathResult& result);
+  /// Nothing was found until now: why.
+  void explain(PathResult& result) const;
+  /// What a search has found out; `best` is the node that came furthest.
+  void finish(std::uint32_t best, PathResult& result) const;
   std::vector<Pose> poses(const Pose& displacement) const;
 
  private:

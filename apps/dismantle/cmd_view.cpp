@@ -1,0 +1,77 @@
+// dismantle view PLAN.json
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/host/ingredients.h"
+#include "dismantle/plan_file.h"
+#include "dismantle/plan_io/page.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
+#include "dismantle/viewer_template.h"
+#include "dismantle/write_file.h"
+
+namespace dismantle::app {
+namespace {
+
+struct ViewOptions {
+  std::string plan, assembly, output;
+  ConsoleOptions console;
+};
+
+int view(const ViewOptions& options) {
+  Console console(options.console);
+  const auto page_template = viewer_template();
+  if (!page_template) throw Error(kNoViewer);
+  Registry registry;
+  registry.scan();
+  warn_of_problems(registry, console);
+  RunSettings settings;
+  settings.timeout = 0;
+  RunContext context = context_of(settings, console);
+
+  const Plan plan = read_plan(options.plan);
+  const std::string source = source_of(plan, options.plan, options.assembly);
+  ReadOptions read;
+  read.max_triangles = std::numeric_limits<std::int64_t>::max();
+  const Assembly assembly = stoppable(context, [&] {
+    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
+  });
+  const std::filesystem::path page = options.output.empty()
+                                         ? std::filesystem::path(options.plan).replace_filename("index.html")
+                                         : std::filesystem::path(options.output);
+  write_file(page, to_page(plan, assembly, *page_template));
+  console.end_progress();
+  console.text(fmt::format("wrote {}: open it in a browser\n", page.string()));
+  console.result({{"status", plan.status == PlanStatus::complete ? "complete" : "partial"},
+                  {"parts", assembly.parts.size()},
+                  {"steps", plan.disassembly.size()},
+                  {"page", page.string()},
+                  {"plan", options.plan}});
+  return kComplete;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("view", "Write a page that shows a plan in a browser, without a network");
+  auto options = std::make_shared<ViewOptions>();
+  command->add_option("PLAN.json", options->plan, "Plan file")->required()->option_text(" ");
+  command->add_option("-o,--output", options->output, "The page to write; default: index.html beside the plan")
+      ->option_text("FILE.html");
+  command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
+      ->option_text("INPUT");
+  add_format(*command, options->console);
+  add_verbosity(*command, options->console);
+  command->footer(
+      "'dismantle plan' writes this page by itself; this is for plans that have none, or that came without it.\n"
+      "Example:\n"
+      "  dismantle view out/plan.json -o gearbox.html");
+  command->callback([&action, options] { action = [options] { return view(*options); }; });
+}
+
+}  // namespace dismantle::app

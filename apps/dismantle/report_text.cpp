@@ -1,0 +1,57 @@
+#include "dismantle/report_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dismantle/plan_io/text_columns.h"
+
+namespace dismantle {
+
+std::string check_text(const Plan& plan, const PlanCheck& check) {
+  std::string out = fmt::format("{}: {}\n", plan.assembly.source, text::counted(plan.disassembly.size(), "step"));
+  const std::size_t width = text::widest_step(plan);
+  for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
+    const auto& step = plan.disassembly[i];
+    const bool bad = std::ranges::any_of(check.problems, [&](const PlanProblem& p) { return p.step == step.step; });
+    out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::names_of(step), width));
+    if (bad)
+      out += "NOT VALID\n";
+    else if (i < check.step_penetration.size())
+      out += fmt::format("valid, penetration <= {:.2g}\n", check.step_penetration[i]);
+    else
+      out += "not checked\n";
+  }
+  for (const auto& p : check.problems)
+    out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
+                       : fmt::format("problem in step {}: {}\n", p.step, p.message);
+  if (!check.valid) return out + "The plan is NOT VALID.\n";
+  out += fmt::format("The plan is valid, penetration <= {:.2g} assembly units, and {}.\n", check.max_penetration,
+                     check.complete ? "complete" : "partial: some parts are still together");
+  return out;
+}
+
+std::string prepare_text(const Assembly& assembly, const PrepareReport& report) {
+  std::size_t width = 4;
+  for (const auto& part : report.parts) width = text::column_of(width, part.name);
+  std::string out = fmt::format("{}: {} read, {} kept\n", assembly.source, text::counted(report.parts.size(), "part"),
+                                assembly.parts.size());
+  out +=
+      fmt::format("  {}  {:>9}  {:>6}  {:>12}  done\n", text::padded("part", width), "triangles", "shells", "volume");
+  for (const auto& part : report.parts) {
+    std::string done = part.kept ? "" : "LEFT OUT: " + part.reason;
+    for (const auto& action : part.actions) done += (done.empty() ? "" : "; ") + action;
+    out += fmt::format("  {}  {:>9}  {:>6}  {:>12.6g}  {}\n", text::padded(part.name, width), part.triangles,
+                       part.shells, part.volume, done.empty() ? "nothing" : done);
+  }
+  for (const auto& o : assembly.overlaps)
+    out += fmt::format("overlap when assembled: {} and {}, {:.2g} assembly units\n", assembly.parts[o.a].name,
+                       assembly.parts[o.b].name, o.depth);
+  for (const auto& warning : report.warnings) out += fmt::format("warning: {}\n", warning);
+  const Eigen::Vector3d size = assembly.input_box.size();
+  out += fmt::format("size {:.6g} x {:.6g} x {:.6g} input units, scale {:.6g}\n", size.x(), size.y(), size.z(),
+                     assembly.normalization.scale);
+  return out;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,322 @@
+// The state of the page, and what it means for the scene. Whatever changes it tells the listeners what changed.
+import {screwInterpolate} from './plan/screw.js';
+import {Parts} from './scene/parts.js';
+
+const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, to the pose that came furthest
+const SEEN_THROUGH = 0.5;
+
+export class App {
+  constructor(model) {
+    this.model = model;
+    this.stage = this.parts = this.trails = null;
+    this.mode = 'disassembly';
+    this.time = 0;
+    this.playing = false;
+    this.speed = 1;
+    this.explode = 0;
+    this.colours = model.hasColours ? 'given' : 'order';
+    this.trailing = 'step';  // none, step, all
+    this.fading = model.parts.length > 12;
+    this.selected = this.hovered = -1;
+    this.hidden = new Set();
+    this.clear = new Set();  // made transparent
+    this.isolated = null;    // a Set, or null
+    this.best = null;        // {index, u}: an unsolved part on its way to the pose that came furthest
+    this.step = -1;
+    this.listeners = [];
+    this.stale = true;
+    this.pose = new Float64Array(7);
+  }
+
+  on(listener) {
+    this.listeners.push(listener);
+  }
+
+  tell(what) {
+    for (const listener of this.listeners) listener(what);
+  }
+
+  show(stage, parts, trails) {
+    Object.assign(this, {stage, parts, trails});
+    stage.onFrame = seconds => this.frame(seconds);
+    this.paint();
+    this.place();
+    this.settle();
+    this.home(false);
+  }
+
+  get line() {
+    return this.model.lines[this.mode];
+  }
+
+  // Time
+
+  seek(time) {
+    this.leaveBest();
+    this.time = Math.min(this.line.duration, Math.max(0, time));
+    this.#timeChanged();
+  }
+
+  #timeChanged() {
+    this.stale = true;
+    this.tell('time');
+    const step = this.model.stepAt(this.mode, this.time);
+    if (step !== this.step) {
+      this.step = step;
+      this.#showTrails();
+      this.tell('step');
+    }
+  }
+
+  play(on = !this.playing) {
+    this.leaveBest();
+    if (on && this.time >= this.line.duration) this.seek(0);
+    this.playing = on && this.line.duration > 0;
+    this.tell('play');
+  }
+
+  goToStep(index, play = false) {
+    const {steps, duration} = this.line;
+    if (steps.length === 0) return;
+    if (index >= steps.length) this.seek(duration);
+    else this.seek(index < 0 ? 0 : steps[index].begin);
+    if (play) this.play(true);
+  }
+
+  /** To the end of this step, or to the beginning of this one or the one before. */
+  stepBy(direction) {
+    this.play(false);
+    const {steps, duration} = this.line, now = this.time;
+    if (direction > 0) {
+      const next = steps.find(s => s.end > now + 1e-6);
+      this.seek(next ? next.end : duration);
+    } else {
+      const before = steps.filter(s => s.begin < now - 1e-6).pop();
+      this.seek(before ? before.begin : 0);
+    }
+  }
+
+  setSpeed(speed) {
+    this.speed = speed;
+    this.tell('play');
+  }
+
+  setMode(mode) {
+    if (mode === this.mode || this.model.lines[mode].duration === 0) return;
+    this.leaveBest();
+    // Stay at the same moment of the same step if both have it backwards; else begin.
+    this.mode = mode;
+    this.time = 0;
+    this.step = -2;
+    this.tell('mode');
+    this.#timeChanged();
+    this.place();
+    this.settle();
+    this.home(true);
+  }
+
+  // What is seen
+
+  setExplode(share) {
+    this.explode = Math.min(1, Math.max(0, share));
+    this.stale = true;
+    this.#showTrails();
+    this.tell('explode');
+    if (this.stage) {
+      this.place();
+      this.stage.ground.material.opacity = this.stage.shade * (1 - 0.6 * this.explode);
+      this.fit(false, 1.12);
+    }
+  }
+
+  setColours(scheme) {
+    this.colours = scheme;
+    this.paint();
+    this.#showTrails();
+    this.tell('colours');
+  }
+
+  setTrails(which) {
+    this.trailing = which;
+    this.#showTrails();
+    this.tell('display');
+  }
+
+  setFading(on) {
+    this.fading = on;
+    this.stale = true;
+    this.tell('display');
+  }
+
+  /** A set of part indices turned on or off: 'hidden' or 'clear'. */
+  toggle(which, index) {
+    if (!this[which].delete(index)) this[which].add(index);
+    this.#seenChanged();
+  }
+
+  isolate(indices) {
+    this.isolated = indices;
+    if (indices) for (const i of indices) this.hidden.delete(i);
+    this.#seenChanged();
+  }
+
+  showAll() {
+    this.hidden.clear();
+    this.clear.clear();
+    this.isolated = null;
+    this.leaveBest();
+    this.#seenChanged();
+  }
+
+  #seenChanged() {
+    this.stale = true;
+    this.tell('seen');
+  }
+
+  select(index) {
+    if (index === this.selected) return;
+    this.selected = index;
+    this.stale = true;
+    this.paint();
+    this.tell('selection');
+  }
+
+  hover(index) {
+    if (index === this.hovered) return;
+    this.hovered = index;
+    this.paint();
+    this.stage?.invalidate();
+  }
+
+  /** Shows the pose that an unsolved part got furthest with, what blocked it beside it, the rest seen through. */
+  showBest(index) {
+    this.play(false);
+    this.seek(this.line.duration);
+    if (this.mode !== 'disassembly') this.setMode('disassembly');
+    this.time = this.line.duration;
+    this.#timeChanged();
+    const unsolved = this.model.unsolved.get(index);
+    const blockers = new Set(unsolved.blocked_by.map(name => this.model.index.get(name)));
+    // Of the part and what blocked it, one may be inside the other: the larger is seen through.
+    const size = i => this.model.parts[i].radius, through = new Set([...blockers].filter(i => size(i) > size(index)));
+    if (through.size < blockers.size) through.add(index);
+    // From where the part is left by the plan: it may have come out with others that it then stayed with.
+    const from = this.model.poseOf(index, this.mode, this.time, new Float64Array(7));
+    this.best = {index, unsolved, blockers, through, from, u: 1};
+    this.stale = true;
+    this.selected = index;
+    this.#showTrails();
+    this.paint();
+    this.tell('best');
+    this.tell('selection');
+    if (this.stage) {
+      const concerned = i => i === index || blockers.has(i);
+      this.place();
+      const after = this.parts.boxes(concerned);
+      this.best.u = 0;
+      this.place();
+      this.stage.fit([...after, ...this.parts.boxes(concerned)], {margin: 1.3, minimum: 0.1 * this.model.size});
+    }
+  }
+
+  leaveBest() {
+    if (!this.best) return;
+    this.best = null;
+    this.stale = true;
+    this.paint();
+    this.#showTrails();
+    this.tell('best');
+  }
+
+  // The scene
+
+  opacity(i) {
+    if (this.hidden.has(i) || (this.isolated && !this.isolated.has(i))) return 0;
+    const presence = this.model.presence(i, this.mode, this.time, this.fading);
+    if (this.best?.through.has(i)) return SEEN_THROUGH;
+    const through = this.clear.has(i) || (this.best && i !== this.best.index && !this.best.blockers.has(i));
+    return through ? Parts.ghostly(presence) : presence;
+  }
+
+  /** Puts each part where it is now. Called for each frame that changed something; allocates nothing. */
+  place() {
+    const {parts, model, best} = this;
+    if (!parts) return;
+    for (let i = 0; i < model.parts.length; ++i) {
+      if (best && best.index === i) {
+        const u = best.u;
+        screwInterpolate(this.pose, best.from, 0, best.unsolved.best_pose, 0, u * u * (3 - 2 * u));
+      } else {
+        model.poseOf(i, this.mode, this.time, this.pose);
+      }
+      parts.move(i, this.pose, this.explode);
+      parts.bodies[i].setOpacity(this.opacity(i), i === this.selected);
+    }
+    this.stale = false;
+    this.stage.invalidate(true);
+  }
+
+  paint() {
+    if (!this.parts) return;
+    for (const {part: {index}} of this.parts.bodies) {
+      const body = this.parts.bodies[index];
+      body.setColour(this.model.colour(index, this.colours));
+      if (this.best?.blockers.has(index)) body.setGlow(AMBER, 0.45);
+      else if (index === this.selected) body.setGlow('#ffffff', 0.1);
+      else if (index === this.hovered) body.setGlow('#ffffff', 0.16);
+      else body.setGlow('#000000', 0);
+    }
+    this.stage.invalidate();
+  }
+
+  #showTrails() {
+    if (!this.trails) return;
+    let indices = [];
+    if (!this.best && this.explode === 0) {
+      if (this.trailing === 'step' && this.step >= 0) indices = [this.step];
+      if (this.trailing === 'all') indices = this.line.steps.map((_, i) => i);
+    }
+    this.trails.show(this.mode, indices, this.colours);
+    this.stage.invalidate();
+  }
+
+  frame(seconds) {
+    if (this.playing) {
+      this.time = Math.min(this.line.duration, this.time + seconds * this.speed);
+      if (this.time >= this.line.duration) {
+        this.playing = false;
+        this.tell('play');
+      }
+      this.#timeChanged();
+    }
+    if (this.best && this.best.u < 1) {
+      this.best.u = Math.min(1, this.best.u + seconds / BEST_TIME);
+      this.stale = true;
+    }
+    if (this.stale) this.place();
+  }
+
+  /** Ground and light for the assembly and, when it is put together, for what lies around it. */
+  settle() {
+    if (!this.stage) return;
+    this.stage.settle(this.parts.boxes(() => true));
+  }
+
+  fit(fly = true, margin = 1.12, from = null) {
+    this.stage?.fit(this.parts.boxes(i => this.opacity(i) > 0), {fly, margin, from});
+  }
+
+  /** The first view: the assembly, with room for what comes out, or for all that lies around and passes overhead. */
+  home(fly) {
+    if (!this.stage) return;
+    const {time} = this, shares = this.mode === 'assembly' ? [0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 1] : this.fading ? [0] : [0, 1];
+    const boxes = shares.flatMap(share => {
+      this.time = share * this.line.duration;
+      this.place();
+      return this.parts.boxes(() => true);
+    });
+    this.time = time;
+    this.place();
+    this.stage.fit(boxes, {fly, from: fly ? null : 'corner', margin: this.mode === 'disassembly' && this.fading ? 1.3 : 1.08});
+  }
+}

@@ -1,0 +1,37 @@
+// What stands in the page: the plan as in plan.json, and the surfaces of the parts.
+
+function bytesOf(base64) {
+  if (typeof Uint8Array.fromBase64 === 'function') return Uint8Array.fromBase64(base64);
+  const text = atob(base64), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+const array = (Type, base64) => new Type(bytesOf(base64).buffer);
+
+function readShape(shape) {
+  const Index = shape.wide ? Uint32Array : Uint16Array;
+  return {
+    positions: array(Float32Array, shape.positions),
+    normals: array(Int16Array, shape.normals),
+    triangles: array(Index, shape.triangles),
+    edges: array(Index, shape.edges),
+  };
+}
+
+/** @returns {plan, parts, shapes}; null if this is the template, without a plan. @throws Error on what it cannot read. */
+export function readPage(document) {
+  const text = document.getElementById('dismantle-data').textContent.trim();
+  if (text === '' || text[0] === '@') return null;
+  const data = JSON.parse(text);
+  if (data.format !== 'dismantle.page' || data.version !== 1)
+    throw new Error(`this page cannot show data of format ${data.format}, version ${data.version}`);
+  const {plan, geometry} = data;
+  const parts = plan.assembly.parts.map((part, i) => {
+    const {shape, place, box: [lo, hi]} = geometry.parts[i];
+    const center = lo.map((x, k) => (x + hi[k]) / 2);
+    const radius = Math.hypot(...lo.map((x, k) => hi[k] - x)) / 2;
+    return {index: i, name: part.name, file: part.file, source: part, shape, place, lo, hi, center, radius};
+  });
+  return {plan, parts, shapes: geometry.shapes.map(readShape)};
+}

@@ -1,0 +1,47 @@
+// window.dismantle: what tests and scripts may use. Names are part names, times are seconds, points are input coordinates.
+export function expose(app, display) {
+  const {model} = app;
+  const index = name => {
+    if (!model.index.has(name)) throw new Error(`there is no part ${name}`);
+    return model.index.get(name);
+  };
+  const now = () => { if (app.stale) app.place(); };
+  window.dismantle = {
+    plan: model.plan,
+    shapes: model.shapes.length,
+    webgl: app.stage !== null,
+    drawn: false,
+    loadedAfter: null,  // ms from the start of navigation to the first picture
+    partNames: () => model.parts.map(p => p.name),
+    duration: (mode = app.mode) => model.lines[mode].duration,
+    /** When pose `k` of step `step` (index in the plan) is reached. */
+    timeOf: (mode, step, k) => model.lines[mode].steps.find(s => s.step === stepsOf(mode)[step]).times[k],
+    /** Pose [x, y, z, qw, qx, qy, qz] as docs/plan-format.md has it. */
+    poseOf: (name, time, mode = app.mode) => Array.from(model.poseOf(index(name), mode, time, new Float64Array(7))),
+    /** Where a point of a part is drawn now. */
+    shownPoint: (name, point) => { now(); return app.parts.shownPoint(index(name), point); },
+    opacity: name => app.opacity(index(name)),
+    colour: name => model.colour(index(name), app.colours),
+    state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: display.dark ? 'dark' : 'light',
+      up: app.stage?.axis, selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
+      trails: app.trailing, fading: app.fading}),
+    seek: time => app.seek(time),
+    play: on => app.play(on),
+    setMode: mode => app.setMode(mode),
+    explode: share => app.setExplode(share),
+    setFading: on => app.setFading(on),
+    select: name => app.select(name === null ? -1 : index(name)),
+    box: name => { const {lo, hi} = model.parts[index(name)]; return [lo.slice(), hi.slice()]; },
+    offset: name => model.offsets[index(name)].slice(),
+    fit: () => app.fit(false),
+    view: from => app.stage.fit(app.parts.boxes(i => app.opacity(i) > 0), {from, fly: false}),
+    info: () => app.stage.renderer.info,
+  };
+  const stepsOf = mode => mode === 'disassembly' ? model.plan.disassembly : model.plan.assembly_steps;
+  const done = () => {
+    window.dismantle.drawn = true;
+    window.dismantle.loadedAfter = performance.now();
+  };
+  // The first picture is drawn in the next frame; it is there when the one after begins.
+  requestAnimationFrame(() => requestAnimationFrame(done));
+}

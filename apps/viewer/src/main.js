@@ -1,0 +1,86 @@
+// The page: reads what stands in it, builds the parts of the page, and starts.
+import {App} from './app.js';
+import {readPage} from './data.js';
+import {expose} from './expose.js';
+import {Model} from './model.js';
+import {titleOf} from './plan/words.js';
+import {Parts} from './scene/parts.js';
+import {Picker} from './scene/picker.js';
+import {Stage} from './scene/stage.js';
+import {Trails} from './scene/trails.js';
+import {element} from './ui/dom.js';
+import {makeGizmo} from './ui/gizmo.js';
+import {makeHelp} from './ui/help.js';
+import {listen} from './ui/keyboard.js';
+import {makeOverlay} from './ui/overlay.js';
+import {makePanel} from './ui/panel.js';
+import {Display, makeTools} from './ui/display.js';
+import {makeTransport} from './ui/transport.js';
+
+const MANY = 40, VERY_MANY = 90;  // steps from which playback begins faster
+
+function fail(title, ...words) {
+  document.body.replaceChildren(element('main.failure', {}, element('h1', {}, title), words.map(w => element('p', {}, w))));
+}
+
+/** The scene, or null and why when the browser cannot draw it. */
+function makeScene(app, view) {
+  let stage;
+  try {
+    stage = new Stage(view, app.model.size);
+  } catch (error) {
+    console.warn(`no WebGL: ${error.message}`);
+    view.append(element('div.nowebgl', {role: 'alert'}, element('h2', {}, 'This browser cannot draw in 3D'),
+      element('p', {}, 'WebGL 2 is missing or turned off. Turn on hardware acceleration in the settings, or open this file in another browser.'),
+      element('p', {}, 'The steps, the parts and the problems of the plan are listed all the same.')));
+    return null;
+  }
+  stage.renderer.domElement.addEventListener('webglcontextlost', event => {
+    event.preventDefault();
+    view.append(element('div.nowebgl', {role: 'alert'}, element('h2', {}, 'The graphics driver gave up'), element('p', {}, 'Reload the page to draw again.')));
+  });
+  return stage;
+}
+
+function start() {
+  const page = readPage(document);
+  if (page === null) {
+    fail('There is no plan in this page', 'This is the template that `dismantle plan` and `dismantle view` fill.');
+    return;
+  }
+  const app = new App(new Model(page)), display = new Display(app);
+  document.title = `${titleOf(page.plan)} · Dismantle`;
+  const steps = page.plan.disassembly.length;
+  app.speed = steps >= VERY_MANY ? 4 : steps >= MANY ? 2 : 1;
+  display.apply();
+
+  const help = makeHelp(), overlay = makeOverlay(app), view = element('div.view');
+  const scene = element('main.scene', {}, view);
+  document.body.replaceChildren(element('div.page', {}, scene, makeTransport(app), makePanel(app)), help);
+  const stage = makeScene(app, view);
+  if (stage) {
+    if (display.axis !== 'z') stage.setUp(display.axis);
+    const parts = new Parts(app.model, stage.scene);
+    app.show(stage, parts, new Trails(app.model, stage.scene));
+    display.apply();
+    const picker = new Picker(stage, parts, {
+      hover: (index, x, y) => { app.hover(index); overlay.hover(index, x, y); },
+      choose: index => app.select(index),
+    });
+    stage.renderer.domElement.addEventListener('dblclick', event => {
+      const index = picker.partAt(event);
+      if (index >= 0) stage.fit(parts.boxes(i => i === index), {margin: 2});
+      else app.fit();
+    });
+    scene.append(makeTools(app, display, () => help.showModal()), makeGizmo(app), ...overlay.nodes);
+  }
+  listen(app, display, help);
+  expose(app, display);
+}
+
+try {
+  start();
+} catch (error) {
+  console.error(error);
+  fail('This page cannot be shown', `${error.message}`, 'It may be damaged: write it again with `dismantle view PLAN.json`.');
+}

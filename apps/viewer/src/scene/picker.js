@@ -1,0 +1,37 @@
+// Which part is under the pointer. A press that moves is a turn of the view, not a choice.
+import {Raycaster, Vector2} from 'three';
+
+const STILL = 6;  // px
+
+export class Picker {
+  constructor(stage, parts, {hover, choose}) {
+    const canvas = stage.renderer.domElement, ray = new Raycaster(), at = new Vector2();
+    let down = null, waiting = false, last = null;
+    this.partAt = event => {
+      const box = canvas.getBoundingClientRect();
+      at.set(2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height);
+      ray.setFromCamera(at, stage.camera);
+      const solid = parts.meshes.filter(m => m.visible);
+      // What is seen through is chosen only where nothing solid is.
+      const hits = ray.intersectObjects(solid, false);
+      const hit = hits.find(h => !h.object.material.transparent) ?? hits[0];
+      return hit ? hit.object.userData.index : -1;
+    };
+    canvas.addEventListener('pointerdown', e => { down = e.isPrimary ? [e.clientX, e.clientY] : null; });
+    canvas.addEventListener('pointerup', e => {
+      if (down && e.button === 0 && Math.hypot(e.clientX - down[0], e.clientY - down[1]) < STILL) choose(this.partAt(e));
+      down = null;
+    });
+    canvas.addEventListener('pointermove', e => {
+      if (e.pointerType !== 'mouse' || e.buttons !== 0) return;
+      last = e;
+      if (waiting) return;
+      waiting = true;
+      setTimeout(() => {
+        waiting = false;
+        if (last) hover(this.partAt(last), last.clientX, last.clientY);
+      }, 60);
+    });
+    canvas.addEventListener('pointerleave', () => { last = null; hover(-1, 0, 0); });
+  }
+}

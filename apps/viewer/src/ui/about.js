@@ -1,0 +1,30 @@
+// What the plan is of, and how far it can be trusted.
+import {counted, number, seconds, share} from '../plan/words.js';
+import {element} from './dom.js';
+
+export function makeAbout(app) {
+  const {plan} = app.model, {assembly} = plan, rows = [];
+  const row = (name, ...value) => rows.push(element('dt', {}, name), element('dd', {}, ...value));
+  const worst = Math.max(0, ...plan.disassembly.map(s => s.max_penetration));
+  const total = plan.disassembly.reduce((sum, s) => sum + s.seconds, 0);
+  const apart = assembly.parts.length - plan.remaining.length;
+  row('assembly', assembly.source);
+  row('parts', plan.status === 'complete' ? `${assembly.parts.length}, all apart` : `${assembly.parts.length}, ${apart} came out, ${plan.remaining.length} still together`);
+  if (assembly.excluded.length > 0) row('left out', assembly.excluded.map(e => `${e.name}: ${e.reason}`).join('; '));
+  row('steps', `${plan.disassembly.length}, found in ${seconds(total)}`);
+  const layers = Math.max(0, ...plan.disassembly.map(s => s.layer ?? 0));
+  if (layers > 0) row('layers', `${layers} (steps of one layer do not wait for each other)`);
+  row('putting together', {complete: 'each part is brought from the layout', partial: 'some parts are not brought from the layout',
+    reversed: 'the disassembly backwards'}[plan.assembly_status] ?? 'not planned');
+  row('checked', `on the original triangles, between poses too: no step cuts in deeper than ${share(worst, plan)} of the size (${number(worst)} of ${number(plan.verified_max_penetration)} units allowed)`);
+  const box = assembly.bbox;
+  if (box) row('size', box[1].map((x, k) => number(x - box[0][k])).join(' × ') + ' input units');
+  row('units', `${number(assembly.scale)} assembly units per input unit`);
+  row('made by', `${plan.generator.name} ${plan.generator.version}, seed ${plan.seed}`);
+  row('input', element('code', {}, assembly.sha256));
+  const overlaps = assembly.overlaps.slice().sort((a, b) => b.depth - a.depth);
+  return element('div.pane', {}, element('dl.facts.wide', {}, rows),
+    overlaps.length === 0 ? null : element('details', {}, element('summary', {}, `${counted(overlaps.length, 'pair')} overlap when assembled`),
+      element('p.note', {}, 'Usual in CAD: allowed as it was, for this pair alone.'),
+      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size`)))));
+}

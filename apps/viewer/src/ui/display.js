@@ -1,0 +1,87 @@
+// Buttons over the scene: what is seen and how.
+import {element, iconButton} from './dom.js';
+
+const THEMES = ['auto', 'light', 'dark'];
+const TRAILS = ['step', 'all', 'none'];
+const TRAIL_WORDS = {step: 'Paths: of this step (T)', all: 'Paths: of all steps (T)', none: 'Paths: none (T)'};
+
+export class Display {
+  constructor(app) {
+    this.app = app;
+    this.theme = 'auto';
+    this.media = matchMedia('(prefers-color-scheme: dark)');
+    this.media.addEventListener('change', () => this.apply());
+    this.axis = app.model.parts.every(p => /\.(glb|gltf)$/i.test(p.file)) && app.model.parts.length > 0 ? 'y' : 'z';
+  }
+
+  get dark() {
+    return this.theme === 'auto' ? this.media.matches : this.theme === 'dark';
+  }
+
+  apply() {
+    document.documentElement.dataset.theme = this.dark ? 'dark' : 'light';
+    const {stage, parts} = this.app;
+    if (!stage) return;
+    parts.setTheme(this.dark);
+    stage.shade = this.dark ? 0.45 : 0.2;
+    stage.ground.material.opacity = stage.shade * (1 - 0.6 * this.app.explode);
+    stage.sky.intensity = this.dark ? 1.25 : 1.6;
+    stage.invalidate(true);
+  }
+
+  nextTheme() {
+    this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length];
+    this.apply();
+    this.app.tell('display');
+  }
+
+  turnUp() {
+    this.axis = this.axis === 'z' ? 'y' : 'z';
+    this.app.stage?.setUp(this.axis);
+    this.app.settle();
+    this.app.stage?.fit(this.app.parts.boxes(i => this.app.opacity(i) > 0), {fly: false, from: 'corner', margin: 1.3});
+    this.app.tell('display');
+  }
+
+  ground() {
+    const {stage} = this.app;
+    if (!stage) return;
+    stage.groundOn = !stage.groundOn;
+    stage.invalidate();
+    this.app.tell('display');
+  }
+
+  nextTrails() {
+    this.app.setTrails(TRAILS[(TRAILS.indexOf(this.app.trailing) + 1) % TRAILS.length]);
+  }
+
+  nextColours() {
+    if (this.app.model.hasColours) this.app.setColours(this.app.colours === 'given' ? 'order' : 'given');
+  }
+}
+
+export function makeTools(app, display, help) {
+  const fit = iconButton('fit', 'Fit into view (F)', () => app.fit());
+  const trails = iconButton('trails', TRAIL_WORDS.step, () => display.nextTrails());
+  const fade = iconButton('fade', '', () => app.setFading(!app.fading));
+  const colours = iconButton('colours', '', () => display.nextColours());
+  const up = iconButton('up', '', () => display.turnUp());
+  const ground = iconButton('ground', '', () => display.ground());
+  const theme = iconButton('theme', '', () => display.nextTheme());
+  const show = iconButton('help', 'Keyboard and mouse (?)', help);
+  const name = (button, title) => { button.title = title; button.setAttribute('aria-label', title.replace(/ \(.*\)$/, '')); };
+  colours.hidden = !app.model.hasColours;
+  const refresh = () => {
+    name(trails, TRAIL_WORDS[app.trailing]);
+    trails.classList.toggle('off', app.trailing === 'none');
+    name(fade, app.fading ? 'Parts that are out vanish (R)' : 'Parts that are out stay (R)');
+    fade.classList.toggle('on', app.fading);
+    name(colours, app.colours === 'given' ? 'Colours: of the parts (C)' : 'Colours: by order (C)');
+    name(up, `Up is ${display.axis.toUpperCase()} (U)`);
+    name(ground, app.stage?.groundOn === false ? 'Shadow on the ground: off (G)' : 'Shadow on the ground: on (G)');
+    name(theme, `Theme: ${display.theme} (L)`);
+  };
+  app.on(what => { if (what === 'display' || what === 'colours') refresh(); });
+  refresh();
+  return element('nav.tools', {'aria-label': 'View'}, fit, trails, fade, colours, ground, up, theme, show);
+}

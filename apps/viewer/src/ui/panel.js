@@ -1,0 +1,40 @@
+// The panel beside the scene: what this is, how it went, and the lists.
+import {counted, titleOf} from '../plan/words.js';
+import {makeAbout} from './about.js';
+import {element} from './dom.js';
+import {makePartList} from './partlist.js';
+import {makeProblems} from './problems.js';
+import {makeSteps} from './steps.js';
+
+function summary(plan) {
+  const parts = plan.assembly.parts.length, left = plan.remaining.length, out = parts - left;
+  const forced = plan.disassembly.filter(s => s.forced).length;
+  const complete = plan.status === 'complete';
+  const words = complete ? `All ${parts} parts come apart, in ${counted(plan.disassembly.length, 'step')}`
+    : `${out} of ${counted(parts, 'part')} ${out === 1 ? 'comes' : 'come'} out, ${left} still together`;
+  return element('div.summary', {}, element(`span.pill.${complete && forced === 0 ? 'good' : complete ? 'warn' : 'bad'}`, {}, complete ? 'Complete' : 'Partial'),
+    element('span', {}, words), forced > 0 ? element('span.pill.bad', {}, `${forced} forced`) : null);
+}
+
+export function makePanel(app) {
+  const {plan} = app.model, problems = makeProblems(app);
+  const tabs = [['steps', 'Steps', makeSteps(app)], ['parts', 'Parts', makePartList(app)],
+    ...problems ? [['problems', 'Problems', problems.pane]] : [], ['about', 'About', makeAbout(app)]];
+  const buttons = tabs.map(([key, words]) => element('button', {type: 'button', role: 'tab', id: `tab-${key}`, 'aria-controls': `pane-${key}`,
+    onclick: () => open(key)}, words, key === 'problems' ? element('span.badge', {}, String(problems.count)) : null));
+  tabs.forEach(([key, , pane]) => {
+    pane.id = `pane-${key}`;
+    pane.setAttribute('role', 'tabpanel');
+    pane.setAttribute('aria-labelledby', `tab-${key}`);
+  });
+  function open(key) {
+    tabs.forEach(([name, , pane], i) => {
+      pane.hidden = name !== key;
+      buttons[i].setAttribute('aria-selected', String(name === key));
+    });
+  }
+  open(plan.disassembly.length === 0 && problems ? 'problems' : 'steps');
+  app.openTab = open;
+  return element('aside.panel', {}, element('header.top', {}, element('h1', {title: plan.assembly.source}, titleOf(plan)), summary(plan)),
+    element('div.tabs', {role: 'tablist'}, buttons), tabs.map(([, , pane]) => pane));
+}

@@ -1,0 +1,85 @@
+// Parts that did not come out: how the attempt ended, what was in the way, how far it got.
+import {number, outcomeMeaning, outcomeTitle, share} from '../plan/words.js';
+import {element, icon} from './dom.js';
+
+const TURNED = 0.05;  // degrees, from which a turn is worth saying
+
+function link(app, name, kind = 'button.chip') {
+  const index = app.model.index.get(name);
+  return element(kind, {type: 'button', title: `Select ${name}`, onclick: () => app.select(index),
+    onmouseenter: () => app.hover(index), onmouseleave: () => app.hover(-1)}, name);
+}
+
+/** What is particular to one part: what was in the way, and how far it got. */
+function attempt(app, unsolved, alone) {
+  const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
+  const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
+  const row = (name, ...value) => [element('dt', {}, name), element('dd', {}, ...value)];
+  const {length, angle, moved} = model.furthest(index);
+  const far = `${number(length)} input units (${number(Number((100 * length / model.size).toPrecision(2)))} % of the size)`;
+  const words = moved ? 'Show how far it got' : 'Show what holds it';
+  const show = element('button.primary', {type: 'button', 'aria-pressed': 'false',
+    onclick: () => app.best?.index === index ? app.leaveBest() : app.showBest(index)}, words);
+  app.on(what => {
+    if (what !== 'best') return;
+    const on = app.best?.index === index;
+    show.setAttribute('aria-pressed', String(on));
+    show.textContent = on ? 'Back to the assembly' : words;
+  });
+  return element('section.attempt', {'data-part': unsolved.part},
+    alone ? null : link(app, unsolved.part, 'button.title'),
+    element('dl.facts', {},
+      row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
+      row('furthest', !moved ? 'it did not move' : angle < TURNED ? far : `${far}, turned by ${number(Number(angle.toPrecision(2)))}°`),
+      overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
+    show);
+}
+
+/** Parts that share one reason. */
+function card(app, group) {
+  const [{part, outcome, message}] = group, alone = group.length === 1;
+  return element('article.card', {}, element('header', {}, icon('warning'),
+    alone ? link(app, part, 'button.title') : element('strong.title', {}, `${group.length} parts, one reason`), element('span.pill.bad', {}, outcomeTitle(outcome))),
+  element('p', {}, outcomeMeaning(outcome)), message ? element('p.message', {}, message) : null, group.map(u => attempt(app, u, alone)));
+}
+
+/** Attempts with the same outcome and message, in the order of the first of each. */
+function byReason(unsolved) {
+  const groups = new Map();
+  for (const u of unsolved) {
+    const key = u.message ? `${u.outcome} ${u.message}` : `${u.outcome} of ${u.part}`;
+    if (!groups.has(key)) groups.set(key, []);
+    groups.get(key).push(u);
+  }
+  return [...groups.values()];
+}
+
+function certificate(c) {
+  const parts = Array.isArray(c.parts) ? c.parts.join(', ') : '';
+  const rest = Object.entries(c).filter(([key]) => key !== 'kind' && key !== 'parts').map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n');
+  return element('article.card', {}, element('header', {}, icon('check'), element('strong', {}, `Proof: ${c.kind ?? 'certificate'}`)),
+    parts ? element('p', {}, `These parts cannot be separated: ${parts}`) : null,
+    rest ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, rest)) : null);
+}
+
+/** Null when there is nothing to tell. */
+export function makeProblems(app) {
+  const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
+  const silent = plan.status === 'partial' ? plan.remaining.filter(n => !app.model.unsolved.has(app.model.index.get(n))) : [];
+  const forced = plan.disassembly.filter(s => s.forced);
+  const {excluded} = plan.assembly;
+  const count = plan.unsolved.length + certificates.length + excluded.length + forced.length;
+  if (count === 0 && plan.status === 'complete') return null;
+  const pane = element('div.pane.problems', {},
+    plan.unsolved.length > 0 ? element('p.note', {}, 'These parts should have come out and did not. The plan holds for all that did.') : null,
+    byReason(plan.unsolved).map(group => card(app, group)),
+    forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
+      element('p', {}, `${s.moves.map(m => m.part).join(', ')} cannot come out as a rigid body: it is taken out where it cuts in least. This step is not verified.`))),
+    certificates.map(certificate),
+    silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
+      element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),
+      element('div.chips', {}, silent.map(n => link(app, n)))) : null,
+    excluded.length > 0 ? element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, 'Left out of the plan')),
+      element('dl.facts', {}, excluded.map(e => [element('dt', {}, e.name), element('dd', {}, e.reason)]))) : null);
+  return {pane, count: count || silent.length};
+}

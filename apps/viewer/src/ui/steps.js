@@ -1,0 +1,81 @@
+// The list of steps: what moves, how long finding it took, how deep it cuts in. A click goes there.
+import {number, seconds, share} from '../plan/words.js';
+import {element, swatch} from './dom.js';
+
+function facts(app, {step}) {
+  const {plan} = app.model, rows = [];
+  const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
+  if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
+  if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
+  if (step.max_penetration !== undefined)
+    row('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
+  if (step.clearance !== undefined) row('clearance', `${number(step.clearance)} units`);
+  if (step.planner) row('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
+  if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
+  if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
+  if (step.forced) row('forced', JSON.stringify(step.forced));
+  return element('dl.facts', {}, rows);
+}
+
+export function makeSteps(app) {
+  const list = element('ol.steps', {'aria-label': 'Steps'});
+  let items = [], open = -1;
+
+  function make() {
+    const {plan} = app.model, allowed = plan.verified_max_penetration;
+    items = app.line.steps.map((entry, index) => {
+      const {step, parts} = entry;
+      const colours = element('span.swatches', {}, parts.slice(0, 3).map(i => swatch(app.model.colour(i, app.colours))));
+      const depth = step.max_penetration;
+      const gauge = depth === undefined ? null
+        : element('span.gauge', {title: `Cuts in by at most ${number(depth)} of ${number(allowed)} units allowed`},
+          element('span', {style: {'--share': Math.min(1, depth / allowed)}}));
+      const names = element('span.name', {}, step.moves.map(m => m.part).join(', '));
+      const button = element('button.step', {type: 'button', title: 'Go to this step',
+        onclick: () => { app.goToStep(index); if (parts.length === 1) app.select(parts[0]); }},
+        element('span.count', {}, String(step.step)), colours, names,
+        step.forced ? element('span.pill.bad', {}, 'forced') : gauge,
+        element('span.seconds', {title: 'Time that finding the path took'}, step.seconds === undefined ? '' : seconds(step.seconds)));
+      return element('li', {}, button);
+    });
+    list.replaceChildren(...items);
+    open = -1;
+    mark();
+  }
+
+  function mark() {
+    if (open >= 0 && items[open]) {
+      items[open].classList.remove('open');
+      items[open].querySelector('dl')?.remove();
+    }
+    open = app.step;
+    const item = items[open];
+    if (!item) return;
+    item.classList.add('open');
+    item.append(facts(app, app.line.steps[open]));
+    if (list.offsetParent !== null) follow(item);
+  }
+
+  /** Scrolls the list, never the page. */
+  function follow(item) {
+    const box = list.parentElement, top = item.offsetTop - box.offsetTop;
+    if (box.scrollHeight <= box.clientHeight) return;
+    if (top < box.scrollTop || top + item.offsetHeight > box.scrollTop + box.clientHeight) box.scrollTop = top - box.clientHeight / 3;
+  }
+
+  app.on(what => {
+    if (what === 'mode' || what === 'colours') make();
+    if (what === 'step') mark();
+  });
+  make();
+  const note = element('p.note', {});
+  const showNote = () => {
+    const {plan} = app.model;
+    note.textContent = app.mode === 'assembly' && plan.assembly_message ? plan.assembly_message
+      : app.mode === 'assembly' && plan.assembly_status === 'reversed' ? 'The disassembly played backwards: no layout was asked for.' : '';
+    note.hidden = note.textContent === '';
+  };
+  app.on(what => { if (what === 'mode') showNote(); });
+  showNote();
+  return element('div.pane', {}, note, app.model.plan.disassembly.length === 0 ? element('p.note', {}, 'No part came out: there are no steps.') : null, list);
+}

@@ -1,0 +1,34 @@
+// Headless Chromium that draws WebGL in software, driven by playwright-core from $VIEWER_MODULES.
+import {existsSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+
+export const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
+export const hasChromium = () => existsSync(CHROMIUM);
+
+const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+  '--disable-component-update', '--disable-sync'];
+const SOFTWARE = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
+export async function launch({webgl = true} = {}) {
+  const {chromium} = createRequire(join(process.env.VIEWER_MODULES, 'package.json'))('playwright-core');
+  return chromium.launch({executablePath: CHROMIUM, headless: true,
+    args: [...FLAGS, ...webgl ? SOFTWARE : ['--disable-3d-apis']]});
+}
+
+/** Opens a page from the disk and waits for its first picture. `complaints` collects what the console says against it. */
+export async function open(browser, file, options = {}) {
+  const page = await browser.newPage({viewport: {width: 1280, height: 800}, ...options});
+  page.complaints = [];
+  page.requests = [];
+  page.on('console', message => {
+    // Taking a picture stalls the software renderer, of which its driver warns.
+    if (['error', 'warning'].includes(message.type()) && !message.text().includes('GL Driver Message')) page.complaints.push(message.text());
+  });
+  page.on('pageerror', error => page.complaints.push(`${error.message}\n${error.stack}`));
+  page.on('request', request => page.requests.push(request.url()));
+  page.on('dialog', dialog => { page.complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  await page.goto(`file://${file}`);
+  await page.waitForFunction(() => window.dismantle === undefined ? document.querySelector('.failure') : window.dismantle.drawn);
+  return page;
+}

@@ -1,0 +1,46 @@
+// Plans to look at, made by the program under test, $DISMANTLE.
+import {spawnSync} from 'node:child_process';
+import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
+import {dirname, join} from 'node:path';
+
+function run(folder, statuses, ...args) {
+  const done = spawnSync(process.env.DISMANTLE, args, {cwd: folder, encoding: 'utf8'});
+  if (!statuses.includes(done.status)) throw new Error(`dismantle ${args.join(' ')}: status ${done.status}\n${done.stdout}${done.stderr}`);
+}
+
+function result(folder, name) {
+  return {file: join(folder, name, 'index.html'), plan: JSON.parse(readFileSync(join(folder, name, 'plan.json'), 'utf8'))};
+}
+
+/** The page and the plan of a sample. */
+export function planSample(folder, sample, ...options) {
+  run(folder, [0], 'sample', sample, '-o', `${sample}.parts`, ...options);
+  run(folder, [0, 1], 'plan', `${sample}.parts`, '-o', sample, '--threads', '1', '-q');
+  return result(folder, sample);
+}
+
+function box(lo, hi) {
+  let text = '';
+  for (let i = 0; i < 8; ++i) text += `v ${[0, 1, 2].map(k => (i >> k & 1 ? hi : lo)[k]).join(' ')}\n`;
+  for (const quad of [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]) text += `f ${quad.map(i => i + 1).join(' ')}\n`;
+  return text;
+}
+
+/** A stack of boxes, one per name. */
+export function planBoxes(folder, name, names) {
+  mkdirSync(join(folder, `${name}.parts`));
+  names.forEach((part, i) => writeFileSync(join(folder, `${name}.parts`, `${part}.obj`), box([0, 0, 11 * i], [20 - i, 20, 11 * i + 10])));
+  run(folder, [0, 1], 'plan', `${name}.parts`, '-o', name, '--threads', '1', '-q');
+  return result(folder, name);
+}
+
+/** The same page with its data changed by `change`: for what the planners of today do not write. */
+export function changed(file, name, change) {
+  const html = readFileSync(file, 'utf8'), open = 'id="dismantle-data">';
+  const begin = html.indexOf(open) + open.length, end = html.indexOf('</script>', begin);
+  const data = JSON.parse(html.slice(begin, end));
+  change(data);
+  const out = join(dirname(file), name);
+  writeFileSync(out, html.slice(0, begin) + JSON.stringify(data).replaceAll('<', '\\u003c') + html.slice(end));
+  return out;
+}

@@ -1,0 +1,279 @@
+// The page in a real browser. Status 77, skipped, when there is none.
+import assert from 'node:assert/strict';
+import {mkdtempSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import test, {after, before} from 'node:test';
+import {distance, placed, randomNumbers} from '../cases.mjs';
+import {CHROMIUM, hasChromium, launch, open} from './chromium.mjs';
+import {changed, planBoxes, planSample} from './plans.mjs';
+
+if (!hasChromium()) {
+  console.log(`skipped: there is no ${CHROMIUM} (Debian: apt-get install chromium)`);
+  process.exit(77);
+}
+
+const folder = mkdtempSync(join(tmpdir(), 'dismantle-viewer-'));
+let browser, bolt, boxes, closed, shelf;
+const EVIL = ['<img src=x onerror=alert(1)>', "a&amp;b'\"<b>c", '<!--<script>x'];
+
+before(async () => {
+  bolt = planSample(folder, 'bolt_and_nut');
+  closed = planSample(folder, 'closed_box');
+  shelf = planSample(folder, 'stacked_box');
+  boxes = planBoxes(folder, 'boxes', EVIL);
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  rmSync(folder, {recursive: true});
+});
+
+/** A test with a page that must not complain, nor ask for anything but itself. */
+function onPage(title, file, body, options) {
+  test(title, async () => {
+    const page = await open(browser, file(), options);
+    try {
+      await body(page);
+      assert.deepEqual(page.complaints, []);
+      assert.deepEqual(page.requests.filter(url => !url.startsWith('file://') && !url.startsWith('data:')), []);
+      assert.equal(page.requests.filter(url => url.startsWith('file://')).length, 1);
+    } finally {
+      await page.close();
+    }
+  });
+}
+
+/** Where each part of the plan is drawn, against plan.json, at all poses of some steps. */
+async function comparePoses(page, plan, mode) {
+  const r = randomNumbers(9), steps = mode === 'disassembly' ? plan.disassembly : plan.assembly_steps, box = plan.assembly.bbox;
+  const size = Math.max(...box[1].map((x, k) => x - box[0][k]));
+  const points = [0, 1, 2].map(() => box[0].map((x, k) => r.between(x, box[1][k])));
+  await page.evaluate(m => window.dismantle.setMode(m), mode);
+  for (const [s, {moves}] of steps.entries())
+    for (const {part, poses} of moves)
+      for (const k of new Set([0, 1, Math.floor(poses.length / 2), poses.length - 2, poses.length - 1])) {
+        const [seen, told] = await page.evaluate(([m, s_, k_, name, points_]) => {
+          const d = window.dismantle, time = d.timeOf(m, s_, k_);
+          d.seek(time);
+          return [points_.map(p => d.shownPoint(name, p)), d.poseOf(name, time)];
+        }, [mode, s, k, part, points]);
+        points.forEach((p, i) => {
+          // Matrices are drawn from doubles; nothing in between is single precision.
+          assert.ok(distance(seen[i], placed(poses[k], p)) < 1e-9 * size, `${mode}, step ${s + 1}, ${part}, pose ${k}: off by ${distance(seen[i], placed(poses[k], p))}`);
+          assert.ok(distance(placed(told, p), placed(poses[k], p)) < 1e-9 * size);
+        });
+      }
+}
+
+for (const [name, get] of [['a nut that turns', () => bolt], ['a box with a stack of plates', () => shelf]])
+  for (const mode of ['disassembly', 'assembly'])
+    onPage(`${name}: scrubbing brings each part to the pose that plan.json says (${mode})`, () => get().file, page => comparePoses(page, get().plan, mode));
+
+onPage('the scrubber and the keys set the time that the scene shows', () => bolt.file, async page => {
+  const state = () => page.evaluate('window.dismantle.state()');
+  const {plan} = bolt, part = plan.disassembly[0].moves[0].part, point = [1, 2, 3], poses = plan.disassembly[0].moves[0].poses;
+  const shown = () => page.evaluate(([n, p]) => window.dismantle.shownPoint(n, p), [part, point]);
+  assert.equal((await state()).step, -1);
+  await page.keyboard.press('ArrowRight');
+  assert.equal((await state()).step, 0);
+  assert.ok(distance(await shown(), placed(poses[poses.length - 1], point)) < 1e-6, 'one step on, it is where the step ends');
+  await page.keyboard.press('Home');
+  assert.ok(distance(await shown(), point) < 1e-6, 'at the beginning it is assembled');
+  await page.locator('input.scrub').evaluate(e => { e.value = e.max / 2; e.dispatchEvent(new Event('input')); });
+  assert.ok(Math.abs((await state()).time - await page.evaluate('window.dismantle.duration()') / 2) < 1e-6);
+  await page.keyboard.press('Space');
+  assert.equal((await state()).playing, true);
+  await page.waitForFunction(() => !window.dismantle.state().playing);
+  assert.equal((await state()).time, await page.evaluate('window.dismantle.duration()'));
+  assert.ok(distance(await shown(), placed(poses[poses.length - 1], point)) < 1e-6, 'played to the end, it is where the plan ends');
+});
+
+onPage('the lists show each step and part by name', () => shelf.file, async page => {
+  const {plan} = shelf;
+  assert.deepEqual(await page.locator('.steps .name').allTextContents(), plan.disassembly.map(s => s.moves.map(m => m.part).join(', ')));
+  assert.deepEqual((await page.locator('.parts .part .name').allTextContents()).sort(), plan.assembly.parts.map(p => p.name).sort());
+  assert.match(await page.locator('.summary').textContent(), /Complete/);
+  await page.locator('.steps .step').nth(1).click();
+  assert.equal((await page.evaluate('window.dismantle.state()')).step, 1);
+  assert.match(await page.locator('.steps li.open').textContent(), /cuts in/);
+});
+
+onPage('put together: other steps, and the layout first', () => shelf.file, async page => {
+  const {plan} = shelf;
+  await page.getByRole('button', {name: 'Put together'}).click();
+  assert.deepEqual(await page.locator('.steps .name').allTextContents(), plan.assembly_steps.map(s => s.moves.map(m => m.part).join(', ')));
+  const {part, poses} = plan.assembly_steps[plan.assembly_steps.length - 1].moves[0];
+  await page.evaluate('window.dismantle.seek(0)');
+  const seen = await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), part);
+  const first = plan.assembly_steps.flatMap(s => s.moves).find(m => m.part === part).poses[0];
+  assert.ok(distance(seen, placed(first, [1, 2, 3])) < 1e-6);
+  await page.keyboard.press('End');
+  assert.ok(distance(await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), part), placed(poses[poses.length - 1], [1, 2, 3])) < 1e-6);
+  await page.keyboard.press('a');
+  assert.equal((await page.evaluate('window.dismantle.state()')).mode, 'disassembly');
+});
+
+onPage('exploded, parts are apart; back at zero they are assembled', () => shelf.file, async page => {
+  const names = shelf.plan.assembly.parts.map(p => p.name);
+  const corners = () => page.evaluate(list => list.map(n => window.dismantle.box(n).map(p => window.dismantle.shownPoint(n, p))), names);
+  const assembled = await corners();
+  await page.locator('#explode').fill('1');
+  const apart = await corners();
+  for (let i = 0; i < names.length; ++i)
+    for (let j = 0; j < i; ++j)
+      assert.ok([0, 1, 2].some(k => apart[i][0][k] >= apart[j][1][k] - 1e-6 || apart[j][0][k] >= apart[i][1][k] - 1e-6), `${names[i]} and ${names[j]}`);
+  await page.locator('#explode').fill('0');
+  assert.deepEqual(await corners(), assembled);
+});
+
+onPage('hide, isolate, transparent, show all', () => shelf.file, async page => {
+  const names = shelf.plan.assembly.parts.map(p => p.name), opacities = () => page.evaluate(list => list.map(n => window.dismantle.opacity(n)), names);
+  const row = page.locator(`.parts li[data-part="${names[1]}"]`);
+  await page.getByRole('tab', {name: 'Parts'}).click();
+  await row.getByRole('button', {name: 'Hide or show'}).click();
+  assert.deepEqual(await opacities(), names.map((_, i) => i === 1 ? 0 : 1));
+  await row.getByRole('button', {name: 'Isolate'}).click();
+  assert.deepEqual(await opacities(), names.map((_, i) => i === 1 ? 1 : 0));
+  await page.getByRole('button', {name: 'Show all'}).click();
+  await row.getByRole('button', {name: 'Transparent'}).click();
+  const seen = await opacities();
+  assert.ok(seen[1] > 0 && seen[1] < 0.5 && seen[0] === 1);
+  await page.keyboard.press('Shift+H');
+  assert.deepEqual(await opacities(), names.map(() => 1));
+  await page.locator('.find').fill(names[2]);
+  assert.deepEqual(await page.locator('.parts li:visible .name').allTextContents(), names.filter(n => n.includes(names[2])));
+});
+
+onPage('a click on a part selects it', () => bolt.file, async page => {
+  const view = await page.locator('.view canvas').boundingBox();
+  await page.evaluate('window.dismantle.fit()');
+  await page.waitForTimeout(100);
+  await page.mouse.click(view.x + view.width / 2, view.y + view.height / 2);
+  const {selected} = await page.evaluate('window.dismantle.state()');
+  assert.ok(bolt.plan.assembly.parts.some(p => p.name === selected), `${selected}`);
+  assert.match(await page.locator('.selected').textContent(), new RegExp(selected));
+  await page.mouse.click(view.x + 4, view.y + 300);
+  assert.equal((await page.evaluate('window.dismantle.state()')).selected, null);
+});
+
+onPage('names with markup in them are text', () => boxes.file, async page => {
+  assert.deepEqual((await page.locator('.parts .part .name').allTextContents()).sort(), [...EVIL].sort());
+  for (const name of EVIL) {
+    await page.evaluate(n => window.dismantle.select(n), name);
+    assert.equal(await page.locator('.selected .name').textContent(), name);
+  }
+  await page.keyboard.press('End');
+  assert.equal(await page.locator('img, b, body script').count(), 0, 'no element came of a name');
+});
+
+test('a part called </script> ends no script', async () => {
+  const name = '</script><img src=x onerror=alert(1)>';
+  const file = changed(bolt.file, 'script.html', ({plan}) => {
+    const old = plan.assembly.parts[0].name, text = JSON.stringify(plan).replaceAll(JSON.stringify(old), JSON.stringify(name));
+    Object.assign(plan, JSON.parse(text));
+  });
+  const page = await open(browser, file);
+  assert.ok((await page.evaluate('window.dismantle.partNames()')).includes(name));
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+onPage('a partial plan shows each reason, what was in the way and the best pose', () => closed.file, async page => {
+  const {plan} = closed;
+  assert.equal(plan.status, 'partial');
+  assert.match(await page.locator('.summary').textContent(), /Partial/);
+  for (const u of plan.unsolved) {
+    const card = page.locator('article').filter({has: page.locator(`[data-part="${u.part}"]`)}), text = await card.textContent();
+    const own = page.locator(`[data-part="${u.part}"].attempt`);
+    if (u.message) assert.ok(text.includes(u.message));
+    for (const name of u.blocked_by) assert.ok(text.includes(name));
+    assert.equal(await page.evaluate(n => window.dismantle.colour(n), u.part), '#e5484d');
+    await own.getByRole('button', {name: 'Show what holds it'}).click();
+    assert.equal((await page.evaluate('window.dismantle.state()')).best, u.part);
+    await page.waitForTimeout(2500);
+    assert.ok(distance(await page.evaluate(n => window.dismantle.shownPoint(n, [1, 2, 3]), u.part), placed(u.best_pose, [1, 2, 3])) < 1e-6);
+    await page.keyboard.press('Escape');
+    assert.equal((await page.evaluate('window.dismantle.state()')).best, null);
+  }
+});
+
+test('best poses, forced steps and certificates, as plans to come may have them', async () => {
+  const pose = [3, -4, 12, Math.cos(0.4), 0, Math.sin(0.4), 0];
+  const file = changed(shelf.file, 'forced.html', ({plan}) => {
+    const last = plan.disassembly[plan.disassembly.length - 1], stays = plan.remaining[0];
+    last.forced = {pair: [last.moves[0].part, stays], depth: 0.4, at: [0, 0, 0]};
+    plan.status = 'partial';
+    plan.unsolved.push({part: stays, outcome: 'timeout', blocked_by: [last.moves[0].part], best_pose: pose, message: 'the budget <i>ended</i>'});
+    plan.certificates = [{kind: 'ring', parts: [stays, last.moves[0].part], diameter: 2}];
+    plan.assembly.parts[0].color = '#123456';
+  });
+  const page = await open(browser, file), stays = shelf.plan.remaining[0];
+  assert.equal(await page.locator('.steps .pill.bad').count(), 1);
+  await page.keyboard.press('End');
+  assert.match(await page.locator('.words .detail').textContent(), /forced/);
+  await page.getByRole('tab', {name: 'Problems'}).click();
+  assert.match(await page.locator('.problems').textContent(), /the budget <i>ended<\/i>.*is forced.*Proof: ring/s);
+  await page.getByRole('button', {name: 'Show how far it got'}).click();
+  await page.waitForFunction(([n, goal]) => Math.hypot(...window.dismantle.shownPoint(n, [1, 2, 3]).map((x, k) => x - goal[k])) < 1e-6, [stays, placed(pose, [1, 2, 3])]);
+  assert.equal(await page.evaluate(n => window.dismantle.colour(n), shelf.plan.assembly.parts[0].name),
+    shelf.plan.assembly.parts[0].name === stays ? '#e5484d' : '#123456');
+  assert.deepEqual(page.complaints, []);
+  await page.close();
+});
+
+onPage('help, theme, up axis, fading, paths', () => shelf.file, async page => {
+  const state = () => page.evaluate('window.dismantle.state()');
+  await page.keyboard.press('?');
+  assert.ok(await page.locator('dialog.help').isVisible());
+  assert.match(await page.locator('dialog.help').textContent(), /Space.*play/s);
+  await page.keyboard.press('Escape');
+  assert.ok(!await page.locator('dialog.help').isVisible());
+  assert.equal((await state()).theme, 'dark');
+  await page.keyboard.press('l');
+  assert.equal((await state()).theme, 'light');
+  await page.keyboard.press('u');
+  assert.equal((await state()).up, 'y');
+  const last = shelf.plan.disassembly[shelf.plan.disassembly.length - 1].moves[0].part;
+  await page.keyboard.press('End');
+  assert.equal(await page.evaluate(n => window.dismantle.opacity(n), last), 1, 'few parts stay');
+  await page.keyboard.press('r');
+  assert.equal(await page.evaluate(n => window.dismantle.opacity(n), last), 0);
+  assert.equal(await page.evaluate(n => window.dismantle.opacity(n), shelf.plan.remaining[0]), 1);
+  for (const trails of ['all', 'none', 'step']) {
+    await page.keyboard.press('t');
+    assert.equal((await state()).trails, trails);
+  }
+}, {colorScheme: 'dark'});
+
+onPage('on a phone nothing is wider than the screen and all is within reach', () => bolt.file, async page => {
+  assert.ok(await page.evaluate('document.documentElement.scrollWidth <= innerWidth && document.documentElement.scrollHeight <= innerHeight'));
+  for (const name of ['Play or pause', 'Put together', 'Fit into view', 'Next step']) {
+    const box = await page.getByRole('button', {name}).boundingBox();
+    assert.ok(box.x >= 0 && box.x + box.width <= 390 && box.y >= 0 && box.y + box.height <= 780, name);
+  }
+  const view = await page.locator('.view canvas').boundingBox();
+  assert.ok(view.height > 300);
+}, {viewport: {width: 390, height: 780}, hasTouch: true, isMobile: true, deviceScaleFactor: 2});
+
+test('without WebGL the page says so, and lists steps and parts all the same', async () => {
+  const plain = await launch({webgl: false});
+  try {
+    const page = await open(plain, shelf.file);
+    assert.match(await page.locator('.nowebgl').textContent(), /cannot draw in 3D.*WebGL/s);
+    assert.equal(await page.locator('.steps li').count(), shelf.plan.disassembly.length);
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('e');
+    await page.keyboard.press('a');
+    await page.keyboard.press('f');
+    assert.equal(page.complaints.filter(c => !/webgl/i.test(c)).length, 0, page.complaints.join('\n'));
+  } finally {
+    await plain.close();
+  }
+});
+
+test('damaged data is an error that is shown', async () => {
+  const page = await open(browser, changed(bolt.file, 'version.html', data => { data.version = 99; }));
+  assert.match(await page.locator('.failure').textContent(), /version 99/);
+  await page.close();
+});

@@ -1,0 +1,92 @@
+# One folder is one plugin. The project builds and passes its tests without any of them: what is missing is left out by name.
+#
+# The plugins that this project ships, by folder; `dismantle_folders` finds new ones by itself, tests know these.
+set(DISMANTLE_SHIPPED_PLUGINS
+  plugins/importers/mesh_files plugins/importers/step
+  simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
+  planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
+  planners/path/navigation_tree planners/path/portfolio planners/path/rrt
+  planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
+  planners/sequence/blocking planners/sequence/progressive planners/sequence/queue planners/sequence/random
+  planners/transfer/rrt_connect
+  planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
+  planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool)
+set(DISMANTLE_WITHOUT "" CACHE STRING "Plugin folders to leave out as if they were deleted, separated by semicolons")
+
+set(DISMANTLE_MISSING_PLUGINS "")
+foreach(folder IN LISTS DISMANTLE_SHIPPED_PLUGINS)
+  if(folder IN_LIST DISMANTLE_WITHOUT OR NOT EXISTS "${PROJECT_SOURCE_DIR}/${folder}/CMakeLists.txt")
+    list(APPEND DISMANTLE_MISSING_PLUGINS "${folder}")
+  endif()
+endforeach()
+if(DISMANTLE_MISSING_PLUGINS)
+  message(STATUS "Plugins left out: ${DISMANTLE_MISSING_PLUGINS}")
+endif()
+
+# What the program uses when a configuration names nothing else (configs/default.yaml), and the files of the samples.
+set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty
+  planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
+  planners/sequence/blocking planners/transfer/rrt_connect)
+
+# dismantle_folders(DEPTH): adds each folder that many levels below this one that has a CMakeLists.txt.
+function(dismantle_folders depth)
+  string(REPEAT "*/" ${depth} pattern)
+  file(GLOB lists RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS "${pattern}CMakeLists.txt")
+  file(RELATIVE_PATH here "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  foreach(list IN LISTS lists)
+    get_filename_component(folder "${list}" DIRECTORY)
+    if(NOT "${here}/${folder}" IN_LIST DISMANTLE_WITHOUT)
+      add_subdirectory("${folder}")
+    endif()
+  endforeach()
+endfunction()
+
+# dismantle_missing(OUT FOLDER...): those of these plugin folders that are not part of this build.
+function(dismantle_missing out)
+  set(missing "")
+  foreach(folder IN LISTS ARGN)
+    if(folder IN_LIST DISMANTLE_MISSING_PLUGINS)
+      list(APPEND missing "${folder}")
+    endif()
+  endforeach()
+  set(${out} "${missing}" PARENT_SCOPE)
+endfunction()
+
+# dismantle_left_out(OUT NAME FOLDER...): does a test that needs these plugins have to be left out? Says so.
+function(dismantle_left_out out name)
+  dismantle_missing(missing ${ARGN})
+  if(missing)
+    message(STATUS "Test left out: ${name} needs ${missing}")
+  endif()
+  set(${out} "${missing}" PARENT_SCOPE)
+endfunction()
+
+# dismantle_uses(TARGET FOLDER...): the target loads these plugins when it runs, so they are built before; those that are
+# missing are left out. `all` stands for every plugin of the build.
+function(dismantle_uses target)
+  foreach(folder IN LISTS ARGN)
+    set_property(GLOBAL APPEND PROPERTY DISMANTLE_USES "${target}|${folder}")
+  endforeach()
+endfunction()
+
+# The name of a plugin's target is known when its folder has been read.
+function(dismantle_resolve_uses)
+  get_property(uses GLOBAL PROPERTY DISMANTLE_USES)
+  get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
+  foreach(use IN LISTS uses)
+    string(REPLACE "|" ";" use "${use}")
+    list(GET use 0 target)
+    list(GET use 1 folder)
+    if(folder STREQUAL "all")
+      set(plugins "${built_in}")
+    else()
+      get_property(plugins GLOBAL PROPERTY "DISMANTLE_PLUGINS_OF_${folder}")
+    endif()
+    if(plugins)
+      add_dependencies(${target} ${plugins})
+    elseif(NOT folder STREQUAL "all" AND NOT folder IN_LIST DISMANTLE_MISSING_PLUGINS)
+      message(FATAL_ERROR "${target} uses the plugin of ${folder}, which has none")
+    endif()
+  endforeach()
+endfunction()
+cmake_language(DEFER DIRECTORY "${PROJECT_SOURCE_DIR}" CALL dismantle_resolve_uses)

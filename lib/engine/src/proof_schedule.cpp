@@ -1,0 +1,184 @@
+#include "proof_schedule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "dismantle/executor.h"
+#include "dismantle/geometry/solid.h"
+
+namespace dismantle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr unsigned kDepthForLow = 3;   // searches so deep take longer than a proof of low effort
+constexpr unsigned kDepthForHigh = 4;  // likewise of high effort
+constexpr double kLastShare = 0.5;     // of the tolerance: with half of it more is proved than with all of it
+constexpr double kWhole = 1 - 1e-9;
+
+bool has_part(const std::vector<PlacedPart>& group, PartId part) {
+  return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
+}
+
+bool as_deep(const Attempt& attempt, unsigned depth) { return attempt.max_depth == 0 || attempt.max_depth >= depth; }
+
+bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
+
+}  // namespace
+
+PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt) {
+  PathResult result;
+  result.outcome = Outcome::infeasible;
+  result.message = certificate.text;
+  for (const PartId id : certificate.parts)
+    if (has_part(attempt.still, id)) result.blocked_by.push_back(id);
+  return result;
+}
+
+ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
+                             const RunContext& context)
+    : assembly_(assembly), tolerance_(verifier.options().max_penetration) {
+  for (NamedProver& named : provers) {
+    const ProverTraits traits = named.prover->traits();
+    provers_.push_back({std::move(named), traits});
+  }
+  if (provers_.empty()) return;
+  for (const Part& part : assembly.parts)  // what the verifier has already; it outlives the memo
+    memo_.put("solids", part.id,
+              std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
+  std::vector<const Certificate*> found(assembly.overlaps.size());
+  parallel_for(
+      found.size(), context,
+      [&](std::size_t i) {
+        found[i] = prove({{assembly.overlaps[i].a, assembly.overlaps[i].b}, ProofEffort::trivial, 1}, context);
+      },
+      [] { return false; });
+  std::copy_if(found.begin(), found.end(), std::back_inserter(locks_),
+               [](const Certificate* c) { return c != nullptr; });
+}
+
+bool ProofSchedule::asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const {
+  const ProverTraits& t = prover.traits;
+  return t.effort == effort && t.depends_on_poses == depends_on_poses && parts >= t.min_parts && parts <= t.max_parts;
+}
+
+/// Nothing: told to stop.
+std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& query, ProofEffort effort,
+                                                        bool depends_on_poses, const RunContext& context) {
+  const Clock::time_point begin = Clock::now();
+  Answer answer;
+  for (const Prover& prover : provers_) {
+    if (!asks(prover, effort, depends_on_poses, query.moving.size() + query.fixed.size())) continue;
+    try {
+      answer = prover.named.prover->prove(query, context);
+    } catch (const std::exception& e) {
+      answer.reset();
+      context.log(LogLevel::error, fmt::format("immobility prover '{}' threw: {}", prover.named.id, e.what()));
+    } catch (...) {
+      answer.reset();
+      context.log(LogLevel::error,
+                  fmt::format("immobility prover '{}' threw something that is not a std::exception", prover.named.id));
+    }
+    if (!answer) continue;
+    answer->kind = prover.named.id;
+    answer->margin = query.margin();
+    answer->full_tolerance = query.share >= kWhole;
+    break;
+  }
+  nanoseconds_ += static_cast<std::uint64_t>(std::chrono::nanoseconds(Clock::now() - begin).count());
+  if (!answer && context.should_stop()) return std::nullopt;
+  return answer;
+}
+
+const Certificate* ProofSchedule::prove(const SeparationQuestion& question, const RunContext& context) {
+  SeparationQuestion key = question;
+  std::sort(key.parts.begin(), key.parts.end());
+  if (key.parts.size() < 2 || key.parts.back() >= assembly_.parts.size() || !(key.share > 0) || key.share > 1 ||
+      std::adjacent_find(key.parts.begin(), key.parts.end()) != key.parts.end())
+    throw std::invalid_argument("a question whether parts can be separated needs two distinct parts of the assembly");
+  if (std::none_of(provers_.begin(), provers_.end(),
+                   [&](const Prover& p) { return asks(p, key.effort, false, key.parts.size()); }))
+    return nullptr;
+  ComputedOnce<Answer>* entry = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    entry = &answers_[key];
+  }
+  SeparationQuery query{assembly_, {{key.parts.front(), Pose{}}}, {}, tolerance_, key.share, memo_};
+  for (std::size_t i = 1; i < key.parts.size(); ++i) query.fixed.push_back({key.parts[i], Pose{}});
+  const Answer* answer = entry->get(context, [&] { return ask(query, key.effort, false, context); });
+  return answer != nullptr && *answer ? &**answer : nullptr;
+}
+
+const Certificate* ProofSchedule::prove_placed(const Attempt& attempt, const RunContext& context) {
+  const std::size_t parts = attempt.moving.size() + attempt.still.size();
+  if (std::none_of(provers_.begin(), provers_.end(),
+                   [&](const Prover& p) { return asks(p, ProofEffort::low, true, parts); }))
+    return nullptr;
+  ComputedOnce<Answer>* entry = nullptr;
+  {
+    const std::scoped_lock lock(mutex_);
+    entry = &placed_answers_[digest_of(attempt)];
+  }
+  const SeparationQuery query{assembly_, attempt.moving, attempt.still, tolerance_, 1, memo_};
+  const Answer* answer = entry->get(context, [&] { return ask(query, ProofEffort::low, true, context); });
+  return answer != nullptr && *answer ? &**answer : nullptr;
+}
+
+const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
+  if (!attempt.leaving.empty()) {
+    const Certificate* found = nullptr;
+    for (const PartId id : attempt.leaving) {
+      const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.still, other); };
+      const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
+        return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
+      });
+      if (lock == locks_.end()) return nullptr;
+      if (found == nullptr) found = *lock;
+    }
+    return found;
+  }
+  const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
+    return (has_part(attempt.moving, c->parts[0]) && has_part(attempt.still, c->parts[1])) ||
+           (has_part(attempt.moving, c->parts[1]) && has_part(attempt.still, c->parts[0]));
+  });
+  return lock == locks_.end() ? nullptr : *lock;
+}
+
+const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContext& context) {
+  if (provers_.empty() || attempt.part_way) return nullptr;
+  if (const Certificate* lock = locked(attempt)) return lock;
+  if (!attempt.leaving.empty() || attempt.still.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
+  if (const Certificate* found = prove_placed(attempt, context)) return found;
+  if (attempt.moving.size() != 1 || attempt.still.size() != 1) return nullptr;
+  return prove({{attempt.moving.front().part, attempt.still.front().part}, ProofEffort::low, 1}, context);
+}
+
+const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
+  if (provers_.empty() || !found_nothing(result.outcome) || !attempt.leaving.empty() || attempt.part_way ||
+      attempt.moving.size() != 1 || attempt.still.empty() || !as_deep(attempt, kDepthForHigh))
+    return nullptr;
+  const bool last = attempt.max_depth == 0 || result.outcome == Outcome::exhausted;  // more depth would not help
+  std::optional<PartId> holder;
+  if (attempt.still.size() == 1)
+    holder = attempt.still.front().part;
+  else if (result.blocked_by.size() == 1)
+    holder = result.blocked_by.front();
+  if (holder) {
+    const std::vector<PartId> pair{attempt.moving.front().part, *holder};
+    for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
+      if (const Certificate* found = prove({pair, effort, 1}, context)) return found;
+    if (last)
+      if (const Certificate* found = prove({pair, ProofEffort::high, kLastShare}, context)) return found;
+  }
+  if (!last || attempt.still.size() < 2) return nullptr;
+  std::vector<PartId> all = ids_of(attempt.still);
+  all.push_back(attempt.moving.front().part);
+  return prove({all, ProofEffort::high, kLastShare}, context);
+}
+
+}  // namespace dismantle

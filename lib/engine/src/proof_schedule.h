@@ -1,0 +1,74 @@
+/// When which immobility prover is asked. The same for every pair of sequence and path planner.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "attempt_key.h"
+#include "dismantle/computed_once.h"
+#include "dismantle/engine/run.h"
+#include "dismantle/immobility_prover.h"
+#include "dismantle/path_oracle.h"
+
+namespace dismantle {
+
+/// Asks provers and remembers what they say. An answer depends on nothing but the question, so it does not matter which
+/// thread finds it, and when. Safe to use from several threads. Certificates live as long as the schedule.
+///
+///   effort   when                                                    about
+///   trivial  when the schedule is made                               all pairs that overlap when assembled
+///   low      before attempts of depth >= kDepthForLow or unlimited   moving against fixed parts; of pairs, the pair
+///   medium   after such attempts, of depth >= kDepthForHigh,         the pair, or the moving part and the only part
+///   that high     that found nothing                                      it touched; for all of the tolerance high
+///   after attempts that more depth would not help           the same for half of the tolerance; several parts
+class ProofSchedule {
+ public:
+  /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
+  ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
+                const RunContext& context);
+
+  /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of
+  /// them is in such a pair.
+  const Certificate* locked(const Attempt& attempt) const;
+  /// What is known before a search, or proved because it is cheaper than the search. `attempt` is canonical.
+  const Certificate* before(const Attempt& attempt, const RunContext& context);
+  /// What is proved because a search found nothing.
+  const Certificate* after(const Attempt& attempt, const PathResult& result, const RunContext& context);
+  /// As PathOracle::prove.
+  const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
+
+  /// Time that proofs took, on all threads, those computed ahead included.
+  double seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
+
+ private:
+  using Answer = std::optional<Certificate>;
+  struct Prover {
+    NamedProver named;
+    ProverTraits traits;
+  };
+
+  bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
+  std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
+                            const RunContext& context);
+  const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
+
+  const Assembly& assembly_;
+  double tolerance_;
+  std::vector<Prover> provers_;
+  PartMemo memo_;
+  std::mutex mutex_;  // of the maps; answers are computed without it
+  std::map<SeparationQuestion, ComputedOnce<Answer>> answers_;
+  std::map<CastDigest, ComputedOnce<Answer>> placed_answers_;
+  std::vector<const Certificate*> locks_;
+  std::atomic<std::uint64_t> nanoseconds_{0};
+};
+
+/// Result of an attempt that a full-tolerance certificate answers, without a search.
+PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt);
+
+}  // namespace dismantle

@@ -1,0 +1,242 @@
+// When provers are asked, and what an answer does to an attempt.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "dismantle/testing/fake_prover.h"
+#include "dismantle/testing/oracle_rig.h"
+
+namespace dismantle {
+namespace {
+
+using fake::claim;
+using fake::leave;
+using fake::outcome;
+using fake::Rig;
+using fake::row;
+
+constexpr ProverTraits kTrivial{ProofEffort::trivial, 2, 2, false}, kLow{ProofEffort::low, 2, 2, false},
+    kMedium{ProofEffort::medium, 2, 2, false}, kHigh{ProofEffort::high, 2, 2, false},
+    kGroups{ProofEffort::high, 3, 4, false}, kPlaced{ProofEffort::low, 2, 100, true};
+
+/// Counts what it is asked, and proves it or not.
+struct Asked {
+  bool proves = true;
+  std::vector<std::vector<PartId>> parts;
+  std::vector<double> shares;
+
+  NamedProver prover(const std::string& id, const ProverTraits& traits) {
+    return fake::prover(id, traits, [this](const SeparationQuery& q, const RunContext&) -> std::optional<Certificate> {
+      parts.push_back(claim(q).parts);
+      shares.push_back(q.share);
+      return proves ? std::optional(claim(q)) : std::nullopt;
+    });
+  }
+};
+
+/// A search that touches `blocker`, and finds nothing.
+auto touching(std::vector<PartId> blocked_by, int& searches, Outcome o = Outcome::depth_limit) {
+  return [blocked_by, &searches, o](const PathQuery&, RunContext&) {
+    ++searches;
+    PathResult r = outcome(o);
+    r.blocked_by = blocked_by;
+    return r;
+  };
+}
+
+Ingredients with(Ingredients ingredients, std::vector<NamedProver> provers) {
+  ingredients.provers = std::move(provers);
+  return ingredients;
+}
+
+TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
+  Asked lock;
+  int searches = 0;
+  Assembly assembly = row(3);
+  assembly.overlaps = {{0, 1, 0.1}};
+  Rig s(assembly, with(fake::ingredients(touching({}, searches)), {lock.prover("lock", kTrivial)}));
+  EXPECT_EQ(lock.parts, (std::vector<std::vector<PartId>>{{0, 1}})) << "pairs that do not overlap are not asked about";
+  for (const unsigned depth : {0U, 1U, 7U}) {
+    const AttemptResult& r = s.ask(leave(s.assembly, 1, depth));
+    EXPECT_EQ(r.result.outcome, Outcome::infeasible);
+    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{0});
+    EXPECT_EQ(r.result.message, "claimed");
+    ASSERT_NE(r.certificate, nullptr);
+    EXPECT_EQ(r.certificate->kind, "lock");
+    EXPECT_TRUE(r.certificate->full_tolerance);
+    EXPECT_EQ(r.certificate->margin, s.options.verify.max_penetration);
+  }
+  const Attempt way = leave(s.assembly, 0);
+  const AttemptResult& proposed =
+      s.oracle->propose(way, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
+  EXPECT_EQ(proposed.result.outcome, Outcome::infeasible);
+  EXPECT_EQ(searches, 0);
+  s.ask(leave(s.assembly, 2));
+  EXPECT_EQ(searches, 1) << "the third part is free";
+}
+
+TEST(ProofSchedule, LowEffortComesBeforeSearchesOfSomeDepth) {
+  for (const bool placed : {false, true}) {
+    Asked low;
+    int searches = 0;
+    Rig s(row(2), with(fake::ingredients(touching({}, searches)), {low.prover("low", placed ? kPlaced : kLow)}));
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 2)).result.outcome, Outcome::depth_limit) << "a short search is cheaper";
+    EXPECT_EQ(low.parts.size(), 0U);
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::infeasible);
+    EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::infeasible);
+    EXPECT_EQ(searches, 1);
+    EXPECT_EQ(low.parts.size(), 1U) << "an answer is remembered";
+  }
+}
+
+TEST(ProofSchedule, HighEffortComesAfterDeepSearchesThatFoundNothing) {
+  for (const ProverTraits& traits : {kMedium, kHigh}) {
+    Asked dear;
+    int searches = 0;
+    Rig s(row(3), with(fake::ingredients(touching({2}, searches)), {dear.prover("dear", traits)}));
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::depth_limit);
+    EXPECT_EQ(dear.parts.size(), 0U);
+    const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
+    EXPECT_EQ(r.result.outcome, Outcome::infeasible) << "by the only part that it touched";
+    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{2});
+    EXPECT_EQ(searches, 2);
+    EXPECT_EQ(dear.parts, (std::vector<std::vector<PartId>>{{0, 2}}));
+    EXPECT_EQ(dear.shares, std::vector<double>{1});
+  }
+}
+
+TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
+  Asked dear;
+  int searches = 0;
+  const NamedProver half = fake::prover("half", kHigh, [&](const SeparationQuery& q, const RunContext&) {
+    dear.shares.push_back(q.share);
+    return q.share < 1 ? std::optional(claim(q)) : std::nullopt;
+  });
+  Rig s(row(2), with(fake::ingredients(touching({1}, searches, Outcome::exhausted)), {half}));
+  const AttemptResult& r = s.ask(leave(s.assembly, 0, 5));
+  EXPECT_EQ(r.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(dear.shares, (std::vector<double>{1, 0.5}));
+  ASSERT_NE(r.certificate, nullptr);
+  EXPECT_FALSE(r.certificate->full_tolerance);
+  EXPECT_LT(r.certificate->margin, s.options.verify.max_penetration);
+}
+
+TEST(ProofSchedule, SeveralPartsAreAskedAboutWhereMoreDepthWouldNotHelp) {
+  Asked groups;
+  int searches = 0;
+  Rig s(row(3), with(fake::ingredients(touching({1, 2}, searches, Outcome::exhausted)), {groups.prover("g", kGroups)}));
+  s.ask(leave(s.assembly, 0, 3));
+  EXPECT_EQ(groups.parts.size(), 0U);
+  s.ask(leave(s.assembly, 0, 4));
+  s.ask(leave(s.assembly, 1));
+  EXPECT_EQ(groups.parts, (std::vector<std::vector<PartId>>{{0, 1, 2}})) << "once";
+}
+
+TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
+  Asked dear;
+  Rig s(row(2), with(fake::ingredients(fake::push), {dear.prover("m", kMedium), dear.prover("h", kHigh)}));
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::solved);
+  EXPECT_EQ(dear.parts.size(), 0U);
+}
+
+TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {
+  constexpr double kLimit = 0.05;
+  const NamedProver slow =
+      fake::prover("slow", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
+        std::this_thread::sleep_for(std::chrono::duration<double>(2 * kLimit));
+        return std::nullopt;
+      });
+  bool in_time = false;
+  RunOptions options;
+  options.path_timeout = kLimit;
+  Rig s(row(2),
+        with(fake::ingredients([&](const PathQuery&, RunContext& c) {
+               in_time = c.deadline.seconds_left() > 0;
+               return outcome(Outcome::exhausted);
+             }),
+             {slow}),
+        1, options);
+  const AttemptResult& r = s.ask(leave(s.assembly, 0, 3));
+  EXPECT_TRUE(in_time) << "the limit begins with the search";
+  EXPECT_GE(r.proof_seconds, 2 * kLimit);
+}
+
+TEST(ProofSchedule, WithoutProversNothingIsProved) {
+  int searches = 0;
+  Assembly assembly = row(3);
+  assembly.overlaps = {{0, 1, 0.1}};
+  Rig s(assembly, fake::ingredients(touching({1}, searches)));
+  const AttemptResult& r = s.ask(leave(s.assembly, 0));
+  EXPECT_EQ(r.result.outcome, Outcome::depth_limit);
+  EXPECT_EQ(r.certificate, nullptr);
+  for (const ProofEffort e : {ProofEffort::trivial, ProofEffort::low, ProofEffort::medium, ProofEffort::high})
+    EXPECT_EQ(s.oracle->prove({{0, 1}, e, 1}, s.context), nullptr);
+}
+
+TEST(ProofSchedule, OneProofForAllThreadsThatAsk) {
+  std::atomic<int> asked{0};
+  int searches = 0;
+  const NamedProver counted = fake::prover("counted", kLow, [&](const SeparationQuery& q, const RunContext&) {
+    ++asked;
+    std::this_thread::yield();
+    return std::optional(claim(q));
+  });
+  for (int trial = 0; trial < 20; ++trial) {
+    asked = 0;
+    Rig s(row(2), with(fake::ingredients(touching({}, searches)), {counted}));
+    std::vector<const Certificate*> seen(4);
+    {
+      std::vector<std::jthread> threads;
+      for (std::size_t k = 0; k < seen.size(); ++k)
+        threads.emplace_back([&s, &seen, k] {
+          seen[k] = s.oracle->prove(
+              {k % 2 == 0 ? std::vector<PartId>{0, 1} : std::vector<PartId>{1, 0}, ProofEffort::low, 1}, {});
+        });
+    }
+    EXPECT_EQ(asked, 1);
+    for (const Certificate* c : seen) EXPECT_EQ(c, seen[0]);
+    ASSERT_NE(seen[0], nullptr);
+  }
+}
+
+TEST(ProofSchedule, AStoppedProofSaysNothing) {
+  int searches = 0;
+  const NamedProver patient = fake::prover("patient", kLow, [](const SeparationQuery& q, const RunContext& c) {
+    return c.should_stop() ? std::nullopt : std::optional(claim(q));
+  });
+  Rig s(row(2), with(fake::ingredients(touching({}, searches)), {patient}));
+  RunContext stopped;
+  stopped.cancel.cancel();
+  EXPECT_EQ(s.oracle->prove({{0, 1}, ProofEffort::low, 1}, stopped), nullptr);
+  EXPECT_NE(s.oracle->prove({{0, 1}, ProofEffort::low, 1}, {}), nullptr);
+}
+
+TEST(ProofSchedule, AProverThatThrowsProvesNothingAndIsReported) {
+  int searches = 0;
+  const NamedProver broken =
+      fake::prover("broken", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
+        throw std::runtime_error("no idea");
+      });
+  Asked next;
+  next.proves = false;
+  Rig s(row(2), with(fake::ingredients(touching({}, searches)), {broken, next.prover("next", kLow)}));
+  EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::depth_limit);
+  ASSERT_EQ(s.errors.size(), 1U);
+  EXPECT_NE(s.errors[0].find("no idea"), std::string::npos);
+  EXPECT_EQ(next.parts.size(), 1U) << "the others are still asked";
+}
+
+TEST(ProofSchedule, QuestionsThatMakeNoSense) {
+  Rig s(row(2), fake::ingredients(fake::push));
+  for (const std::vector<PartId>& parts : {std::vector<PartId>{}, {0}, {0, 0}, {0, 7}})
+    EXPECT_THROW(s.oracle->prove({parts, ProofEffort::low, 1}, {}), std::invalid_argument);
+  for (const double share : {0.0, -1.0, 1.5})
+    EXPECT_THROW(s.oracle->prove({{0, 1}, ProofEffort::low, share}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dismantle

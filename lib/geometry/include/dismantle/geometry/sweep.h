@@ -1,0 +1,48 @@
+/// A triangle swept in a straight way, against the triangles of a solid.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "dismantle/geometry/triangle_bvh.h"
+
+namespace dismantle::geometry {
+
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+enum class Sighting {
+  far,      ///< clear, and apart from the whole box of the hierarchy
+  clear,    ///< certainly meets no triangle
+  unclear,  ///< may meet one
+};
+
+/// Convex hull of a triangle at two places, grown by a margin. Tests are one-sided: what is reported clear is more
+/// than the margin away; what is not may be clear as well.
+class Sweep {
+ public:
+  Sweep(const Corners& begin, const Corners& end, double margin);
+  Sighting look(const TriangleBvh& bvh) const;
+
+ private:
+  struct Axis {
+    Eigen::Vector3d n, size;  // size: absolute values of n
+    double lo, hi;            // extent of the grown hull along n
+  };
+  void add_axis(const Eigen::Vector3d& n);
+  /// True when n proves the triangle to be off the grown hull.
+  bool apart_along(const Eigen::Vector3d& n, const Corners& triangle) const;
+  bool apart(const Corners& triangle) const;
+  bool misses(const Aabb& box) const;
+
+  std::array<Eigen::Vector3d, 6> hull_;
+  double margin_;
+  bool turning_ = false;  // the two triangles are not parallel shifts of each other
+  Eigen::Vector3d motion_;
+  std::array<Eigen::Vector3d, 3> edges_;
+  Aabb box_;
+  std::array<Axis, 6> axes_;  // one or two normals, three sides, one across
+  int axis_count_ = 0;
+};
+
+}  // namespace dismantle::geometry

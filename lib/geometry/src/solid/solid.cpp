@@ -1,0 +1,286 @@
+#include "dismantle/geometry/solid.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/ray.h"
+
+namespace dismantle::geometry {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// A vertex direction that enters some face by less than this sine is useless.
+constexpr double kLeastSine = 0.05;
+/// Triangles lower than this have no normal to speak of.
+constexpr double kSliverHeight = 1e-7;
+
+/// By triangle: number of its shell, counted in order of first appearance.
+std::vector<std::uint32_t> number_shells(const Mesh& mesh, std::uint32_t& shells) {
+  struct Edge {
+    std::uint32_t a, b, triangle;
+    auto operator<=>(const Edge&) const = default;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      edges.push_back({a, b, t});
+    }
+  std::sort(edges.begin(), edges.end());
+  DisjointSets sets(mesh.triangles.size());
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    if (edges[i].a == edges[i - 1].a && edges[i].b == edges[i - 1].b)
+      sets.join(edges[i].triangle, edges[i - 1].triangle);
+  std::vector<std::uint32_t> shell(mesh.triangles.size()), number(mesh.triangles.size());
+  shells = 0;
+  for (std::uint32_t t = 0; t < shell.size(); ++t) {
+    if (sets.root(t) == t) number[t] = shells++;
+    shell[t] = number[sets.root(t)];
+  }
+  return shell;
+}
+
+/// The triangles of `pick` with the vertices that they use.
+Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
+  Mesh out;
+  std::vector<std::uint32_t> used;
+  for (const auto t : pick) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  out.vertices.reserve(used.size());
+  for (const auto v : used) out.vertices.push_back(mesh.vertices[v]);
+  const auto renumbered = [&](std::uint32_t v) {
+    return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
+  };
+  for (const auto t : pick) {
+    Triangle r{renumbered(mesh.triangles[t][0]), renumbered(mesh.triangles[t][1]), renumbered(mesh.triangles[t][2])};
+    if (flip) std::swap(r[1], r[2]);
+    out.triangles.push_back(r);
+  }
+  return out;
+}
+
+double signed_volume(const Mesh& mesh) {
+  if (mesh.vertices.empty()) return 0;
+  const Vec3 o = mesh.vertices.front();
+  double v = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    v += (mesh.vertex(t, 0) - o).dot((mesh.vertex(t, 1) - o).cross(mesh.vertex(t, 2) - o));
+  return v / 6;
+}
+
+void append(Mesh& to, const Mesh& from) {
+  const auto base = static_cast<std::uint32_t>(to.vertices.size());
+  to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  for (const auto& t : from.triangles) to.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+}
+
+Vec3 triangle_normal(const Mesh& mesh, std::size_t t) {
+  const Vec3 a = mesh.vertex(t, 0), ab = mesh.vertex(t, 1) - a, ac = mesh.vertex(t, 2) - a;
+  const Vec3 n = ab.cross(ac);
+  const double length = n.norm();
+  const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
+  if (!(length > kSliverHeight * longest)) return Vec3::Zero();
+  return n / length;
+}
+
+/// Direction that enters all faces with these outward normals as steeply as can be (centre of the smallest cap of
+/// the sphere around them, by Badoiu and Clarkson's iteration), or zero.
+Vec3 inward_direction(const std::vector<Vec3>& normals) {
+  Vec3 c = Vec3::Zero();
+  for (const auto& n : normals) c += n;
+  c /= static_cast<double>(normals.size());
+  const auto steepness = [&](const Vec3& d) {
+    double least = kInfinity;
+    for (const auto& n : normals) least = std::min(least, n.dot(d));
+    return least;
+  };
+  Vec3 best = c.norm() > 1e-9 ? Vec3(c.normalized()) : normals.front();
+  double best_sine = steepness(best);
+  for (int k = 1; k <= 48 && best_sine < 1 - 1e-9; ++k) {
+    const Vec3* far = &normals.front();
+    for (const auto& n : normals)
+      if ((n - c).squaredNorm() > (*far - c).squaredNorm()) far = &n;
+    c += (*far - c) / (k + 1.0);
+    if (c.norm() < 1e-9) continue;
+    const Vec3 d = c.normalized();
+    const double sine = steepness(d);
+    if (sine > best_sine) {
+      best_sine = sine;
+      best = d;
+    }
+  }
+  return best_sine < kLeastSine ? Vec3(Vec3::Zero()) : Vec3(-best);
+}
+
+std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals) {
+  std::vector<std::vector<Vec3>> around(mesh.vertices.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (normals[t].isZero(0)) continue;
+    for (const auto v : mesh.triangles[t]) {
+      auto& list = around[v];
+      if (std::none_of(list.begin(), list.end(), [&](const Vec3& n) { return (n - normals[t]).squaredNorm() < 1e-20; }))
+        list.push_back(normals[t]);
+    }
+  }
+  std::vector<Vec3> directions(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < directions.size(); ++v)
+    if (!around[v].empty()) directions[v] = inward_direction(around[v]);
+  return directions;
+}
+
+/// Axes along the two directions, at right angles, that most of the surface faces.
+Pose tight_frame(const Mesh& mesh) {
+  struct Facing {
+    std::array<int, 3> key;  // direction up to sign, rounded
+    double area;
+    Vec3 n;
+  };
+  std::vector<Facing> all;
+  all.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Vec3 n = triangle_normal(mesh, t);
+    if (n.isZero(0)) continue;
+    std::array<int, 3> key;
+    for (std::size_t k = 0; k < 3; ++k) key[k] = static_cast<int>(std::lround(n[static_cast<int>(k)] * 1000));
+    if (key < std::array<int, 3>{}) {
+      n = -n;
+      for (auto& k : key) k = -k;
+    }
+    const Vec3 a = mesh.vertex(t, 0);
+    all.push_back({key, 0.5 * (mesh.vertex(t, 1) - a).cross(mesh.vertex(t, 2) - a).norm(), n});
+  }
+  std::stable_sort(all.begin(), all.end(), [](const Facing& a, const Facing& b) { return a.key < b.key; });
+  std::vector<Facing> sums;
+  for (const auto& f : all) {
+    if (sums.empty() || sums.back().key != f.key)
+      sums.push_back(f);
+    else
+      sums.back().area += f.area;
+  }
+  const auto largest = [&](const auto& fits) {
+    const Facing* best = nullptr;
+    for (const auto& f : sums)
+      if (fits(f) && (!best || f.area > best->area)) best = &f;
+    return best;
+  };
+  const Facing* first = largest([](const Facing&) { return true; });
+  if (!first) return {};
+  const Facing* second = largest([&](const Facing& f) { return std::abs(f.n.dot(first->n)) < 0.02; });
+  const Vec3 x = first->n;
+  const Vec3 y = second ? Vec3((second->n - second->n.dot(x) * x).normalized()) : x.unitOrthogonal();
+  Eigen::Matrix3d r;
+  r << x, y, x.cross(y);
+  // Already along the axes: leave the coordinates as they are.
+  if ((r.cwiseAbs().rowwise().maxCoeff().array() > 1 - 1e-9).all()) return {};
+  return {Vec3::Zero(), Eigen::Quaterniond(r).normalized()};
+}
+
+Mesh turned(const Mesh& mesh, const Pose& frame) {
+  Mesh local = mesh;
+  if (frame.is_identity()) return local;
+  const Eigen::Matrix3d back = frame.q.toRotationMatrix().transpose();
+  for (auto& v : local.vertices) v = back * v;
+  return local;
+}
+
+bool share_corner(const Triangle& a, const Triangle& b) {
+  for (const auto i : a)
+    for (const auto j : b)
+      if (i == j) return true;
+  return false;
+}
+
+}  // namespace
+
+Solid::Solid(const Mesh& m) : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh), box(mesh.box()) {
+  normals.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
+  inward = inward_directions(mesh, normals);
+  thickness.assign(mesh.triangles.size(), kInfinity);
+  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+
+  std::uint32_t shells = 0;
+  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+  std::vector<std::vector<std::uint32_t>> vertices(shells);
+  for (std::size_t t = 0; t < shell.size(); ++t)
+    vertices[shell[t]].insert(vertices[shell[t]].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+  shell_begin.push_back(0);
+  for (auto& list : vertices) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    shell_vertices.insert(shell_vertices.end(), list.begin(), list.end());
+    shell_begin.push_back(static_cast<std::uint32_t>(shell_vertices.size()));
+  }
+}
+
+void Solid::measure_thickness(double reach) {
+  constexpr double kAlmostOpposite = -0.9;
+  static constexpr std::array<std::array<double, 3>, 4> kSamples = {
+      {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    thickness[t] = kInfinity;
+    if (normals[t].isZero(0)) continue;
+    const auto blocks = [&](std::uint32_t other) {
+      if (other == t) return false;
+      const double facing = normals[t].dot(normals[other]);
+      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < kAlmostOpposite;
+      return facing < 0;  // an opposite side faces away
+    };
+    for (const auto& w : kSamples) {
+      const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
+      thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
+    }
+  }
+  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const auto v : mesh.triangles[t]) vertex_thickness[v] = std::min(vertex_thickness[v], thickness[t]);
+}
+
+std::vector<Solid> split_into_solids(const Mesh& mesh) {
+  std::uint32_t shells = 0;
+  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+  std::vector<std::vector<std::uint32_t>> triangles(shells);
+  for (std::uint32_t t = 0; t < shell.size(); ++t) triangles[shell[t]].push_back(t);
+
+  struct Group {
+    Mesh mesh;
+    double volume;
+  };
+  std::vector<Group> groups;
+  std::vector<std::uint32_t> voids;
+  for (std::uint32_t s = 0; s < shells; ++s) {
+    Mesh m = sub_mesh(mesh, triangles[s]);
+    const double v = signed_volume(m);
+    if (v < 0)
+      voids.push_back(s);
+    else
+      groups.push_back({std::move(m), v});
+  }
+  const std::size_t outer = groups.size();
+  std::vector<TriangleBvh> trees;
+  if (!voids.empty())
+    for (const auto& g : groups) trees.emplace_back(g.mesh);
+  for (const auto s : voids) {
+    const Mesh m = sub_mesh(mesh, triangles[s]);
+    std::size_t owner = outer;
+    for (std::size_t g = 0; g < outer; ++g)
+      if ((owner == outer || groups[g].volume < groups[owner].volume) && trees[g].inside(m.vertices.front())) owner = g;
+    if (owner < outer)
+      append(groups[owner].mesh, m);
+    else
+      groups.push_back({sub_mesh(mesh, triangles[s], true), -signed_volume(m)});
+  }
+  std::vector<Solid> solids;
+  solids.reserve(groups.size());
+  for (const auto& g : groups) solids.emplace_back(g.mesh);
+  return solids;
+}
+
+}  // namespace dismantle::geometry

@@ -1,0 +1,131 @@
+#include "dismantle/geometry/sweep.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+namespace dismantle::geometry {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+/// Far above the rounding of coordinates up to thousands of units, far below any tolerance.
+constexpr double kRounding = 1e-11;
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(margin + kRounding) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    hull_[i] = begin[i];
+    hull_[i + 3] = end[i];
+    box_.extend(begin[i]);
+    box_.extend(end[i]);
+    edges_[i] = begin[(i + 1) % 3] - begin[i];
+  }
+  box_.inflate(margin_);
+  motion_ = ((end[0] - begin[0]) + (end[1] - begin[1]) + (end[2] - begin[2])) / 3;
+  for (std::size_t i = 0; i < 3; ++i)
+    turning_ = turning_ || (end[i] - begin[i] - motion_).squaredNorm() > kRounding * kRounding;
+
+  const Vec3 normal = edges_[0].cross(edges_[1]);
+  add_axis(normal);
+  if (turning_) add_axis((end[1] - end[0]).cross(end[2] - end[1]));
+  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
+  for (const auto& e : edges_) add_axis(moving ? e.cross(motion_) : e.cross(normal));
+  // A sliver that moves along itself has sides whose normals are all but that of its face.
+  if (moving) add_axis(normal.cross(motion_));
+}
+
+void Sweep::add_axis(const Vec3& n) {
+  const double length = n.norm();
+  if (!(length > 1e-14)) return;
+  Axis a{n / length, (n / length).cwiseAbs(), kUnbounded, -kUnbounded};
+  for (const auto& p : hull_) {
+    const double d = a.n.dot(p);
+    a.lo = std::min(a.lo, d);
+    a.hi = std::max(a.hi, d);
+  }
+  a.lo -= margin_;
+  a.hi += margin_;
+  axes_[static_cast<std::size_t>(axis_count_++)] = a;
+}
+
+bool Sweep::misses(const Aabb& box) const {
+  if (!box.overlaps(box_)) return true;
+  const Vec3 c = box.center(), h = 0.5 * box.size();
+  for (int i = 0; i < axis_count_; ++i) {
+    const Axis& a = axes_[static_cast<std::size_t>(i)];
+    const double m = a.n.dot(c), r = a.size.dot(h);
+    if (m + r < a.lo || m - r > a.hi) return true;
+  }
+  return false;
+}
+
+bool Sweep::apart_along(const Vec3& n, const Corners& t) const {
+  const double length = n.norm();
+  if (!(length > 1e-14)) return false;
+  double lo = kUnbounded, hi = -kUnbounded;
+  for (const auto& p : hull_) {
+    const double d = n.dot(p);
+    lo = std::min(lo, d);
+    hi = std::max(hi, d);
+  }
+  const double grow = margin_ * length;
+  const double a = n.dot(t[0]), b = n.dot(t[1]), c = n.dot(t[2]);
+  return std::min({a, b, c}) > hi + grow || std::max({a, b, c}) < lo - grow;
+}
+
+bool Sweep::apart(const Corners& t) const {
+  for (int i = 0; i < axis_count_; ++i) {
+    const Axis& x = axes_[static_cast<std::size_t>(i)];
+    const double a = x.n.dot(t[0]), b = x.n.dot(t[1]), c = x.n.dot(t[2]);
+    if (std::min({a, b, c}) > x.hi || std::max({a, b, c}) < x.lo) return true;
+  }
+  const std::array<Vec3, 3> sides = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  if (apart_along(sides[0].cross(sides[1]), t)) return true;
+  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
+  for (const auto& side : sides) {
+    if (moving && apart_along(side.cross(motion_), t)) return true;
+    for (const auto& e : edges_)
+      if (apart_along(side.cross(e), t)) return true;
+  }
+  if (!turning_) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 e = hull_[3 + (i + 1) % 3] - hull_[3 + i], way = hull_[3 + i] - hull_[i];
+    if (apart_along(e.cross(way), t)) return true;
+    for (const auto& side : sides)
+      if (apart_along(side.cross(e), t) || apart_along(side.cross(way), t)) return true;
+  }
+  return false;
+}
+
+Sighting Sweep::look(const TriangleBvh& bvh) const {
+  const auto& nodes = bvh.nodes();
+  if (nodes.empty() || misses(nodes[0].box)) return Sighting::far;
+  std::array<std::uint32_t, 192> stack;
+  std::size_t top = 0;
+  std::uint32_t at = 0;
+  for (;;) {
+    const TriangleBvh::Node& node = nodes[at];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+        if (!apart(bvh.corners(bvh.order()[i]))) return Sighting::unclear;
+    } else {
+      const std::uint32_t left = at + 1, right = node.first;
+      const bool go_left = !misses(nodes[left].box), go_right = !misses(nodes[right].box);
+      if (go_left) {
+        if (go_right) stack[top++] = right;
+        at = left;
+        continue;
+      }
+      if (go_right) {
+        at = right;
+        continue;
+      }
+    }
+    if (top == 0) return Sighting::clear;
+    at = stack[--top];
+  }
+}
+
+}  // namespace dismantle::geometry

@@ -1,0 +1,53 @@
+/// Columns of text for a terminal: what texts about plans, checks and preparations share.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dismantle/plan.h"
+
+namespace dismantle::text {
+
+/// Characters of a UTF-8 text.
+inline std::size_t width_of(const std::string& utf8) {
+  return static_cast<std::size_t>(std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// `text` with spaces up to `width` characters.
+inline std::string padded(std::string text, std::size_t width) {
+  const std::size_t now = width_of(text);
+  return now < width ? text.append(width - now, ' ') : text;
+}
+
+/// The width of a column of names: that of the widest, within [4, 40].
+inline std::size_t column_of(std::size_t so_far, const std::string& name) {
+  return std::max({so_far, std::size_t{4}, std::min<std::size_t>(width_of(name), 40)});
+}
+
+inline std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
+/// "1 part", "2 parts"
+inline std::string counted(std::size_t n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// The names of the parts that a step moves.
+inline std::string names_of(const PlanStep& step) {
+  std::vector<std::string> names;
+  for (const auto& move : step.moves) names.push_back(move.part);
+  return joined(names);
+}
+
+inline std::size_t widest_step(const Plan& plan) {
+  std::size_t width = 4;
+  for (const auto& step : plan.disassembly) width = column_of(width, names_of(step));
+  return width;
+}
+
+}  // namespace dismantle::text

@@ -1,0 +1,21 @@
+/// Which parts are the same shape in another place.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/pose.h"
+
+namespace dismantle {
+
+struct ShapePlacement {
+  std::size_t original = 0;  ///< index of the first part of this shape; the part's own if there is none before it
+  Pose pose;                 ///< takes the original, assembled, to this part, assembled; assembly units
+};
+
+/// One per part. Two parts count as one shape when their triangles are numbered alike and a rigid displacement takes
+/// each vertex of one to within 1e-4 of the part's size of the other's. Mirror images are different shapes.
+std::vector<ShapePlacement> find_congruent(const std::vector<Part>& parts);
+
+}  // namespace dismantle

@@ -1,0 +1,11 @@
+/// Files that this program wrote itself and that lie among its input.
+#pragma once
+
+#include <filesystem>
+
+namespace dismantle {
+
+/// Whether `file` is an animation of a plan (plan.glb, under whatever name): it shows the parts, it is none.
+bool is_own_animation(const std::filesystem::path& file);
+
+}  // namespace dismantle

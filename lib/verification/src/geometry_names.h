@@ -1,0 +1,7 @@
+/// Names of lib/geometry without their namespace.
+#pragma once
+
+namespace dismantle::geometry {}
+namespace dismantle::verify {
+using namespace geometry;
+}

@@ -1,0 +1,129 @@
+#include "plan/check_certificates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "dismantle/geometry/solid.h"
+#include "dismantle/part_memo.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kRounding = 1e-9;  // relative, of a tolerance
+
+class CertificateCheck {
+ public:
+  CertificateCheck(const Plan& plan, const Assembly& assembly, const Verifier& verifier, const PlanState& state,
+                   const std::vector<StepMotion>& motions, const ProverOfKind& prover_of, const RunContext& context)
+      : tolerance_(plan.verified_max_penetration),
+        assembly_(assembly),
+        state_(state),
+        motions_(motions),
+        prover_of_(prover_of),
+        context_(context) {
+    for (const Part& part : assembly.parts)
+      memo_.put(
+          "solids", part.id,
+          std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
+  }
+
+  /// Empty when the certificate holds.
+  std::string problem_of(const PlanCertificate& written) {
+    Certificate certificate{written.kind, {}, {}, written.full_tolerance, written.margin, written.numbers, {}};
+    for (const auto& name : written.parts) {
+      const auto id = state_.find(name);
+      if (!id) return fmt::format("part '{}' is not in the assembly", name);
+      if (std::find(certificate.parts.begin(), certificate.parts.end(), *id) != certificate.parts.end())
+        return fmt::format("part '{}' is listed twice", name);
+      certificate.parts.push_back(*id);
+    }
+    if (certificate.parts.size() < 2) return "it needs two parts at least";
+    const bool full = written.margin >= tolerance_ * (1 - kRounding);
+    if (!(written.margin > 0) || written.margin > tolerance_ * (1 + kRounding))
+      return fmt::format("its margin {:.4g} is not between 0 and the plan's tolerance {:.4g}", written.margin,
+                         tolerance_);
+    if (full != written.full_tolerance)
+      return fmt::format("its margin is {:.4g} of a tolerance of {:.4g}, and it says {} full tolerance", written.margin,
+                         tolerance_,
+                         written.full_tolerance ? "that it holds for the" : "that it does not hold for the");
+    const auto prover = prover_of_ ? prover_of_(written.kind) : nullptr;
+    if (!prover) return fmt::format("there is no immobility prover '{}' to check it", written.kind);
+    for (const Pose& pose : written.poses)
+      certificate.poses.push_back(assembly_.normalization.pose_to_internal({pose.t, pose.q.normalized()}));
+    const ProverTraits traits = prover->traits();
+    if (certificate.parts.size() < traits.min_parts || certificate.parts.size() > traits.max_parts)
+      return "it has more or fewer parts than proofs of its kind are about";
+    if (!certificate.poses.empty()) {
+      if (certificate.poses.size() != certificate.parts.size()) return "it does not have one pose for each part";
+      if (!traits.depends_on_poses) return "it has poses, and proofs of its kind are about parts as assembled";
+      if (!ever_there(certificate)) return "its parts are at no time of the plan where it has them";
+    }
+    SeparationQuery query{assembly_, {}, {}, tolerance_, full ? 1 : written.margin / tolerance_, memo_};
+    for (std::size_t i = 0; i < certificate.parts.size(); ++i)
+      (i == 0 ? query.moving : query.fixed)
+          .push_back({certificate.parts[i], certificate.poses.empty() ? Pose{} : certificate.poses[i]});
+    return prover->objection(certificate, query, context_);
+  }
+
+ private:
+  /// Are its parts, at some time of the plan, where it has them?
+  bool ever_there(const Certificate& certificate) const {
+    std::vector<Pose> places(certificate.parts.size());
+    const auto there = [&] {
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (state_.offset(certificate.parts[i], places[i], certificate.poses[i]) > state_.tolerance()) return false;
+      return true;
+    };
+    if (there()) return true;
+    for (const StepMotion& motion : motions_)
+      for (const auto& instant : motion.path) {
+        bool moved = false;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          const auto at = std::find(motion.moving.begin(), motion.moving.end(), certificate.parts[i]);
+          if (at == motion.moving.end()) continue;
+          places[i] = instant[static_cast<std::size_t>(at - motion.moving.begin())];
+          moved = true;
+        }
+        if (moved && there()) return true;
+      }
+    return false;
+  }
+
+  double tolerance_;
+  const Assembly& assembly_;
+  const PlanState& state_;
+  const std::vector<StepMotion>& motions_;
+  const ProverOfKind& prover_of_;
+  const RunContext& context_;
+  PartMemo memo_;
+};
+
+}  // namespace
+
+std::vector<std::string> problems_of_certificates(const Plan& plan, const Assembly& assembly, const Verifier& verifier,
+                                                  const PlanState& state, const std::vector<StepMotion>& motions,
+                                                  const ProverOfKind& prover_of, const RunContext& context) {
+  std::vector<std::string> problems;
+  CertificateCheck check(plan, assembly, verifier, state, motions, prover_of, context);
+  for (std::size_t i = 0; i < plan.certificates.size() && !context.should_stop(); ++i)
+    if (const std::string problem = check.problem_of(plan.certificates[i]); !problem.empty())
+      problems.push_back(fmt::format("certificate {} ({}) does not hold: {}", i, plan.certificates[i].kind, problem));
+  for (const PlanUnsolved& u : plan.unsolved) {
+    const PlanCertificate* certificate =
+        u.certificate && *u.certificate < plan.certificates.size() ? &plan.certificates[*u.certificate] : nullptr;
+    if (u.certificate && certificate == nullptr)
+      problems.push_back(fmt::format("unsolved '{}': there is no certificate {}", u.part, *u.certificate));
+    if (certificate != nullptr &&
+        std::find(certificate->parts.begin(), certificate->parts.end(), u.part) == certificate->parts.end())
+      problems.push_back(fmt::format("unsolved '{}': its certificate is not about it", u.part));
+    if (u.outcome == Outcome::infeasible && (certificate == nullptr || !certificate->full_tolerance))
+      problems.push_back(
+          fmt::format("unsolved '{}' is called infeasible without a certificate for the full tolerance", u.part));
+  }
+  return problems;
+}
+
+}  // namespace dismantle

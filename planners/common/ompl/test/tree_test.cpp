@@ -1,0 +1,189 @@
+// Laws of the tree planners: same seed same path, whatever else the process does; budgets; refusals.
+#include <gtest/gtest.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <thread>
+
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/samples.h"
+#include "dismantle/sampling/targetless.h"
+#include "dismantle/sampling/tree_planner.h"
+#include "dismantle/testing/path_checking.h"
+#include "simulator.h"
+
+namespace dismantle::sampling {
+namespace {
+
+using fake::Ruling;
+
+struct Task {
+  explicit Task(const char* sample, const ParamSet& parameters, const char* moving) {
+    PrepareReport report;
+    assembly = prepare_assembly(samples::make(sample, parameters), sample, "", {}, context, report);
+    prepared = simulator.prepare(assembly, 0.01, context);
+    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
+    for (const auto& part : assembly.parts) (part.name == moving ? cast.moving : cast.still).push_back({part.id, {}});
+  }
+  Ruling judge(const Path& path) const {
+    Ruling ruling;
+    ruling.accept = verifier->check_motion({cast.moving[0].part}, cast.still, path).valid &&
+                    verifier->apart({{cast.moving[0].part, path.back()[0]}}, cast.still);
+    return ruling;
+  }
+  PathResult plan(std::uint64_t seed, dismantle::Budget effort, const TreeParameters& p = {},
+                  std::function<Ruling(const Path&)> judge_with = {}) const {
+    const fake::RuleChecker checker(judge_with ? judge_with : [this](const Path& path) { return judge(path); });
+    const PathQuery query{assembly, simulator, *prepared, cast, effort, 0.01, checker};
+    RunContext own;
+    own.rng = Rng(seed);
+    own.cancel = cancel;
+    return run_to_end(
+        *start_trees(query, own, p, [](Scene& scene, Rng) { return std::make_unique<NearestExit>(scene); }));
+  }
+  RunContext context;
+  CancelToken cancel;
+  mesh_collision::FclSimulator simulator{mesh_collision::Parameters{}};
+  Assembly assembly;
+  std::shared_ptr<const Prepared> prepared;
+  std::unique_ptr<Verifier> verifier;
+  Cast cast;
+};
+
+const Task& slot() {
+  static const Task task("l_slot", {{"clearance", 0.5}}, "slider");
+  return task;
+}
+
+constexpr dismantle::Budget kEffort{.max_steps = 100'000};
+
+bool same(const Path& a, const Path& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x[0].t == y[0].t && x[0].q.coeffs() == y[0].q.coeffs();
+  });
+}
+
+TEST(TreePlanner, SameSeedSamePath) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const PathResult a = slot().plan(seed, kEffort), b = slot().plan(seed, kEffort);
+    ASSERT_EQ(a.outcome(), Outcome::solved);
+    EXPECT_TRUE(same(a.path()->poses(), b.path()->poses()));
+    EXPECT_EQ(a.stats, b.stats);
+    EXPECT_TRUE(slot().judge(a.path()->poses()).accept);
+    EXPECT_TRUE(a.path()->poses().front()[0].is_identity());
+  }
+  EXPECT_FALSE(same(slot().plan(1, kEffort).path, slot().plan(2, kEffort).path));
+}
+
+/// Searches on other threads, and generators made by others, change nothing.
+TEST(TreePlanner, ThreadsDoNotDisturbEachOther) {
+  slot();
+  std::vector<PathResult> alone, together(4);
+  for (std::uint64_t seed = 0; seed < 4; ++seed) alone.push_back(slot().plan(seed + 1, kEffort));
+  std::vector<std::thread> threads;
+  for (std::uint64_t seed = 0; seed < 4; ++seed)
+    threads.emplace_back([&together, seed] {
+      const ompl::RNG disturbance;
+      together[seed] = slot().plan(seed + 1, kEffort);
+    });
+  for (auto& t : threads) t.join();
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(same(alone[i].path()->poses(), together[i].path));
+    EXPECT_EQ(alone[i].stats, together[i].stats);
+  }
+}
+
+/// OMPL seeds its generators from one sequence for the whole process: planning takes nothing from it.
+TEST(TreePlanner, LeavesOmplsSequenceOfSeedsAlone) {
+  const auto next_seed = [] { return ompl::RNG().getLocalSeed(); };
+  ompl::RNG::setSeed(17);
+  const auto first = next_seed(), second = next_seed();
+  ompl::RNG::setSeed(17);
+  ASSERT_EQ(next_seed(), first);
+  slot().plan(1, kEffort);
+  EXPECT_EQ(next_seed(), second);
+}
+
+TEST(TreePlanner, KeepsToItsBudget) {
+  const Task task("closed_box", {}, "plate");
+  for (const std::uint64_t steps : {50, 1000}) {
+    const PathResult r = task.plan(1, {.max_steps = steps});
+    EXPECT_EQ(r.outcome(), Outcome::timeout);
+    EXPECT_LE(r.stats.state_checks, static_cast<double>(steps) + 64);
+    EXPECT_EQ(r.best_pose.size(), 1u);
+    EXPECT_FALSE(r.blocked_by.empty());
+  }
+  TreeParameters p;
+  p.level_checks = 100;
+  const PathResult shallow = task.plan(1, {.max_depth = 1}, p), deeper = task.plan(1, {.max_depth = 3}, p);
+  EXPECT_EQ(shallow.outcome(), Outcome::depth_limit);
+  EXPECT_EQ(deeper.outcome(), Outcome::depth_limit);
+  EXPECT_GT(deeper.stats.state_checks, 3 * shallow.stats.state_checks);
+}
+
+TEST(TreePlanner, StopsWhenCancelled) {
+  Task task("closed_box", {}, "plate");
+  task.cancel.cancel();
+  EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::cancelled);
+}
+
+/// A path that the judge refuses is no end: the edge at fault goes, the search goes on.
+TEST(TreePlanner, GoesOnAfterARefusal) {
+  int shown = 0;
+  const auto strict = [&](const Path& path) {
+    Ruling verdict = slot().judge(path);
+    if (++shown <= 5) {
+      verdict.accept = false;
+      verdict.has_witness = shown % 2 == 0;
+      verdict.instant = path.size() / 2;
+    }
+    return verdict;
+  };
+  const PathResult r = slot().plan(1, {.max_steps = 400'000}, {}, strict);
+  EXPECT_EQ(r.outcome(), Outcome::solved);
+  EXPECT_EQ(r.stats.refused, 5);
+  EXPECT_TRUE(slot().judge(r.path()->poses()).accept);
+}
+
+TEST(TreePlanner, StartThatIsOut) {
+  Task task("l_slot", {}, "slider");
+  task.cast.moving[0].pose.t = {0, 0, 50};
+  EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::start_is_goal);
+}
+
+/// Every motion space finds the way, and only turns where it may.
+TEST(TreePlanner, MotionSpaces) {
+  TreeParameters p;
+  p.motion = Motion::translation;
+  const PathResult straight = slot().plan(1, kEffort, p);
+  ASSERT_EQ(straight.outcome(), Outcome::solved);
+  for (const auto& instant : straight.path()->poses())
+    EXPECT_TRUE(instant[0].q.isApprox(Eigen::Quaterniond::Identity(), 0));
+  const Task peg("peg_in_hole", {{"clearance", 0.5}, {"length", 10.0}, {"segments", std::int64_t{16}}}, "peg");
+  p.motion = Motion::rotation;
+  EXPECT_EQ(peg.plan(1, kEffort, p).outcome(), Outcome::solved);
+}
+
+/// The nearest exit is the shortest way out of the box, and leads out.
+TEST(TreePlanner, ExitsLeadOut) {
+  Rng rng(1);
+  const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().cast, {}, {}};
+  RunContext context;
+  CheckBudget budget(query, context);
+  Scene scene(query, MotionSpace::rigid, 0.004, 0.01, budget);
+  for (int i = 0; i < 50; ++i) {
+    Scene::StateType s;
+    scene.space().draw(rng, s);
+    const auto order = exits_by_distance(scene, s);
+    double last = 0;
+    for (const int side : order) {
+      const auto exit = scene.exit(s, side);
+      EXPECT_TRUE(scene.is_out(exit));
+      EXPECT_TRUE(exit.turn.isApprox(s.turn, 0));
+      EXPECT_GE(scene.space().distance(s, exit), last);
+      last = scene.space().distance(s, exit);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::sampling

@@ -1,0 +1,41 @@
+/// Bounds of linear functions over polytopes, as certain as arithmetic is.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace dismantle::immobility {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// All x between `lo` and `hi` with a[k] . x <= b[k]. N coordinates: 6, or Eigen::Dynamic.
+template <int N>
+struct PolytopeIn {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  Vector lo, hi;
+  std::vector<Vector> a;
+  std::vector<double> b;
+
+  void add(const Vector& normal, double bound) {
+    a.push_back(normal);
+    b.push_back(bound);
+  }
+};
+using Polytope = PolytopeIn<6>;
+
+template <int N>
+struct LinearBoundIn {
+  bool empty = false;              ///< certain: the polytope has no point
+  double value = 0;                ///< no point of it has more; infinity where the search was given up
+  Eigen::Matrix<double, N, 1> at;  ///< about where that is reached
+};
+using LinearBound = LinearBoundIn<6>;
+
+/// Of direction . x over the polytope. Dual simplex method: the bound is made of the multipliers, not of the vertex.
+template <int N>
+LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope);
+
+extern template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&);
+extern template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&);
+
+}  // namespace dismantle::immobility

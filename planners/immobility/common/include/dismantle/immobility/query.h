@@ -1,0 +1,44 @@
+/// What provers read of a query: solids, depths, pairs, names.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility_prover.h"
+
+namespace dismantle::immobility {
+
+/// The closed shells of a part, computed once in an assembly. Assembled frame.
+const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part);
+
+/// A point that cuts in deeper than that is beyond what the proof is for: the pair's initial overlap and the query's
+/// margin, and a little for rounding. Assembly units, > 0.
+double depth_allowed(const SeparationQuery& query, PartId a, PartId b);
+
+/// Are their boxes no further apart than the tolerance? Parts further apart do not hold each other.
+bool near_each_other(const SeparationQuery& query, PartId a, PartId b);
+
+/// The two parts of a query about a pair, in ascending order; nothing when there are more.
+std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query);
+
+/// The pair both ways round.
+std::array<std::pair<PartId, PartId>, 2> both_ways(const std::pair<PartId, PartId>& pair);
+
+/// Diagonal of a part's box; assembly units.
+double extent_of(const SeparationQuery& query, PartId part);
+
+/// The part's name in quotes.
+std::string name_of(const SeparationQuery& query, PartId part);
+std::string names_of(const SeparationQuery& query, const std::vector<PartId>& parts);
+/// "(x, y, z)" in input units, of a point of the assembled frame.
+std::string place_of(const SeparationQuery& query, const Eigen::Vector3d& point);
+
+inline std::vector<double> numbers_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace dismantle::immobility

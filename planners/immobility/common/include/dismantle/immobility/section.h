@@ -1,0 +1,75 @@
+/// Where a plane cuts the surface of a solid: closed loops, and the pieces of surface between loops.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/geometry_names.h"
+
+namespace dismantle::immobility {
+
+struct Plane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit
+  double offset = 0;
+  double height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
+};
+
+/// A closed curve on the surface, in a plane. A corner exactly in the plane counts as below it.
+struct Loop {
+  Plane plane;
+  std::vector<Eigen::Vector3d> points;   ///< in order
+  std::vector<std::uint32_t> triangles;  ///< triangles[k] is cut from points[k] to the next one
+
+  /// Indices of points: the corners of the convex hull, once around. Of points on a line the two ends.
+  std::vector<std::size_t> hull() const;
+  /// The largest distance of two points.
+  double diameter() const;
+  /// Is a point of the plane (or next to it) inside the curve?
+  bool around(const Eigen::Vector3d& p) const;
+};
+
+/// The surface of a solid in the assembled frame, with its neighbourhoods.
+class Surface {
+ public:
+  explicit Surface(const Solid& solid);
+
+  std::vector<Loop> section(const Plane& plane) const;
+  /// Offsets of planes across a direction, ascending: right above and below the heights of corners and half way between
+  /// them; at most about `most`.
+  std::vector<double> offsets(const Eigen::Vector3d& direction, std::size_t most) const;
+  /// Does the surface lead from one loop to the other on that side of the plane of the first where the normal points
+  /// (`above`), or on the other side?
+  bool connects(const Loop& from, const Loop& to, bool above) const;
+
+  /// A closed surface: connected triangles, cut off where they cross some loops, and the flat discs inside of these.
+  class Closed {
+   public:
+    /// Counted along rays; nothing when these do not agree.
+    std::optional<bool> inside(const Eigen::Vector3d& p) const;
+    std::size_t discs() const { return discs_.size(); }
+    const std::vector<const Loop*>& loops() const { return discs_; }
+
+   private:
+    friend class Surface;
+    struct Piece {
+      std::array<Eigen::Vector3d, 3> corners;
+      std::vector<std::pair<Plane, double>> kept;  ///< planes, and the sign of the side that is part of it
+    };
+    std::vector<Piece> pieces_;
+    std::vector<const Loop*> discs_;
+  };
+  /// The surface that hangs together with loops[0] on that side of its plane on which `p` lies, up to the loops, and
+  /// their discs. Nothing when it reaches the other side of one of them. `loops` must outlive it.
+  std::optional<Closed> closed_by(const std::vector<Loop>& loops, const Eigen::Vector3d& p) const;
+
+ private:
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< [t][k]: across the edge from corner k to the next
+};
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,29 @@
+/// A flat piece of one part in a chamber of another, which gets through none of its openings.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/immobility_prover.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::immobility {
+
+struct DiscParams {
+  std::int64_t max_discs = 1;
+  std::int64_t max_divisions = 60'000;
+  std::int64_t max_facets = 200'000'000;
+  static void describe(Schema<DiscParams>& s);
+};
+
+/// Of a pair, the smaller part is looked for in chambers of the larger one. See disc_cage.h for the proof.
+class Disc final : public ImmobilityProver {
+ public:
+  explicit Disc(const DiscParams& params = {}) : params_(params) {}
+  ProverTraits traits() const noexcept override { return {ProofEffort::medium, 2, 2, false}; }
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
+
+ private:
+  DiscParams params_;
+};
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,140 @@
+#include "enclosed_ball/enclosed_ball.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "dismantle/geometry/patch.h"
+#include "dismantle/immobility/query.h"
+#include "enclosed_ball/ball_room.h"
+
+namespace dismantle::immobility {
+namespace {
+
+/// A large ball within a part, in the part's assembled frame.
+Ball ball_of(const SeparationQuery& query, PartId part, std::uint64_t most_cubes) {
+  return *query.memo.get<Ball>("large ball, " + std::to_string(most_cubes), part, RunContext{}, [&] {
+    std::optional<Ball> largest{Ball{}};
+    for (const Solid& solid : solids_of(query, part))
+      if (const Ball b = large_ball(solid, most_cubes); b.radius > largest->radius)
+        largest = Ball{solid.frame * b.center, b.radius};
+    return largest;
+  });
+}
+
+/// What keeps the centre of a ball of `part` away, and of which parts it is.
+struct Walls {
+  std::vector<Wall> all;
+  std::vector<PartId> of;
+};
+
+Walls walls_of(const SeparationQuery& query, PartId part, double radius, const std::vector<PlacedPart>& outer) {
+  Walls walls;
+  for (const auto& p : outer) {
+    const double distance = radius - query.assembly.initial_overlap(part, p.part) - query.margin();
+    if (!(distance > 0)) continue;
+    for (const Solid& solid : solids_of(query, p.part)) {
+      walls.all.push_back({&solid, p.pose * solid.frame, distance});
+      walls.of.push_back(p.part);
+    }
+  }
+  return walls;
+}
+
+std::vector<PlacedPart> those(const std::vector<PlacedPart>& placed, const std::vector<PartId>& parts) {
+  std::vector<PlacedPart> found;
+  for (const PartId id : parts)
+    found.push_back(*std::find_if(placed.begin(), placed.end(), [id](const PlacedPart& p) { return p.part == id; }));
+  return found;
+}
+
+std::vector<PartId> distinct(const std::vector<PartId>& parts) {
+  std::vector<PartId> found;
+  for (const PartId id : parts)
+    if (std::find(found.begin(), found.end(), id) == found.end()) found.push_back(id);
+  return found;
+}
+
+}  // namespace
+
+void EnclosedBallParams::describe(Schema<EnclosedBallParams>& s) {
+  s.add("max_cubes", &EnclosedBallParams::max_cubes,
+        {.unit = "1", .min = 1, .doc = "Cubes that are divided in search of a large ball within a part."});
+  s.add("max_cells", &EnclosedBallParams::max_cells,
+        {.unit = "1", .min = 1, .doc = "Cells that the ball's centre may reach, before the proof is given up."});
+}
+
+ProverTraits EnclosedBall::traits() const noexcept {
+  return {ProofEffort::low, 2, std::numeric_limits<std::size_t>::max(), true};
+}
+
+std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const RunContext& context) const {
+  if (query.moving.empty() || query.fixed.empty()) return std::nullopt;
+  if (auto found = prove(query, query.moving, query.fixed, context)) return found;
+  // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
+  return query.moving.size() == 1 ? prove(query, query.fixed, query.moving, context) : std::nullopt;
+}
+
+std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const std::vector<PlacedPart>& inner,
+                                               const std::vector<PlacedPart>& outer, const RunContext& context) const {
+  Ball ball;
+  PlacedPart holder;
+  for (const auto& p : inner)
+    if (const Ball b = ball_of(query, p.part, static_cast<std::uint64_t>(params_.max_cubes)); b.radius > ball.radius) {
+      ball = b;
+      holder = p;
+    }
+  const auto most_cells = static_cast<std::size_t>(params_.max_cells);
+  const Eigen::Vector3d center = holder.pose * ball.center;
+  const Walls walls = walls_of(query, holder.part, ball.radius, outer);
+  const Room room = room_of(center, walls.all, most_cells, context);
+  if (!room.closed) return std::nullopt;
+  std::vector<PartId> around;
+  for (const std::size_t w : room.bounds) around.push_back(walls.of[w]);
+  around = distinct(around);
+  // The claim is about the parts that bound the room, if these alone close it.
+  const Walls bounding = walls_of(query, holder.part, ball.radius, those(outer, around));
+  if (!room_of_cells(center, bounding.all, room.cell, most_cells, context).closed) around = distinct(walls.of);
+
+  Certificate found;
+  found.parts = {holder.part};
+  found.parts.insert(found.parts.end(), around.begin(), around.end());
+  found.poses = {holder.pose};
+  for (const PlacedPart& p : those(outer, around)) found.poses.push_back(p.pose);
+  found.numbers = {{"center", numbers_of(ball.center)}, {"radius", {ball.radius}}, {"cell", {room.cell}}};
+  found.text = fmt::format(
+      "{} is shut in by {}: a ball of radius {:.4g} (assembly units) about {}, which it holds, is too large for every "
+      "way "
+      "out, less the penetration that is allowed",
+      name_of(query, holder.part), names_of(query, around), ball.radius, place_of(query, center));
+  return found;
+}
+
+std::string EnclosedBall::objection(const Certificate& certificate, const SeparationQuery& query,
+                                    const RunContext& context) const {
+  const auto number = [&](const std::string& name, std::size_t count) -> std::vector<double> {
+    const auto found = certificate.numbers.find(name);
+    return found != certificate.numbers.end() && found->second.size() == count ? found->second : std::vector<double>{};
+  };
+  const std::vector<double> center = number("center", 3), radius = number("radius", 1), cell = number("cell", 1);
+  if (center.empty() || radius.empty() || cell.empty() || query.moving.size() != 1) return "it has no ball or no cells";
+  if (!(radius[0] > 0) || !(cell[0] > 0)) return "its ball and its cells have no size";
+  const PlacedPart& holder = query.moving.front();
+  const Eigen::Vector3d c(center[0], center[1], center[2]);
+  double depth = 0;
+  for (const Solid& solid : solids_of(query, holder.part))
+    depth = std::max(depth, escape_at(solid.frame.inverse() * c, solid).depth);
+  constexpr double kRounding = 1e-9;
+  if (!(depth >= radius[0] * (1 - kRounding)))
+    return fmt::format("{} holds a ball of radius {:.4g} there and no larger one", name_of(query, holder.part), depth);
+  const Walls walls = walls_of(query, holder.part, radius[0], query.fixed);
+  const auto most_cells = static_cast<std::size_t>(params_.max_cells);
+  if (!room_of_cells(holder.pose * c, walls.all, cell[0], most_cells, context).closed)
+    return context.should_stop() ? "the check was stopped"
+                                 : "there is a way out for the ball, or its room has too many cells";
+  return {};
+}
+
+}  // namespace dismantle::immobility

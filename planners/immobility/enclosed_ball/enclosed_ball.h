@@ -1,0 +1,35 @@
+/// A part that holds a ball which is too large for every way out between the parts around it.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/immobility_prover.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::immobility {
+
+struct EnclosedBallParams {
+  std::int64_t max_cubes = 2000;
+  std::int64_t max_cells = 1'000'000;
+  static void describe(Schema<EnclosedBallParams>& s);
+};
+
+/// The largest ball within a moving part, less what may be penetrated, against the surfaces of the fixed parts where
+/// they are. A surface point that is inside the ball is as deep in the moving part as it is below the ball's surface,
+/// at least.
+class EnclosedBall final : public ImmobilityProver {
+ public:
+  explicit EnclosedBall(const EnclosedBallParams& params = {}) : params_(params) {}
+  ProverTraits traits() const noexcept override;
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
+  /// Floods the room with the cells of the proof.
+  std::string objection(const Certificate& certificate, const SeparationQuery& query,
+                        const RunContext& context) const override;
+
+ private:
+  std::optional<Certificate> prove(const SeparationQuery& query, const std::vector<PlacedPart>& inner,
+                                   const std::vector<PlacedPart>& outer, const RunContext& context) const;
+  EnclosedBallParams params_;
+};
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,9 @@
+#include "dismantle/plugin.h"
+
+#include "hook/hook.h"
+
+DISMANTLE_PLUGIN("dismantle.hook", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::ImmobilityProver, dismantle::immobility::Hook, dismantle::immobility::HookParams>(
+      "hook", "One part goes through a hole of the other, between two bends that cannot follow.",
+      {.source = "parity of crossings; covers of directions"});
+}

@@ -1,0 +1,52 @@
+#include "interlock_lp/interlock_lp.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dismantle/immobility/query.h"
+#include "interlock_lp/interlock.h"
+
+namespace dismantle::immobility {
+
+void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
+  s.add("max_parts", &InterlockLpParams::max_parts,
+        {.unit = "1", .min = 2, .max = 64, .doc = "Parts at most: the effort grows with the cube of their number."});
+  s.add("max_rounds", &InterlockLpParams::max_rounds,
+        {.unit = "1", .min = 1, .doc = "Times that the bounds are widened before the proof is given up."});
+}
+
+std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {
+  std::vector<PartId> parts;
+  for (const auto* list : {&query.moving, &query.fixed})
+    for (const PlacedPart& p : *list) parts.push_back(p.part);
+  if (parts.size() > static_cast<std::size_t>(params_.max_parts)) return std::nullopt;
+  std::sort(parts.begin(), parts.end());
+  const std::vector<PartId> ascending = parts;
+  // Poses are told as seen from the first.
+  std::stable_sort(parts.begin(), parts.end(),
+                   [&](PartId a, PartId b) { return extent_of(query, a) > extent_of(query, b); });
+  std::vector<const std::vector<Solid>*> solids;
+  for (const PartId id : parts) solids.push_back(&solids_of(query, id));
+  std::vector<Neighbours> neighbours;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (std::size_t k = i + 1; k < parts.size(); ++k)
+      if (near_each_other(query, parts[i], parts[k]))
+        neighbours.push_back({i, k, depth_allowed(query, parts[i], parts[k])});
+  const auto reach = interlock(solids, neighbours, static_cast<int>(params_.max_rounds), context);
+  if (!reach) return std::nullopt;
+  Certificate found;
+  found.parts = ascending;
+  found.numbers = {{"depth", {query.margin()}},
+                   {"shift", {reach->shift}},
+                   {"turn", {reach->turn}},
+                   {"half_spaces", {static_cast<double>(reach->half_spaces)}}};
+  found.text = fmt::format(
+      "{0} hold each other in place as rigid bodies: cutting in by less than {1:.4g} more than when assembled, and "
+      "whichever of them move, none comes further than {2:.4g} past the largest or turns by more than {3:.4g} rad "
+      "(assembly units; proved with {4} half spaces of poses)",
+      names_of(query, ascending), query.margin(), reach->shift, reach->turn, reach->half_spaces);
+  return found;
+}
+
+}  // namespace dismantle::immobility

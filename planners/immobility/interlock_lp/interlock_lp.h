@@ -1,0 +1,30 @@
+/// Several parts that hold each other in place: whichever of them move, none gets out of bounds.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/immobility_prover.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::immobility {
+
+struct InterlockLpParams {
+  std::int64_t max_parts = 8;
+  std::int64_t max_rounds = 60;
+  static void describe(Schema<InterlockLpParams>& s);
+};
+
+/// About all parts of the query, of which any may move. See interlock.h for the proof.
+class InterlockLp final : public ImmobilityProver {
+ public:
+  explicit InterlockLp(const InterlockLpParams& params = {}) : params_(params) {}
+  ProverTraits traits() const noexcept override {
+    return {ProofEffort::high, 3, static_cast<std::size_t>(params_.max_parts), false};
+  }
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
+
+ private:
+  InterlockLpParams params_;
+};
+
+}  // namespace dismantle::immobility

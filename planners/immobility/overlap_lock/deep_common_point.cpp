@@ -1,0 +1,68 @@
+#include "overlap_lock/deep_common_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+#include "dismantle/geometry/patch.h"
+#include "dismantle/geometry/relative_motion.h"
+#include "dismantle/immobility/geometry_names.h"
+
+namespace dismantle::immobility {
+namespace {
+
+struct Cube {
+  Eigen::Vector3d center;
+  double half = 0;
+  double bound = 0;  ///< no point of it is deeper
+  bool operator<(const Cube& other) const { return bound < other.bound; }
+};
+
+Aabb world_box(const Solid& s, const Pose& pose) {
+  Aabb box;
+  for (const auto& v : s.mesh.vertices) box.extend(pose * v);
+  return box;
+}
+
+}  // namespace
+
+std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
+                                           double limit, std::uint64_t most_cubes) {
+  Aabb box = world_box(a, pose_a);
+  const Aabb other = world_box(b, pose_b);
+  box.lo = box.lo.cwiseMax(other.lo);
+  box.hi = box.hi.cwiseMin(other.hi);
+  if (!(box.size().minCoeff() > 0)) return std::nullopt;
+  const Placement to_a(pose_a.inverse()), to_b(pose_b.inverse());
+  std::priority_queue<Cube> open;
+  std::optional<DeepPoint> found;
+  const auto look = [&](const Eigen::Vector3d& center, double half) {
+    const double reach = std::sqrt(3.0) * half;
+    const double in_a = escape_at(to_a * center, a).depth;
+    if (in_a + reach <= limit) return;
+    const double in_b = escape_at(to_b * center, b).depth;
+    if (in_b + reach <= 0) return;
+    if (in_a > limit && in_b > 0) {
+      found = DeepPoint{center, in_a};
+      return;
+    }
+    open.push({center, half, std::min(in_a, in_b + limit) + reach});
+  };
+  // Cubes of the shortest edge of the common box, so that none is much longer than wide.
+  const double half = 0.5 * std::max(box.size().minCoeff(), 0.05 * box.size().maxCoeff());
+  const Eigen::Array3i count = (box.size() / (2 * half)).array().ceil().cast<int>().max(1);
+  for (int x = 0; x < count.x(); ++x)
+    for (int y = 0; y < count.y(); ++y)
+      for (int z = 0; z < count.z() && !found; ++z)
+        look(box.lo + half * (2.0 * Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Ones()), half);
+  for (std::uint64_t cubes = 0; !found && !open.empty() && cubes < most_cubes; ++cubes) {
+    const Cube cube = open.top();
+    open.pop();
+    for (int k = 0; k < 8 && !found; ++k)
+      look(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
+           0.5 * cube.half);
+  }
+  return found;
+}
+
+}  // namespace dismantle::immobility

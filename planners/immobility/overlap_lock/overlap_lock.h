@@ -1,0 +1,32 @@
+/// Parts that overlap when assembled in such a way that no motion can part them.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/immobility_prover.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::immobility {
+
+struct OverlapLockParams {
+  std::int64_t max_cubes = 1000;
+  static void describe(Schema<OverlapLockParams>& s);
+};
+
+/// A point lies in both parts, deeper below the surface of the first than the pair may penetrate. When the two are
+/// apart it is outside the second, so on any path there it passes through the surface of the second, which then is as
+/// deep in the first.
+class OverlapLock final : public ImmobilityProver {
+ public:
+  explicit OverlapLock(const OverlapLockParams& params = {}) : params_(params) {}
+  ProverTraits traits() const noexcept override { return {ProofEffort::trivial, 2, 2, false}; }
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
+  /// Measures the depths of the point.
+  std::string objection(const Certificate& certificate, const SeparationQuery& query,
+                        const RunContext& context) const override;
+
+ private:
+  OverlapLockParams params_;
+};
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,41 @@
+#include "ring/ring.h"
+
+#include <fmt/format.h>
+
+#include "dismantle/immobility/query.h"
+#include "ring/ring_cage.h"
+
+namespace dismantle::immobility {
+
+void RingParams::describe(Schema<RingParams>& s) {
+  s.add("max_rings", &RingParams::max_rings,
+        {.unit = "1", .min = 1, .doc = "Rings of a solid, the largest first, that are looked for in chambers."});
+}
+
+std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunContext& context) const {
+  const auto pair = pair_of(query);
+  if (!pair || !near_each_other(query, pair->first, pair->second)) return std::nullopt;
+  const double depth = depth_allowed(query, pair->first, pair->second);
+  for (const auto& [inside, other] : both_ways(*pair))
+    for (const Solid& x : solids_of(query, inside))
+      for (const InnerRing& ring : rings_in(x, depth, static_cast<std::size_t>(params_.max_rings)))
+        for (const Solid& y : solids_of(query, other)) {
+          const auto cage = ring_cage(ring, y, context);
+          if (!cage) continue;
+          Certificate found;
+          found.parts = {inside, other};
+          found.numbers = {{"center", numbers_of(ring.center)},
+                           {"axis", numbers_of(ring.axis)},
+                           {"diameter", {2 * ring.radius}},
+                           {"opening", {cage->opening}}};
+          found.text = fmt::format(
+              "{0} and {1} hold each other: {0} has a ring of diameter {2:.4g} about {3} in a chamber of {1}, which "
+              "opens no wider than {4:.4g} (assembly units, less the penetration that is allowed)",
+              name_of(query, inside), name_of(query, other), 2 * ring.radius, place_of(query, ring.center),
+              cage->opening);
+          return found;
+        }
+  return std::nullopt;
+}
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,27 @@
+/// A part through a hole of another, between two rims that are wider than a circle about the hole.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/immobility_prover.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::immobility {
+
+struct SpoolParams {
+  std::int64_t max_rings = 4;
+  static void describe(Schema<SpoolParams>& s);
+};
+
+/// See spool_cage.h for the proof.
+class Spool final : public ImmobilityProver {
+ public:
+  explicit Spool(const SpoolParams& params = {}) : params_(params) {}
+  ProverTraits traits() const noexcept override { return {ProofEffort::low, 2, 2, false}; }
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
+
+ private:
+  SpoolParams params_;
+};
+
+}  // namespace dismantle::immobility

@@ -1,0 +1,54 @@
+/// Searches that take turns, each round twice as long as the last: none of them
+/// can hold up the others for longer than a constant factor of what the best
+/// one needs alone (Luby, Sinclair and Zuckerman 1993).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace dismantle::path {
+
+/// The whole work that a depth limit allows where each level doubles it:
+/// `first` at depth 1; unlimited at depth 0.
+inline std::uint64_t doubled_per_level(std::int64_t first, unsigned depth) {
+  constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+  if (depth == 0) return kUnlimited;
+  const auto most = static_cast<std::uint64_t>(first);
+  return depth > 60 || most > (kUnlimited >> depth) ? kUnlimited : most << (depth - 1);
+}
+
+/// Where a portion of work ends: after `portion` more (0: no limit), at `most`
+/// in all.
+inline std::uint64_t end_of_portion(std::uint64_t done, std::uint64_t portion, std::uint64_t most) {
+  return portion > 0 && done < most && portion < most - done ? done + portion : most;
+}
+
+class GrowingTurns {
+ public:
+  /// `first`: length of the turns in the first round, in units of work.
+  GrowingTurns(std::size_t searches, std::uint64_t first) : searches_(searches), turn_(first) {}
+
+  /// Goes on where the last call stopped, until all have done `limit` work
+  /// together. `used()`: that work so far. `grow(i, until)`: search i works
+  /// until `used()` is at least `until`; true: all is over. Returns whether
+  /// grow() said so.
+  template <class Used, class Grow>
+  bool run(std::uint64_t limit, const Used& used, const Grow& grow) {
+    while (used() < limit) {
+      if (end_ == 0) end_ = searches_ > 1 ? used() + turn_ : std::numeric_limits<std::uint64_t>::max();
+      if (grow(current_, std::min(limit, end_))) return true;
+      if (used() < end_) continue;
+      end_ = 0;
+      if (++current_ == searches_) current_ = 0, turn_ *= 2;
+    }
+    return false;
+  }
+
+ private:
+  std::size_t searches_, current_ = 0;
+  std::uint64_t turn_, end_ = 0;
+};
+
+}  // namespace dismantle::path

@@ -1,0 +1,22 @@
+// The section `immobility:` which provers run, in which order.
+#include "dismantle/host/config.h"
+#include "dismantle/host/registry.h"
+
+namespace dismantle {
+
+ParamSpec provers_parameter(const Registry& registry) {
+  static constexpr const char* kBuiltIn[] = {"overlap_lock", "enclosed_ball",       "ring",        "spool", "hook",
+                                             "disc",         "configuration_cells", "interlock_lp"};
+  ParamSpec spec;
+  spec.name = "provers";
+  spec.type = ParamType::plugins;
+  spec.plugin_kind = PluginKind::immobility_prover;
+  spec.doc = "Proofs that parts cannot be separated, in the order of asking; [] = none.";
+  std::vector<PluginChoice> fallback;
+  for (const char* id : kBuiltIn)
+    if (registry.lookup(PluginKind::immobility_prover, id) != nullptr) fallback.push_back({id, {}, {}});
+  spec.fallback = std::move(fallback);
+  return spec;
+}
+
+}  // namespace dismantle

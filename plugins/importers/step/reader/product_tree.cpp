@@ -1,0 +1,194 @@
+#include "product_tree.h"
+
+#include <BRep_Tool.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDF_Tool.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <XCAFDoc_Location.hxx>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "product_names.h"
+
+namespace dismantle::step_import {
+namespace {
+
+constexpr std::size_t kMaxInstances = 1'000'000;  // a small file can nest assemblies so that their number explodes
+constexpr std::size_t kMaxDepth = 64;
+
+std::string entry(const TDF_Label& label) {
+  TCollection_AsciiString text;
+  TDF_Tool::Entry(label, text);
+  return text.ToCString();
+}
+
+/// What one product is made of; found once, however often it is used.
+struct Product {
+  struct Member {
+    BodyKind kind = BodyKind::solid;
+    TopoDS_Shape shape;
+    std::string name;
+    std::size_t faces = 0;
+  };
+  std::vector<Member> members;
+  std::size_t free_faces = 0, wires = 0, points = 0;
+  std::shared_ptr<const ProductColours> colours;
+};
+
+std::size_t count(const TopoDS_Shape& shape, TopAbs_ShapeEnum what, TopAbs_ShapeEnum outside = TopAbs_SHAPE) {
+  std::size_t n = 0;
+  for (TopExp_Explorer it(shape, what, outside); it.More(); it.Next()) ++n;
+  return n;
+}
+
+class Walker {
+ public:
+  explicit Walker(const Handle(XCAFDoc_ShapeTool) & shapes) : shapes_(shapes) {}
+
+  ProductTree walk() {
+    TDF_LabelSequence roots;
+    shapes_->GetFreeShapes(roots);
+    for (const TDF_Label& root : roots) visit(root, name_of(root), TopLoc_Location(), {}, std::nullopt);
+    give_names();
+    return std::move(tree_);
+  }
+
+ private:
+  /// `name`: of the instance, for what has none itself.
+  void visit(const TDF_Label& label, const std::string& name, const TopLoc_Location& place,
+             const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
+    if (++visited_ > kMaxInstances) throw std::length_error("more than a million instances of products");
+    if (parents.size() > kMaxDepth) throw std::length_error("assemblies nested more than 64 deep");
+    if (XCAFDoc_ShapeTool::IsReference(label)) {
+      TDF_Label product;
+      if (!XCAFDoc_ShapeTool::GetReferredShape(label, product)) return;
+      const std::optional<Rgba8> own = colour ? colour : colour_of(label);
+      visit(product, name, place * XCAFDoc_ShapeTool::GetLocation(label), parents, own);
+      return;
+    }
+    if (XCAFDoc_ShapeTool::IsAssembly(label)) {
+      TDF_LabelSequence components;
+      XCAFDoc_ShapeTool::GetComponents(label, components, Standard_False);
+      std::vector<std::string> below = parents;
+      below.push_back(!name.empty() ? name : name_of(label));
+      for (const TDF_Label& component : components) visit(component, name_of(component), place, below, colour);
+      if (components.IsEmpty()) tree_.warnings.push_back("assembly '" + below.back() + "' is empty");
+      return;
+    }
+    place_product(label, name, place, parents, colour);
+  }
+
+  void place_product(const TDF_Label& label, const std::string& instance_name, const TopLoc_Location& place,
+                     const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
+    const Product& product = product_of(label);
+    std::string name = name_of(label);
+    if (name.empty()) name = instance_name.empty() ? "part" : instance_name;
+    for (std::size_t i = 0; i < product.members.size(); ++i) {
+      const auto& member = product.members[i];
+      PlacedBody body;
+      const bool alone = product.members.size() == 1;
+      body.name = alone ? name : name + ":" + (member.name.empty() ? std::to_string(i + 1) : member.name);
+      bearers_[body.name].push_back({tree_.bodies.size(), &product});
+      body.parents = parents;
+      body.kind = member.kind;
+      body.shape = member.shape;
+      body.instance = place;
+      body.colours = product.colours;
+      body.instance_colour = colour;
+      body.faces = member.faces;
+      tree_.bodies.push_back(std::move(body));
+    }
+    report_rest(name, product);
+  }
+
+  /// Different products of one name ("Body" in "post" and "Body" in "lid") are called after the assemblies that they
+  /// are in, if that tells all of them apart. What then has the same name is numbered.
+  void give_names() {
+    for (const auto& [name, bearers] : bearers_) {
+      std::set<const Product*> products;
+      std::set<std::string> homes;
+      for (const auto& [body, product] : bearers) {
+        products.insert(product);
+        const auto& parents = tree_.bodies[body].parents;
+        if (!parents.empty() && !parents.back().empty()) homes.insert(parents.back());
+      }
+      if (products.size() < 2 || homes.size() < bearers.size()) continue;
+      for (const auto& [body, product] : bearers)
+        tree_.bodies[body].name = tree_.bodies[body].parents.back() + "/" + name;
+    }
+    std::vector<std::string*> names;
+    for (auto& body : tree_.bodies) names.push_back(&body.name);
+    make_unique(names);
+  }
+
+  /// Once for each name: a repeated part would repeat it.
+  void report_rest(const std::string& name, const Product& product) {
+    std::string rest;
+    const auto add = [&](std::size_t n, const char* one, const char* many) {
+      if (n > 0) rest += (rest.empty() ? "" : ", ") + std::to_string(n) + " " + (n == 1 ? one : many);
+    };
+    add(product.free_faces, "face", "faces");
+    add(product.wires, "curve", "curves");
+    add(product.points, "point", "points");
+    if (product.members.empty() && rest.empty()) rest = "nothing";
+    if (rest.empty() || !reported_.insert(name).second) return;
+    tree_.warnings.push_back(product.members.empty()
+                                 ? "'" + name + "' is no body and left aside: it holds " + rest
+                                 : "'" + name + "' holds " + rest + " beside its bodies: left aside");
+  }
+
+  const Product& product_of(const TDF_Label& label) {
+    const auto [found, fresh] = products_.try_emplace(entry(label));
+    Product& product = found->second;
+    if (!fresh) return product;
+    product.colours = std::make_shared<ProductColours>(label, shapes_);
+    const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
+    if (shape.IsNull()) return product;
+    for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) add(product, BodyKind::solid, it.Current());
+    for (TopExp_Explorer it(shape, TopAbs_SHELL, TopAbs_SOLID); it.More(); it.Next())
+      add(product, BRep_Tool::IsClosed(it.Current()) ? BodyKind::closed_shell : BodyKind::open_shell, it.Current());
+    product.free_faces = count(shape, TopAbs_FACE, TopAbs_SHELL);
+    product.wires = count(shape, TopAbs_WIRE, TopAbs_FACE) + count(shape, TopAbs_EDGE, TopAbs_WIRE);
+    product.points = count(shape, TopAbs_VERTEX, TopAbs_EDGE);
+    name_members(label, product);
+    return product;
+  }
+
+  static void add(Product& product, BodyKind kind, const TopoDS_Shape& shape) {
+    product.members.push_back({kind, shape, {}, count(shape, TopAbs_FACE)});
+  }
+
+  /// A body's own name tells bodies of one product apart only if each has one of its own.
+  void name_members(const TDF_Label& label, Product& product) {
+    if (product.members.size() < 2) return;
+    TDF_LabelSequence subshapes;
+    shapes_->GetSubShapes(label, subshapes);
+    std::set<std::string> different;
+    for (auto& member : product.members) {
+      for (const TDF_Label& subshape : subshapes)
+        if (XCAFDoc_ShapeTool::GetShape(subshape).IsSame(member.shape)) member.name = name_of(subshape);
+      if (!member.name.empty()) different.insert(member.name);
+    }
+    if (different.size() < product.members.size())
+      for (auto& member : product.members) member.name.clear();
+  }
+
+  Handle(XCAFDoc_ShapeTool) shapes_;
+  ProductTree tree_;
+  struct Bearer {
+    std::size_t body;
+    const Product* product;
+  };
+  std::map<std::string, std::vector<Bearer>> bearers_;  // of a name
+  std::map<std::string, Product> products_;
+  std::set<std::string> reported_;
+  std::size_t visited_ = 0;
+};
+
+}  // namespace
+
+ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes) { return Walker(shapes).walk(); }
+
+}  // namespace dismantle::step_import

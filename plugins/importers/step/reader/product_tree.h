@@ -1,0 +1,37 @@
+/// Walks the product structure of a document and hands out every body in its place.
+#pragma once
+
+#include <TopLoc_Location.hxx>
+#include <TopoDS_Shape.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "product_colours.h"
+
+namespace dismantle::step_import {
+
+enum class BodyKind { solid, closed_shell, open_shell };
+
+/// One body in one place of the assembly.
+struct PlacedBody {
+  std::string name;                  ///< unique
+  std::vector<std::string> parents;  ///< names of the assemblies that it is in, outermost first
+  BodyKind kind = BodyKind::solid;
+  TopoDS_Shape shape;  ///< with its location in the product, without that of the instance
+  TopLoc_Location instance;
+  std::shared_ptr<const ProductColours> colours;
+  std::optional<Rgba8> instance_colour;  ///< given to an instance: overrides those of the product
+  std::size_t faces = 0;
+};
+
+struct ProductTree {
+  std::vector<PlacedBody> bodies;
+  std::vector<std::string> warnings;  ///< what of the file is no body, by name
+};
+
+ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes);
+
+}  // namespace dismantle::step_import

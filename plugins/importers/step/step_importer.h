@@ -1,0 +1,38 @@
+/// Reads STEP files through a program of its own, step_reader.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "dismantle/importer.h"
+#include "dismantle/parameters.h"
+
+namespace dismantle::step_import {
+
+/// `importers: {step: ...}` in a configuration.
+struct StepParams {
+  double linear_deflection = 0.01;
+  double assembly_deflection = 0.001;
+  double angular_deflection = 0.35;
+  std::int64_t triangle_limit = 5'000'000;
+  double time_limit = 600;
+  double memory_limit = 8192;
+  static void describe(Schema<StepParams>& s);
+};
+
+class StepImporter : public Importer {
+ public:
+  /// With the reader program that was installed with this plugin.
+  explicit StepImporter(const StepParams& params);
+  /// `reader`: the program to start, which may be missing.
+  StepImporter(const StepParams& params, std::filesystem::path reader);
+
+  std::vector<std::string> extensions() const override;
+  std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) override;
+
+ private:
+  StepParams params_;
+  std::filesystem::path reader_;
+};
+
+}  // namespace dismantle::step_import

@@ -1,0 +1,33 @@
+/// The byte stream from the reader program to the plugin: both run on one machine, numbers have its byte order.
+///
+///   magic, then records: u8 tag, u32 length of the payload, payload. Strings in a payload: u32 length, bytes.
+///
+/// The reader program is not trusted: it may have been broken by the file that it read. So every length has a bound
+/// that is checked before memory is taken for it.
+#pragma once
+
+#include <cstdint>
+
+namespace dismantle::step_import {
+
+inline constexpr char kMagic[8] = {'D', 'S', 'M', 'S', 'T', 'E', 'P', '1'};
+inline constexpr std::uint32_t kMaxPayload = 1u << 20;  ///< bytes of one record
+inline constexpr std::uint32_t kMaxText = 1u << 12;     ///< bytes of one string
+inline constexpr std::uint32_t kMaxParents = 64;        ///< names in a path through the product structure
+inline constexpr std::uint32_t kMaxBodies = 1'000'000;
+
+enum class Tag : std::uint8_t {
+  unit = 'U',       ///< text: the length unit of all coordinates
+  phase = 'S',      ///< text, u32 done, u32 total: progress
+  warning = 'W',    ///< text
+  body = 'B',       ///< text name, u32 number of parents, their names, u8 has colour, 4 x u8 RGBA, text problem,
+                    ///< u64 vertices, u64 triangles
+  vertices = 'V',   ///< 3 doubles each, of the last body
+  triangles = 'T',  ///< 3 x u32 each, of the last body
+  failure = 'E',    ///< u8 Failure, text
+  end = 'Z',        ///< u32 number of bodies
+};
+
+enum class Failure : std::uint8_t { unreadable = 1, out_of_memory = 2, too_many_triangles = 3 };
+
+}  // namespace dismantle::step_import

@@ -1,0 +1,97 @@
+// The laws that every plugin of a kind must obey, tried on the plugins that are found or named.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <set>
+#include <string>
+
+#include "selection.h"
+
+namespace {
+
+constexpr const char* kUsage = R"(usage: dismantle_contract_tests [--expect FILE] [--gtest_...] [FILE.so | ID]...
+
+Tries the laws of simulators, path planners, sequence planners and transfer planners on the types of the plugin files,
+or the types with these ids; without any, on all that are found (the built-in folder, then DISMANTLE_PLUGIN_PATH).
+Other plugins that are found serve as partners: a path planner is tried with the first simulator that has what it needs.
+A law that does not concern a plugin, by the capabilities that it declares, is skipped; skips are listed at the end.
+--expect FILE: what is known about some plugins beyond the laws, the skips among it (see tests/contract/expectations.txt).
+DISMANTLE_TESTS=nightly makes random trials more numerous.
+Exit status: 0 all laws hold, 1 some do not, 2 wrong use or a plugin that is refused.
+)";
+
+/// Collects what was skipped and why.
+class Skips final : public testing::EmptyTestEventListener {
+ public:
+  void OnTestPartResult(const testing::TestPartResult& result) override {
+    if (result.skipped()) reason_ = result.summary();
+  }
+  void OnTestStart(const testing::TestInfo&) override { reason_.clear(); }
+  void OnTestEnd(const testing::TestInfo& info) override {
+    if (!info.result()->Skipped()) return;
+    std::string law = info.name();
+    const std::size_t slash = law.rfind('/');
+    if (slash != std::string::npos) law = law.substr(slash + 1) + " " + law.substr(0, slash);
+    reasons[law] = reason_;
+  }
+  std::map<std::string, std::string> reasons;  ///< by "ID LAW"
+
+ private:
+  std::string reason_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  dismantle::contract::Selection selection;
+  std::vector<char*> rest{argv[0]};
+  bool whole = true;  // are all laws tried?
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "-h" || word == "--help") {
+      std::cout << kUsage;
+      return 0;
+    }
+    if (word == "--expect" && i + 1 < argc) {
+      selection.expectations = argv[++i];
+    } else if (word.starts_with("--gtest")) {
+      rest.push_back(argv[i]);
+      if (word.starts_with("--gtest_filter")) whole = false;
+    } else if (word.starts_with("-")) {
+      std::cerr << "unknown option " << word << '\n' << kUsage;
+      return 2;
+    } else if (std::filesystem::exists(word)) {
+      selection.files.emplace_back(word);
+    } else {
+      selection.ids.insert(word);
+    }
+  }
+  try {
+    dismantle::contract::select(selection);
+  } catch (const std::exception& e) {
+    std::cerr << e.what() << '\n';
+    return 2;
+  }
+  int count = static_cast<int>(rest.size());
+  testing::InitGoogleTest(&count, rest.data());
+  auto* skips = new Skips;  // owned by Google Test
+  testing::UnitTest::GetInstance()->listeners().Append(skips);
+  int status = RUN_ALL_TESTS();
+  if (!skips->reasons.empty()) std::cout << "\nSkipped, by declared capabilities:\n";
+  std::set<std::string> skipped;
+  for (const auto& [law, reason] : skips->reasons) {
+    std::cout << "  " << law << ": " << reason << '\n';
+    skipped.insert(law);
+  }
+  if (whole)
+    for (const auto& difference : dismantle::contract::unexpected_skips(skipped)) {
+      std::cout << "FAILED: " << difference << '\n';
+      status = 1;
+    }
+  return status;
+}

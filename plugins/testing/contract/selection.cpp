@@ -1,0 +1,88 @@
+#include "selection.h"
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include "dismantle/errors.h"
+
+namespace dismantle::contract {
+namespace {
+
+struct State {
+  Registry registry;
+  std::set<std::string> chosen;  // empty: all
+  std::set<std::string> expectations;
+  bool expects = false;
+};
+
+State& state() {
+  static State all;
+  return all;
+}
+
+constexpr PluginKind kKinds[] = {PluginKind::simulator, PluginKind::path_planner, PluginKind::sequence_planner,
+                                 PluginKind::transfer_planner};
+
+}  // namespace
+
+void select(const Selection& selection) {
+  State& s = state();
+  s.registry.scan();
+  for (const auto& file : selection.files)
+    for (const auto& id : s.registry.load(file).types) s.chosen.insert(id);
+  for (const auto& id : selection.ids) {
+    s.registry.find(id);
+    s.chosen.insert(id);
+  }
+  if (selection.expectations.empty()) return;
+  std::ifstream stream(selection.expectations);
+  if (!stream) throw Error(selection.expectations.string() + " cannot be read");
+  s.expects = true;
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string joined;
+    for (std::string word; words >> word;) joined += (joined.empty() ? "" : " ") + word;
+    if (!joined.empty()) s.expectations.insert(joined);
+  }
+}
+
+const Registry& registry() { return state().registry; }
+
+std::vector<std::string> ids(PluginKind kind) {
+  const State& s = state();
+  std::vector<std::string> found;
+  for (const RegisteredType* t : s.registry.types(kind))
+    if (s.chosen.empty() || s.chosen.contains(t->type.id)) found.push_back(t->type.id);
+  return found;
+}
+
+bool expected(const std::string& what, const std::string& id) { return state().expectations.contains(what + " " + id); }
+
+std::vector<std::string> unexpected_skips(const std::set<std::string>& skipped) {
+  std::vector<std::string> differences;
+  const State& s = state();
+  if (!s.expects) return differences;
+  std::set<std::string> tested;
+  for (const PluginKind kind : kKinds)
+    for (const auto& id : ids(kind)) tested.insert(id);
+  for (const auto& skip : skipped)
+    if (!s.expectations.contains("skips " + skip)) differences.push_back("skipped, and not expected to be: " + skip);
+  for (const auto& line : s.expectations) {
+    if (!line.starts_with("skips ")) continue;
+    const std::string skip = line.substr(6);
+    if (tested.contains(skip.substr(0, skip.find(' '))) && !skipped.contains(skip))
+      differences.push_back("expected to be skipped, and was not: " + skip);
+  }
+  return differences;
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.' || c == '-'; }, '_');
+  return name;
+}
+
+}  // namespace dismantle::contract

@@ -1,0 +1,59 @@
+/// What the contract tests of simulators and path planners try them on: small samples.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/preparation/prepare.h"
+#include "dismantle/samples.h"
+#include "dismantle/testing/path_checking.h"
+#include "selection.h"
+
+namespace dismantle::contract {
+
+using Eigen::Vector3d;
+
+/// A sample, its largest edge scaled to 3 assembly units, and a part of it that can leave first.
+struct Small {
+  std::string name;
+  PartId leaves = 0;
+  Assembly assembly;
+  std::unique_ptr<Verifier> verifier;
+
+  Small(const std::string& sample, const ParamSet& given, const std::string& part) : name(sample) {
+    PrepareOptions options;
+    options.size = 3;
+    RunContext context;
+    PrepareReport report;
+    assembly = prepare_assembly(samples::make(sample, given), sample, "", options, context, report);
+    for (const auto& p : assembly.parts)
+      if (p.name == part) leaves = p.id;
+    verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
+  }
+  Cast cast() const { return cast_of({leaves}); }
+  /// `moving` where they are assembled, all others still.
+  Cast cast_of(const std::vector<PartId>& moving) const {
+    Cast c;
+    for (const PartId id : moving) c.moving.push_back({id, Pose{}});
+    for (const auto& p : assembly.parts)
+      if (std::find(moving.begin(), moving.end(), p.id) == moving.end()) c.still.push_back({p.id, Pose{}});
+    return c;
+  }
+};
+
+inline const std::vector<Small>& small_assemblies() {
+  static const std::vector<Small> all = [] {
+    std::vector<Small> list;
+    list.emplace_back("peg_in_hole", ParamSet{{"shape", std::string("square")}, {"clearance", 0.4}}, "peg");
+    list.emplace_back("l_slot", ParamSet{{"clearance", 0.4}}, "slider");
+    list.emplace_back("stacked_box", ParamSet{{"count", std::int64_t{2}}}, "lid");
+    return list;
+  }();
+  return all;
+}
+
+inline bool bitwise(const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); }
+
+}  // namespace dismantle::contract

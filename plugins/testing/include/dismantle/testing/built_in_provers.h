@@ -1,0 +1,42 @@
+/// The provers of the default configuration, for tests that link dismantle_plugins.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/engine/run.h"
+#include "dismantle/host/config.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/verification/check_plan.h"
+
+namespace dismantle::fake {
+
+inline const Registry& plugin_registry() {
+  static const std::unique_ptr<Registry> all = [] {
+    auto r = std::make_unique<Registry>();
+    r->scan();
+    return r;
+  }();
+  return *all;
+}
+
+/// With default parameters, in their default order; those that were not built are left out.
+inline const std::vector<NamedProver>& built_in_provers() {
+  static const std::vector<NamedProver> all = [] {
+    std::vector<NamedProver> provers;
+    for (const char* id : default_provers())
+      if (plugin_registry().lookup(PluginKind::immobility_prover, id) != nullptr)
+        provers.push_back({id, plugin_registry().create<ImmobilityProver>(id)});
+    return provers;
+  }();
+  return all;
+}
+
+inline std::shared_ptr<const ImmobilityProver> prover_of_kind(const std::string& kind) {
+  for (const NamedProver& p : built_in_provers())
+    if (p.id == kind) return p.prover;
+  return nullptr;
+}
+
+}  // namespace dismantle::fake
