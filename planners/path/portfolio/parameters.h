@@ -17,7 +17,7 @@ struct Member {
   PluginRef<PathPlanner> plugin;
   std::int64_t after = 0;
   bool whole = false;
-  std::int64_t give_up_after = 0;
+  std::int64_t max_steps = 0;
   double share = 1;
   bool depth_limited = true;
   std::int64_t least_depth = 0;
@@ -36,7 +36,7 @@ struct Member {
            .doc = "`alternate`: takes part once the first member has spent this many steps and state checks, or has "
                   "ended."});
     s.add("whole", &Member::whole, {.doc = "`alternate`: its first turn lasts until it ends."});
-    s.add("give_up_after", &Member::give_up_after,
+    s.add("max_steps", &Member::max_steps,
           {.unit = "1", .min = 0, .max = 1e12, .doc = "Steps and state checks after which it is given up; 0: none."});
     s.add("share", &Member::share,
           {.unit = "1",

@@ -103,7 +103,7 @@ std::uint64_t PortfolioSearch::budget_left() const {
 /// What is left of what the member may spend.
 std::uint64_t PortfolioSearch::allowance(const MemberSearch& m) const {
   const Member& member = m.member();
-  std::uint64_t most = member.give_up_after > 0 ? static_cast<std::uint64_t>(member.give_up_after) : kUnlimited;
+  std::uint64_t most = member.max_steps > 0 ? static_cast<std::uint64_t>(member.max_steps) : kUnlimited;
   if (member.share < 1 && query_.budget.max_steps > 0)
     most = std::min(most,
                     static_cast<std::uint64_t>(std::ceil(member.share * static_cast<double>(query_.budget.max_steps))));

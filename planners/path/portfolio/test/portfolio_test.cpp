@@ -317,7 +317,7 @@ TEST(Portfolio, AMemberIsGivenUpAfterItsShare) {
     if (share) {
       first.share = 0.25;
     } else {
-      first.give_up_after = 250;
+      first.max_steps = 250;
     }
     set.add({.work = 5000}, first);
     set.add({.work = 300, .solves = true});
