@@ -14,7 +14,7 @@ enum class Size { any, small, large };
 
 /// One planner of the portfolio, and when it takes part.
 struct Member {
-  PluginRef<PathPlanner> plugin;
+  PluginRef<PathPlanner> plugin{};
   std::int64_t after = 0;
   bool whole = false;
   std::int64_t max_steps = 0;
