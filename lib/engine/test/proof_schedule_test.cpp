@@ -62,7 +62,7 @@ TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
   EXPECT_EQ(lock.parts, (std::vector<std::vector<PartId>>{{0, 1}})) << "pairs that do not overlap are not asked about";
   for (const unsigned depth : {0U, 1U, 7U}) {
     const AttemptResult& r = s.ask(leave(s.assembly, 1, depth));
-    EXPECT_EQ(r.result.outcome, Outcome::infeasible);
+    EXPECT_EQ(r.result.outcome(), Outcome::infeasible);
     EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{0});
     EXPECT_EQ(r.result.message, "claimed");
     ASSERT_NE(r.certificate, nullptr);
@@ -73,7 +73,7 @@ TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
   const Attempt way = leave(s.assembly, 0);
   const AttemptResult& proposed =
       s.oracle->propose(way, {{Pose{}}, {Pose{{0, 0, 9}, Eigen::Quaterniond::Identity()}}}, s.context);
-  EXPECT_EQ(proposed.result.outcome, Outcome::infeasible);
+  EXPECT_EQ(proposed.result.outcome(), Outcome::infeasible);
   EXPECT_EQ(searches, 0);
   s.ask(leave(s.assembly, 2));
   EXPECT_EQ(searches, 1) << "the third part is free";
@@ -84,10 +84,10 @@ TEST(ProofSchedule, LowEffortComesBeforeSearchesOfSomeDepth) {
     Asked low;
     int searches = 0;
     Rig s(row(2), with(fake::ingredients(touching({}, searches)), {low.prover("low", placed ? kPlaced : kLow)}));
-    EXPECT_EQ(s.ask(leave(s.assembly, 0, 2)).result.outcome, Outcome::depth_limit) << "a short search is cheaper";
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 2)).result.outcome(), Outcome::depth_limit) << "a short search is cheaper";
     EXPECT_EQ(low.parts.size(), 0U);
-    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::infeasible);
-    EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::infeasible);
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::infeasible);
+    EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::infeasible);
     EXPECT_EQ(searches, 1);
     EXPECT_EQ(low.parts.size(), 1U) << "an answer is remembered";
   }
@@ -98,10 +98,10 @@ TEST(ProofSchedule, HighEffortComesAfterDeepSearchesThatFoundNothing) {
     Asked dear;
     int searches = 0;
     Rig s(row(3), with(fake::ingredients(touching({2}, searches)), {dear.prover("dear", traits)}));
-    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::depth_limit);
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
     EXPECT_EQ(dear.parts.size(), 0U);
     const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
-    EXPECT_EQ(r.result.outcome, Outcome::infeasible) << "by the only part that it touched";
+    EXPECT_EQ(r.result.outcome(), Outcome::infeasible) << "by the only part that it touched";
     EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{2});
     EXPECT_EQ(searches, 2);
     EXPECT_EQ(dear.parts, (std::vector<std::vector<PartId>>{{0, 2}}));
@@ -118,7 +118,7 @@ TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
   });
   Rig s(row(2), with(fake::ingredients(touching({1}, searches, Outcome::exhausted)), {half}));
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 5));
-  EXPECT_EQ(r.result.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
   EXPECT_EQ(dear.shares, (std::vector<double>{1, 0.5}));
   ASSERT_NE(r.certificate, nullptr);
   EXPECT_FALSE(r.certificate->full_tolerance);
@@ -139,7 +139,7 @@ TEST(ProofSchedule, SeveralPartsAreAskedAboutWhereMoreDepthWouldNotHelp) {
 TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
   Asked dear;
   Rig s(row(2), with(fake::ingredients(fake::push), {dear.prover("m", kMedium), dear.prover("h", kHigh)}));
-  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome, Outcome::solved);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::solved);
   EXPECT_EQ(dear.parts.size(), 0U);
 }
 
@@ -171,7 +171,7 @@ TEST(ProofSchedule, WithoutProversNothingIsProved) {
   assembly.overlaps = {{0, 1, 0.1}};
   Rig s(assembly, fake::ingredients(touching({1}, searches)));
   const AttemptResult& r = s.ask(leave(s.assembly, 0));
-  EXPECT_EQ(r.result.outcome, Outcome::depth_limit);
+  EXPECT_EQ(r.result.outcome(), Outcome::depth_limit);
   EXPECT_EQ(r.certificate, nullptr);
   for (const ProofEffort e : {ProofEffort::trivial, ProofEffort::low, ProofEffort::medium, ProofEffort::high})
     EXPECT_EQ(s.oracle->prove({{0, 1}, e, 1}, s.context), nullptr);
@@ -224,7 +224,7 @@ TEST(ProofSchedule, AProverThatThrowsProvesNothingAndIsReported) {
   Asked next;
   next.proves = false;
   Rig s(row(2), with(fake::ingredients(touching({}, searches)), {broken, next.prover("next", kLow)}));
-  EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome, Outcome::depth_limit);
+  EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
   ASSERT_EQ(s.errors.size(), 1U);
   EXPECT_NE(s.errors[0].find("no idea"), std::string::npos);
   EXPECT_EQ(next.parts.size(), 1U) << "the others are still asked";
