@@ -79,13 +79,12 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const 
     proof_seconds += seconds_since(begin);
     if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
       PathResult& result = computed.answer.result;
-      result.outcome = Outcome::infeasible;
-      result.message = found->text;
+      result.fail(Outcome::infeasible, found->text);
       result.blocked_by = infeasible_by(*found, attempt).blocked_by;
-      result.reached = nullptr;
+      result.state = nullptr;
     }
     // A proof that was cut short leaves open what a longer one says.
-    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome))
+    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
   }
   computed.answer.proof_seconds = proof_seconds;

@@ -116,7 +116,7 @@ TEST_P(PathPlannerContract, APartThatIsOutHasNothingToDo) {
   Run run;
   plan(run, 0, {}, {}, {}, &cast);
   EXPECT_EQ(run.result.outcome(), Outcome::start_is_goal);
-  for (const auto& instant : poses_of(run.result)) EXPECT_TRUE(bitwise(instant[0], cast.moving[0].pose));
+  EXPECT_FALSE(run.result.path()) << "the engine fills it";
 }
 
 TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {

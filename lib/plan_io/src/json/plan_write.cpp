@@ -63,7 +63,14 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
 Json import_json(const ImportParams& params) {
   Json out;
   for (const auto& [importer, values] : params)
-    for (const auto& [name, value] : values) std::visit([&](const auto& v) { out[importer][name] = v; }, value);
+    for (const auto& [name, value] : values) std::visit(
+          [&](const auto& v) {
+            if constexpr (std::is_constructible_v<Json, decltype(v)>)
+              out[importer][name] = v;
+            else
+              out[importer][name] = to_text(value);  // a choice of plugins
+          },
+          value);
   return out;
 }
 
