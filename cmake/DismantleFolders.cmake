@@ -28,6 +28,10 @@ set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalt
   planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/transfer/rrt_connect)
 
+# What proves that parts cannot be separated.
+set(DISMANTLE_PROVER_PLUGINS ${DISMANTLE_SHIPPED_PLUGINS})
+list(FILTER DISMANTLE_PROVER_PLUGINS INCLUDE REGEX "^planners/immobility/")
+
 # dismantle_folders(DEPTH): adds each folder that many levels below this one that has a CMakeLists.txt.
 function(dismantle_folders depth)
   string(REPEAT "*/" ${depth} pattern)

@@ -30,12 +30,12 @@ std::vector<fs::path> config_files() {
 /// The plugin that this build leaves out and the configuration names; empty when it can be loaded.
 std::string missing_type(const fs::path& file) {
   std::ifstream stream(file);
-  const std::regex type(R"(^\s*(?:- )?(?:type|extends):\s*([\w.]+))");
-  const std::string all = std::string(";") + MISSING_TYPES + ";";
+  const std::regex type(R"(\btype:\s*([\w.]+))");
+  const std::string all = std::string(",") + MISSING_TYPES + ",";
   for (std::string line; std::getline(stream, line);) {
-    std::smatch named;
-    if (!std::regex_search(line, named, type)) continue;
-    if (all.find(";" + named[1].str() + ";") != std::string::npos) return named[1];
+    line = line.substr(0, line.find('#'));
+    for (std::sregex_iterator named(line.begin(), line.end(), type); named != std::sregex_iterator(); ++named)
+      if (all.find("," + (*named)[1].str() + ",") != std::string::npos) return (*named)[1];
   }
   return "";
 }

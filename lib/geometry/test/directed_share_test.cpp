@@ -8,6 +8,7 @@
 #include "dismantle/geometry/directed_check.h"
 #include "dismantle/executor.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/testing/trials.h"
 
 namespace dismantle::geometry {
 namespace {
@@ -46,7 +47,8 @@ Outcome check(const Solid& a, const Solid& b, const std::vector<Pose>& way, cons
 TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
   Rng rng(31);
   std::map<Answer, int> seen;
-  for (int trial = 0; trial < 30; ++trial) {
+  const int trials = testing_support::trials(12, 60);
+  for (int trial = 0; trial < trials; ++trial) {
     const double rough = trial % 4 < 2 ? 0.001 : trial % 4 == 2 ? rng.uniform(0.004, 0.012) : rng.uniform(0.01, 0.03);
     const double radius = 1 - (trial % 4 == 3 ? 0.2 : 1.0) * rough;
     Mesh peg = shapes::tube(0.3, radius, -1, 1, 40, 6);
@@ -90,7 +92,7 @@ TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
     }
   }
   for (const Answer answer : {Answer::certified, Answer::violated, Answer::exhausted})
-    EXPECT_GT(seen[answer], 5) << static_cast<int>(answer);
+    EXPECT_GT(seen[answer], trials / 6) << static_cast<int>(answer);
 }
 
 }  // namespace

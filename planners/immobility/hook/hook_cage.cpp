@@ -13,7 +13,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/section.h"
-#include "hook/bar_nodes.h"
+#include "hook/bend_passage.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -21,14 +21,102 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr std::size_t kDirections = 150;         // in which a bend's lines are looked for
-constexpr std::size_t kNear = 40;                // nodes on each side of a hole where bends are looked for
-constexpr int kStepsAlong = 14;                  // of a bend's lines; each half of what the corner keeps
-constexpr std::size_t kShortest = 8;             // ... and fewer are no line
-constexpr int kFinest = 6;                       // halvings of the faces of a cube of directions
-constexpr std::size_t kMostCaps = 8000;          // a third of all: with so many directions left there is no proof
-constexpr std::uint64_t kMostLooks = 6'000'000;  // at distances, for one bend
-constexpr double kLeast = 50 * pi / 180;         // a bend is no less than that
+constexpr std::size_t kMostNodes = 1200;  // of its middle
+constexpr double kJoined = 0.95;          // of what two nodes keep: so near each other they are joined
+constexpr std::size_t kDirections = 150;  // in which a bend's lines are looked for
+constexpr std::size_t kNear = 40;         // nodes on each side of a hole where bends are looked for
+constexpr int kStepsAlong = 14;           // of a bend's lines; each half of what the corner keeps
+constexpr std::size_t kShortest = 8;      // ... and fewer are no line
+constexpr double kLeast = 50 * pi / 180;  // a bend is no less than that
+
+/// A point in the middle of the bar and what it keeps.
+struct Node {
+  Vec3 at;
+  double keep;
+};
+
+/// Nodes for a depth, thinned out: the deepest first, others only at some distance.
+std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth) {
+  std::vector<Node> nodes;
+  for (const InnerBall& ball : balls) {
+    const Node n{ball.center, ball.radius - depth};
+    if (nodes.size() == kMostNodes || !(n.keep > 0.1 * depth)) break;
+    // Balls in edges and corners, beside much larger ones.
+    if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& m) {
+          const double apart = (m.at - n.at).norm();
+          return apart < 0.3 * m.keep || (m.keep > 1.5 * n.keep && apart < 2 * m.keep);
+        }))
+      continue;
+    nodes.push_back(n);
+  }
+  return nodes;
+}
+
+using Joined = std::vector<std::vector<std::size_t>>;
+
+Joined join(const std::vector<Node>& nodes) {
+  Joined joined(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if ((nodes[i].at - nodes[k].at).norm() < kJoined * (nodes[i].keep + nodes[k].keep)) {
+        joined[i].push_back(k);
+        joined[k].push_back(i);
+      }
+  return joined;
+}
+
+/// Where the bar goes at a node.
+Vec3 course(const std::vector<Node>& nodes, std::size_t node) {
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (const Node& n : nodes) {
+    const Vec3 d = n.at - nodes[node].at;
+    if (d.norm() < 2 * nodes[node].keep) second += d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(second);
+  return axes.eigenvectors().col(2);
+}
+
+/// Curves on the surface close around the bar, one for each hole, in the middle of it; with the node there.
+std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const Solid& around,
+                                                const std::vector<Node>& nodes, std::size_t most) {
+  struct Tight {
+    std::size_t node;
+    Vec3 along;
+    Loop loop;
+  };
+  std::vector<Tight> tight;
+  const Pose to_local = around.frame.inverse();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vec3 local = to_local * nodes[i].at;
+    const double reach = 4 * nodes[i].keep;
+    if (!(around.bvh.closest(local, reach).distance < reach)) continue;
+    const Vec3 along = course(nodes, i);
+    for (Loop& loop : surface.section({along, along.dot(nodes[i].at)}))
+      if (loop.around(nodes[i].at) && loop.diameter() < 2 * reach) tight.push_back({i, along, std::move(loop)});
+  }
+  // Those next to each other belong to one hole.
+  std::vector<std::pair<Loop, std::size_t>> found;
+  std::vector<char> taken(tight.size(), 0);
+  for (std::size_t first = 0; first < tight.size() && found.size() < most; ++first) {
+    if (taken[first]) continue;
+    std::vector<std::size_t> hole{first};
+    taken[first] = 1;
+    for (std::size_t k = 0; k < hole.size(); ++k)
+      for (std::size_t other = 0; other < tight.size(); ++other) {
+        const Node &a = nodes[tight[hole[k]].node], &b = nodes[tight[other].node];
+        if (taken[other] || (a.at - b.at).norm() > 2 * (a.keep + b.keep)) continue;
+        taken[other] = 1;
+        hole.push_back(other);
+      }
+    const Vec3 along = tight[first].along;
+    std::stable_sort(hole.begin(), hole.end(), [&](std::size_t a, std::size_t b) {
+      return along.dot(nodes[tight[a].node].at) < along.dot(nodes[tight[b].node].at);
+    });
+    const Tight& middle = tight[hole[hole.size() / 2]];
+    found.emplace_back(middle.loop, middle.node);
+  }
+  return found;
+}
 
 /// What the surface of another part keeps from the points of a line through the bar; until it keeps nothing.
 std::vector<double> kept_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
@@ -119,137 +207,6 @@ std::optional<Bend> refined(const Solid& bar, Corner corner, double depth) {
   for (std::size_t k = 0; k < corner.length(); ++k)
     bend.keep.push_back(std::min(corner.first.keep[k], corner.second.keep[k]));
   return bend;
-}
-
-/// A cell of directions: all unit vectors within `radius` (as a distance) of `center`.
-struct Cap {
-  int face, level, x, y;
-  Vec3 center;
-  double radius;
-  Cap(int f, int l, int i, int k) : face(f), level(l), x(i), y(k) {
-    const double edge = 2.0 / (1 << l);
-    const auto at = [&](double u, double v) {
-      Vec3 p;
-      p[f / 2] = f % 2 == 0 ? 1 : -1;
-      p[(f / 2 + 1) % 3] = -1 + edge * u;
-      p[(f / 2 + 2) % 3] = -1 + edge * v;
-      return Vec3(p.normalized());
-    };
-    center = at(i + 0.5, k + 0.5);
-    radius = 0;
-    for (int c = 0; c < 4; ++c) radius = std::max(radius, (at(i + c % 2, k + c / 2) - center).norm());
-  }
-};
-
-/// With the corner anywhere on the disc of `loop`: directions in which a line of the bend may lead.
-class Ways {
- public:
-  Ways(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context)
-      : context_(context), loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
-    std::vector<Places> begin;  // by level
-    for (int level = 0; level <= kFinest; ++level) begin.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
-    std::array<Face, 6> faces;
-    parallel_for(
-        faces.size(), context,
-        [&](std::size_t k) {
-          faces[k].places = begin;
-          cover(Cap(static_cast<int>(k), 0, 0, 0), faces[k]);
-        },
-        [&] { return gave_up() || context.should_stop(); });
-    stopped_ = context.should_stop();
-    for (const Face& face : faces) found_.insert(found_.end(), face.found.begin(), face.found.end());
-  }
-  /// All of them, unless it gave up.
-  const std::vector<Cap>& directions() const { return found_; }
-  /// By what all faces take together, so it does not matter which are looked at first.
-  bool gave_up() const { return stopped_ || caps_ > kMostCaps || looks_ > kMostLooks; }
-
- private:
-  struct Places {
-    double edge;
-    std::vector<Vec3> centers;
-  };
-  struct Face {  // of a cube of directions
-    std::vector<Places> places;
-    std::vector<Cap> found;
-  };
-
-  double room(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
-
-  /// Squares of the disc in some of which the corner is.
-  Places places(double edge) {
-    Places result{edge, {}};
-    const Vec3 e = loop_.plane.normal.unitOrthogonal(), f = loop_.plane.normal.cross(e);
-    double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
-    for (const Vec3& p : loop_.points)
-      for (int k = 0; k < 2; ++k) {
-        const double x = (k == 0 ? e : f).dot(p);
-        lo[k] = std::min(lo[k], x);
-        hi[k] = std::max(hi[k], x);
-      }
-    for (double x = lo[0] + 0.5 * edge; x < hi[0] + 0.5 * edge; x += edge)
-      for (double y = lo[1] + 0.5 * edge; y < hi[1] + 0.5 * edge; y += edge) {
-        const Vec3 p = x * e + y * f + loop_.plane.offset * loop_.plane.normal;
-        const double needed = bend_.keep[0] - half_diagonal(edge);
-        // A square that is not within the curve, and whose centre is further from it than its corners are, has no
-        // point within.
-        looks_ += 2;
-        if (!loop_.around(p) && room(p, half_diagonal(edge) * 1.0001) > half_diagonal(edge)) continue;
-        if (room(p, std::max(needed, 0.0)) >= needed) result.centers.push_back(p);
-      }
-    return result;
-  }
-  static double half_diagonal(double edge) { return std::numbers::sqrt2 / 2 * edge; }
-
-  bool possible(const Cap& cap, Face& face) {
-    Places& places = face.places[static_cast<std::size_t>(cap.level)];
-    std::uint64_t looks = 0;
-    bool free = false;
-    for (std::size_t at = 0; at < places.centers.size() && !free; ++at) {
-      free = true;
-      for (std::size_t k = bend_.keep.size(); k-- > 1 && free;) {
-        const double s = static_cast<double>(k) * bend_.step;
-        const double needed = bend_.keep[k] - half_diagonal(places.edge) - s * cap.radius;
-        if (!(needed > 0)) continue;
-        free = room(places.centers[at] + s * cap.center, needed) >= needed;
-        ++looks;
-      }
-      if (free) std::swap(places.centers[at], places.centers.front());  // the next direction is near this one
-    }
-    looks_ += looks;
-    return free;
-  }
-
-  void cover(const Cap& cap, Face& face) {
-    if (gave_up() || context_.should_stop() || !possible(cap, face)) return;
-    if (cap.level == kFinest) {
-      face.found.push_back(cap);
-      ++caps_;
-      return;
-    }
-    for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2), face);
-  }
-
-  const RunContext& context_;
-  const Loop& loop_;
-  const Solid& around_;
-  const Bend& bend_;
-  Pose to_local_;
-  std::vector<Cap> found_;
-  bool stopped_ = false;
-  std::atomic<std::size_t> caps_{0};
-  std::atomic<std::uint64_t> looks_{0};
-};
-
-/// Can the corner never be on the disc?
-bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context) {
-  const Ways ways(loop, around, bend, context);
-  if (ways.gave_up()) return false;
-  const double apart = (bend.along[0] - bend.along[1]).norm();
-  for (const Cap& a : ways.directions())
-    for (const Cap& b : ways.directions())
-      if (std::abs((a.center - b.center).norm() - apart) <= a.radius + b.radius) return false;
-  return true;
 }
 
 /// Does the segment go through the disc?

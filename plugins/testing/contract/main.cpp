@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kUsage = R"(usage: dismantle_contract_tests [--expect FILE] [--gtest_...] [FILE.so | ID]...
 
-Tries the laws of simulators, path planners, sequence planners and transfer planners on the types of the plugin files,
+Tries the laws of simulators, path, sequence and transfer planners and immobility provers on the types of the plugin files,
 or the types with these ids; without any, on all that are found (the built-in folder, then DISMANTLE_PLUGIN_PATH).
 Other plugins that are found serve as partners: a path planner is tried with the first simulator that has what it needs.
 A law that does not concern a plugin, by the capabilities that it declares, is skipped; skips are listed at the end.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "configuration_cells/configuration_cells.h"
+#include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
 namespace dismantle::immobility {
@@ -47,7 +48,7 @@ std::optional<Confined> confined(const ProverRig& rig, PartId a = 0, PartId b = 
 
 TEST(Confined, ABlockUnderARim) {
   Rng rng(1);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const Cased c = any_case(rng, rng.uniform(0.08, 0.15));
     const ProverRig rig = rig_of(c, random_pose(rng, 2));
     const auto found = confined(rig);
@@ -61,7 +62,7 @@ TEST(Confined, ABlockUnderARim) {
 
 TEST(Confined, NotWhereItComesOut) {
   Rng rng(2);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const Cased c =
         any_case(rng, i % 2 == 0 ? rng.uniform(-0.02, 0) : rng.uniform(0.002, 0.0027));  // < half of what is allowed
     const ProverRig rig = rig_of(c, Pose{});
@@ -88,7 +89,7 @@ TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
 
 TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
   Rng rng(8);
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const Passage p{rng.uniform(0.15, 0.25), rng.uniform(0.003, 0.02), true};
     const Pose at = random_pose(rng, 2);
     const ProverRig rig(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), kWaysMay);
@@ -109,7 +110,7 @@ TEST(Confined, ACubeThatSlidesRoundACorner) {
 
 TEST(Confined, ABlockThatSlidesFar) {
   Rng rng(9);
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const double slide = rng.uniform(0.5, 2), play = rng.uniform(0.003, 0.015);
     const Vec3 half(rng.uniform(0.4, 0.7), rng.uniform(0.3, 0.5), rng.uniform(0.3, 0.5));
     const Vec3 in = half.array() + play, out = in.array() + 0.3, far(slide, 0, 0);

@@ -9,6 +9,7 @@
 #include "disc/disc.h"
 #include "disc/facets.h"
 #include "dismantle/testing/held_shapes.h"
+#include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
 namespace dismantle {
@@ -70,7 +71,7 @@ Mesh plate() { return box({-1, -1, -0.7}, {1, 1, -0.6}); }
 
 TEST(DiscCaged, BehindAWindowShorterThanItsDiameterInEveryDirection) {
   Rng rng(1);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < testing_support::trials(3, 12); ++i) {
     const double x = rng.uniform(0.2, 0.65), y = rng.uniform(0.2, 0.6), about_z = i < 2 ? 0 : rng.uniform(0, pi);
     const Pose pose = shapes::random_pose(rng, 2);
     const auto cage = look(moved(plate(), pose), moved(chamber(x, y, about_z, 0), pose));
@@ -81,7 +82,7 @@ TEST(DiscCaged, BehindAWindowShorterThanItsDiameterInEveryDirection) {
 
 TEST(DiscCaged, BehindAWindowInALidThatSlopes) {
   Rng rng(2);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 6); ++i) {
     const double x = rng.uniform(0.3, 0.6), y = rng.uniform(0.3, 0.6);
     EXPECT_TRUE(look(plate(), chamber(x, y, rng.uniform(0, pi), rng.uniform(0.1, 0.3)))) << x << " x " << y;
   }
@@ -89,7 +90,7 @@ TEST(DiscCaged, BehindAWindowInALidThatSlopes) {
 
 TEST(DiscCaged, NotWhereItGoesThroughOnEdge) {
   Rng rng(3);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 8); ++i) {
     const double x = rng.uniform(1.0, 1.09), y = rng.uniform(0.15, 0.3);  // a slot, twice as wide as the plate is thick
     EXPECT_FALSE(look(plate(), chamber(x, y, 0, 0))) << x << " x " << y;
     const double edge = rng.uniform(0.75, 0.9);  // a square with a longer diagonal

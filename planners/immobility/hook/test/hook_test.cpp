@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
 namespace dismantle::immobility {
@@ -26,7 +27,7 @@ bool comes_out(const Mesh& part, const Mesh& of, const Vec3& by) {
 
 TEST(Hook, ABarWithASharpBendOnBothSidesOfAHole) {
   Rng rng(5);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double half = rng.uniform(0.08, 0.12), thick = rng.uniform(3, 6) * half;
     const double bend = rng.uniform(80, 100) * pi / 180, legs = rng.uniform(1, 2);
     const double reach = 0.5 * thick + half * rng.uniform(1.5, 3);
@@ -39,7 +40,7 @@ TEST(Hook, ABarWithASharpBendOnBothSidesOfAHole) {
 
 TEST(Hook, NotWhereABendIsMissingOrTheHoleIsWide) {
   Rng rng(6);
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const double half = rng.uniform(0.08, 0.12), thick = rng.uniform(1, 4) * half, reach = 0.5 * thick + 2 * half;
     const Mesh one_bend = shapes::bent_bar(crank(-reach, 1, pi / 2, 0, 1), half);
     EXPECT_FALSE(look(one_bend, shapes::plate(1.6 * half, thick), rng));

@@ -2,6 +2,7 @@
 // may, gets out of bounds, however the assembly stands.
 #include <gtest/gtest.h>
 
+#include "dismantle/testing/trials.h"
 #include "interlock_lp/interlock_lp.h"
 #include "prover_rig.h"
 
@@ -52,7 +53,7 @@ std::optional<Interlocked> interlocked(const ProverRig& rig, const std::vector<P
 
 TEST(Interlocked, EachHeldByTheOthersTogether) {
   Rng rng(1);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 8); ++i) {
     const Keyed k = any_keyed(rng);
     const ProverRig rig = rig_of(k, random_pose(rng, 2));
     const auto found = interlocked(rig, {2, 0, 1});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "dismantle/testing/held_shapes.h"
+#include "dismantle/testing/trials.h"
 
 namespace dismantle {
 namespace {
@@ -53,7 +54,7 @@ struct Poses {
 TEST(PairRows, HoldWhateverThePinsAllow) {
   Rng rng(5);
   int cut_off = 0;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < testing_support::trials(3, 12); ++i) {
     const shapes::Cased c{{0.5, 0.35, 0.3}, rng.uniform(0.01, 0.03), 0.2, 0.15};
     const Pose turned = shapes::random_pose(rng, 1);
     const auto block = immobility::split_into_solids(shapes::moved(c.block(), turned));

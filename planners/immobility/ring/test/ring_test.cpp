@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
 namespace dismantle::immobility {
@@ -47,7 +48,7 @@ TEST(Ring, ARingInACanWithOpeningsThatAreTooSmall) {
 
 TEST(Ring, NotWhereTheRingFitsThroughAnOpeningWithinWhatIsAllowed) {
   Rng rng(2);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.6, 0.9), opening = radius + rng.uniform(-0.9 * kAllowed, 0.08);
     EXPECT_FALSE(look(ring(radius, rng), can(1, 0.6, 0.2, opening), rng)) << radius << " behind " << opening;
     const Mesh straight = shapes::tube(0.5 * radius, radius, -0.1, 0.1, 48);
@@ -59,7 +60,7 @@ TEST(Ring, NotWhereTheRingFitsThroughAnOpeningWithinWhatIsAllowed) {
 
 TEST(Ring, NotInACanThatIsOpenAtItsSide) {
   Rng rng(3);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.5, 0.8), share = rng.uniform(0.5, 0.95);
     EXPECT_FALSE(look(ring(radius, rng), can(1, 0.6, 0.3 * radius, 0.3 * radius, share), rng)) << share;
   }
@@ -68,7 +69,7 @@ TEST(Ring, NotInACanThatIsOpenAtItsSide) {
 
 TEST(Ring, NotInACanWithAWindowInItsSideHoweverSmallTheOtherOpenings) {
   Rng rng(11);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.5, 0.8);
     const Mesh can = shapes::can_with_window(1, 0.6, 0.3 * radius, 0.3 * radius, 24);
     EXPECT_FALSE(look(ring(radius, rng), can, rng)) << radius;

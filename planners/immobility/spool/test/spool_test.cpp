@@ -5,6 +5,7 @@
 
 #include <numbers>
 
+#include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
 namespace dismantle::immobility {
@@ -47,7 +48,7 @@ TEST(Spool, ASpoolWhoseRimsAreTooWideForTheHole) {
 
 TEST(Spool, NotASpoolOneOfWhoseRimsGoesThroughWithinWhatIsAllowed) {
   Rng rng(10);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double hole = rng.uniform(0.3, 0.6), neck = 0.8 * hole, narrow = hole + rng.uniform(-0.05, 0.9 * kAllowed);
     const bool below = rng.uniform() < 0.5;
     const Mesh s = spool(neck, below ? narrow : 2 * hole, below ? 2 * hole : narrow);

@@ -1,0 +1,17 @@
+/// Can a bend of a bar pass through a hole?
+#pragma once
+
+#include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/section.h"
+#include "dismantle/run_context.h"
+#include "hook/hook_cage.h"
+
+namespace dismantle::immobility {
+
+/// True: proved that the corner of `bend` can never be on the flat disc within `loop`, a curve on the surface of
+/// `around`; by covering all places on the disc and all directions of the two lines with cells. False: not proved with
+/// a fixed effort, or told to stop. Assembled frame.
+bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context);
+
+}  // namespace dismantle::immobility
