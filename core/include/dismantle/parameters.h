@@ -38,6 +38,7 @@ struct ParamSpec {
   PluginKind plugin_kind = PluginKind::path_planner;  ///< of `plugin` and `plugins`
   std::vector<ParamSpec> options{};  ///< `plugins`: keys that each item has beside the parameters of its own type
   bool required = false;             ///< there is no default: `fallback` is not a value
+  bool may_be_empty = false;         ///< `plugins`: an empty list is a value
 
   /// What is wrong with `value`, or nothing. Checks type, range and choice; of plugins not their own parameters.
   DISMANTLE_API std::optional<std::string> problem_with(const ParamValue& value) const;

@@ -169,7 +169,6 @@ ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path
     result.depth = 1;
     if (check.has_witness) result.blocked_by = {holds(attempt.still, check.other) ? check.other : check.part};
   }
-  }
   drop_nonsense(result, attempt);
   computed.interrupted = !is_success(result.outcome()) && context.should_stop();
   computed.answer.seconds = seconds_since(begin);

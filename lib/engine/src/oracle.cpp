@@ -79,13 +79,12 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const 
     proof_seconds += seconds_since(begin);
     if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
       PathResult& result = computed.answer.result;
-      result.outcome = Outcome::infeasible;
-      result.message = found->text;
+      result.fail(Outcome::infeasible, found->text);
       result.blocked_by = infeasible_by(*found, attempt).blocked_by;
-      result.reached = nullptr;
+      result.state = nullptr;
     }
     // A proof that was cut short leaves open what a longer one says.
-    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome))
+    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
   }
   computed.answer.proof_seconds = proof_seconds;
@@ -235,9 +234,9 @@ const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, Ru
   const CastDigest cast = digest_of(canonical(attempt, part_count_));
   const std::lock_guard lock(ask_mutex_);
   ComputedAttempt computed;
-  if (const Certificate* lock = attempt.part_way ? nullptr : proofs_.locked(attempt)) {
-    computed.answer.certificate = lock;
-    computed.answer.result = infeasible_by(*lock, attempt);
+  if (const Certificate* proof = attempt.part_way ? nullptr : proofs_.locked(attempt)) {
+    computed.answer.certificate = proof;
+    computed.answer.result = infeasible_by(*proof, attempt);
   } else {
     computed = runner_.check_proposal(attempt, way, context);
   }

@@ -31,9 +31,7 @@ bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome
 }  // namespace
 
 PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt) {
-  PathResult result;
-  result.outcome = Outcome::infeasible;
-  result.message = certificate.text;
+  PathResult result = PathResult::failure(Outcome::infeasible, certificate.text);
   for (const PartId id : certificate.parts)
     if (has_part(attempt.still, id)) result.blocked_by.push_back(id);
   return result;
@@ -159,10 +157,10 @@ const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContex
 }
 
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
-  if (provers_.empty() || !found_nothing(result.outcome) || !attempt.leaving.empty() || attempt.part_way ||
+  if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.leaving.empty() || attempt.part_way ||
       attempt.moving.size() != 1 || attempt.still.empty() || !as_deep(attempt, kDepthForHigh))
     return nullptr;
-  const bool last = attempt.max_depth == 0 || result.outcome == Outcome::exhausted;  // more depth would not help
+  const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
   std::optional<PartId> holder;
   if (attempt.still.size() == 1)
     holder = attempt.still.front().part;

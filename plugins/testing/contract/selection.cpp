@@ -23,7 +23,7 @@ State& state() {
 }
 
 constexpr PluginKind kKinds[] = {PluginKind::simulator, PluginKind::path_planner, PluginKind::sequence_planner,
-                                 PluginKind::transfer_planner};
+                                 PluginKind::transfer_planner, PluginKind::immobility_prover};
 
 }  // namespace
 

@@ -1,4 +1,7 @@
 // Plan -> plan.json (DESIGN section 7, docs/plan-format.md).
+#include <stdexcept>
+#include <string>
+
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
@@ -63,7 +66,15 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
 Json import_json(const ImportParams& params) {
   Json out;
   for (const auto& [importer, values] : params)
-    for (const auto& [name, value] : values) std::visit([&](const auto& v) { out[importer][name] = v; }, value);
+    for (const auto& [name, value] : values)
+      std::visit(
+          [&](const auto& v) {
+            if constexpr (requires { Json(v); })
+              out[importer][name] = v;
+            else
+              throw std::invalid_argument("importer '" + importer + "': a plugin is no parameter of an importer");
+          },
+          value);
   return out;
 }
 

@@ -183,7 +183,7 @@ std::optional<ParamValue> Binder::list(const ParamSpec& spec, const ConfigNode& 
       good = good && bound.has_value();
       if (bound) out.push_back(std::move(*bound));
     }
-    if (node.items.empty()) {
+    if (node.items.empty() && !spec.may_be_empty) {
       problems_.push_back(node.mark.error(fmt::format("{} has to name a {}", name, to_string(spec.plugin_kind))));
       return std::nullopt;
     }

@@ -11,6 +11,7 @@ ParamSpec provers_parameter(const Registry& registry) {
   spec.name = "provers";
   spec.type = ParamType::plugins;
   spec.plugin_kind = PluginKind::immobility_prover;
+  spec.may_be_empty = true;
   spec.doc = "Proofs that parts cannot be separated, in the order of asking; [] = none.";
   std::vector<PluginChoice> fallback;
   for (const char* id : kBuiltIn)

@@ -65,7 +65,10 @@ void YamlWriter::values(const std::string& path, std::size_t indent, const std::
       line(blanks + spec.name + ":");
       choice(place, indent + 2, spec.plugin_kind, spec.options, *one);
     } else if (const auto* many = std::get_if<std::vector<PluginChoice>>(&it->second)) {
-      line(blanks + spec.name + ":");
+      if (many->empty())
+        row(lead, "[]", place);
+      else
+        line(blanks + spec.name + ":");
       for (std::size_t k = 0; k < many->size(); ++k) {
         const std::size_t begin = out_.size();
         choice(fmt::format("{}.{}", place, k), indent + 4, spec.plugin_kind, spec.options, (*many)[k]);

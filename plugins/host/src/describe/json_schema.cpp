@@ -30,7 +30,7 @@ Json parameter_schema(const ParamSpec& spec, const std::string& place, Definitio
     case ParamType::plugins: {
       const Json item = {
           {"anyOf", {Json{{"type", "string"}}, definitions.choice_of(spec.plugin_kind, spec.options, place)}}};
-      json["anyOf"] = {Json{{"type", "array"}, {"items", item}, {"minItems", 1}},
+      json["anyOf"] = {Json{{"type", "array"}, {"items", item}, {"minItems", spec.may_be_empty ? 0 : 1}},
                        // changes single items of the list below, named by index or type
                        Json{{"type", "object"}, {"additionalProperties", {{"type", "object"}}}}};
       break;
