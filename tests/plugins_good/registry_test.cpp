@@ -154,7 +154,7 @@ TEST(Examples, StraightPlannerOnStepper) {
   ASSERT_GE(result.path()->poses().size(), 2u);
   EXPECT_TRUE(result.path()->poses().front()[0].is_identity());
   EXPECT_GT(result.path()->poses().back()[0].t.x(), 0.0);
-  EXPECT_EQ(result.path.back()[0].t.y(), 0.0);
+  EXPECT_EQ(result.path()->poses().back()[0].t.y(), 0.0);
 }
 
 std::string content(const fs::path& file) {

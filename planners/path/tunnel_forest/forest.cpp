@@ -20,8 +20,8 @@ constexpr double kRange = 2, kShortest = 0.05, kLongest = 5;
 constexpr double kDetour = 2;
 /// Of the trees that a node could be joined to, so many (share) are tried; of pairs without the start, fewer.
 constexpr double kTryJoin = 0.5, kTryOther = 0.1;
-/// A pose in a tunnel keeps so much from contact if it can, and penetrates no deeper (assembly units).
-constexpr double kClearance = 0.002;
+/// A pose in a tunnel keeps so much from contact if it can, and penetrates no deeper: share of the tolerance.
+constexpr double kClearanceShare = 0.2;
 /// A pose that is drawn costs about as much as so many simulated steps; tunnels get no more of the work than growth.
 constexpr std::uint64_t kStepsPerDraw = 60;
 /// One more tunnel after so many extensions.
@@ -109,8 +109,9 @@ void Forest::plant_tunnel(const std::function<bool()>& stop) {
     State state = map_.node(0).state;
     for (std::size_t i = 0; i < start_.size(); ++i) state.bodies[i].pose = match.displacement * start_[i];
     looks_ += 2;
-    world_->retreat(state, kClearance);
-    if (world_->penetration(state) > kClearance) continue;
+    const double clearance = kClearanceShare * query_.tolerance;
+    world_->retreat(state, clearance);
+    if (world_->penetration(state) > clearance) continue;
     // Pushed out of the tunnel, it is as good as any other state.
     const Pose moved = state.bodies[0].pose * start_[0].inverse();
     if ((moved * match.on_moving - match.on_still).norm() > match.reach) continue;

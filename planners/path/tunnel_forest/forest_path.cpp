@@ -17,8 +17,8 @@ constexpr double kEaseEvery = 0.1;
 /// So often a path is eased again after the checker has named a place where it
 /// cuts.
 constexpr std::size_t kRepairs = 6;
-/// What a straight motion may penetrate: easing takes it out again.
-constexpr double kFree = 0.002;
+/// What a straight motion may penetrate, as a share of the tolerance: easing takes it out again.
+constexpr double kFreeShare = 0.2;
 /// A straight motion is looked at in steps of this (assembly units), and is worth it if it saves this share.
 constexpr double kLookEvery = 0.05, kWorthWhile = 0.9;
 /// Turns between instants of a straight motion, rad.
@@ -30,7 +30,7 @@ bool Forest::is_free(const std::vector<Pose>& poses) {
   State state = map_.node(0).state;
   for (std::size_t i = 0; i < poses.size(); ++i) state.bodies[i].pose = poses[i];
   ++looks_;
-  return world_->penetration(state) <= kFree;
+  return world_->penetration(state) <= kFreeShare * query_.tolerance;
 }
 
 /// Replaces what lies between two instants by the screw motion that joins them, again and again, where that is shorter

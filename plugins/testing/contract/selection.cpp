@@ -22,8 +22,9 @@ State& state() {
   return all;
 }
 
-constexpr PluginKind kKinds[] = {PluginKind::simulator, PluginKind::path_planner, PluginKind::sequence_planner,
-                                 PluginKind::transfer_planner, PluginKind::immobility_prover};
+bool has_required(const RegisteredType& t) {
+  return std::any_of(t.type.params.begin(), t.type.params.end(), [](const ParamSpec& p) { return p.required; });
+}
 
 }  // namespace
 
@@ -54,7 +55,16 @@ std::vector<std::string> ids(PluginKind kind) {
   const State& s = state();
   std::vector<std::string> found;
   for (const RegisteredType* t : s.registry.types(kind))
-    if (s.chosen.empty() || s.chosen.contains(t->type.id)) found.push_back(t->type.id);
+    if ((s.chosen.empty() || s.chosen.contains(t->type.id)) && !has_required(*t)) found.push_back(t->type.id);
+  return found;
+}
+
+std::vector<std::string> without_defaults() {
+  const State& s = state();
+  std::vector<std::string> found;
+  for (const PluginKind kind : kPluginKinds)
+    for (const RegisteredType* t : s.registry.types(kind))
+      if ((s.chosen.empty() || s.chosen.contains(t->type.id)) && has_required(*t)) found.push_back(t->type.id);
   return found;
 }
 
@@ -65,8 +75,11 @@ std::vector<std::string> unexpected_skips(const std::set<std::string>& skipped) 
   const State& s = state();
   if (!s.expects) return differences;
   std::set<std::string> tested;
-  for (const PluginKind kind : kKinds)
+  for (const PluginKind kind : kPluginKinds)
     for (const auto& id : ids(kind)) tested.insert(id);
+  for (const auto& id : without_defaults())
+    if (!s.expectations.contains("has_no_defaults " + id))
+      differences.push_back("cannot be made without parameters, and is not expected to be so: " + id);
   for (const auto& skip : skipped)
     if (!s.expectations.contains("skips " + skip)) differences.push_back("skipped, and not expected to be: " + skip);
   for (const auto& line : s.expectations) {

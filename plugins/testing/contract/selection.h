@@ -27,13 +27,17 @@ void select(const Selection& selection);
 /// All plugins that are found, and those that are named.
 const Registry& registry();
 
-/// Types of a kind to be tested: the selected ones, without a selection all.
+/// Types of a kind to be tested: the selected ones, without a selection all. Not those of without_defaults().
 std::vector<std::string> ids(PluginKind kind);
+
+/// Types that would be tested if they could be made without giving a parameter.
+std::vector<std::string> without_defaults();
 
 /// Expectations about plugins that are known, beyond the laws. One a line:
 ///   solves ID           the path planner solves each of the small assemblies
 ///   resumes ID          the path planner resumes a search, and solves what it solves from the start
 ///   skips ID LAW        the law does not concern this type
+///   has_no_defaults ID  it cannot be made without giving a parameter, so that no law is tried
 bool expected(const std::string& what, const std::string& id);
 
 /// Differences between the laws that were skipped, "ID LAW", and the expectations about the types that were tested;

@@ -9,8 +9,8 @@
 
 #include "dismantle/engine/run.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/testing/fake_planning.h"
 #include "dismantle/testing/fake_oracle.h"
+#include "dismantle/testing/fake_planning.h"
 #include "selection.h"
 
 namespace dismantle {

@@ -231,7 +231,7 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
       Trace trace;
       for (int k = 0; k < 10 && !world->separated(s); ++k) world->advance(s, push(*world, 100 * along), 0.1, &trace);
       EXPECT_LT(world->penetration(s), 0.005) << m.small->name << ", direction " << direction;
-      // ... and by the judge, which shares nothing with the simulator.
+      // ... and for the verifier, which shares nothing with the simulator.
       Path path{{Pose{}}};
       path.insert(path.end(), trace.begin(), trace.end());
       const MotionCheck check = m.small->verifier->check_motion({m.small->leaves}, world->cast().still, path);

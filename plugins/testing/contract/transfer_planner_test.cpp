@@ -1,10 +1,11 @@
 // What every transfer planner must obey, with its default parameters, on whatever simulator measures distances.
+#include "dismantle/transfer_planner.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "dismantle/testing/fake_planning.h"
-#include "dismantle/transfer_planner.h"
 #include "small_assemblies.h"
 
 namespace dismantle::contract {
@@ -20,7 +21,7 @@ struct Errand {
   std::vector<Pose> goal;
   std::uint64_t most_checks = 20'000;
   bool refuse = false;
-  int judged = 0, accepted = 0;
+  int checked = 0, accepted = 0;
 
   Errand(const Assembly& a, const std::vector<PartId>& moving, const Pose& from, const Pose& to)
       : assembly(a), verifier(a, VerifyOptions{}) {
@@ -47,7 +48,7 @@ struct Errand {
 
   PathResult go(TransferPlanner& planner, RunContext context = {}) {
     const fake::RuleChecker checker([&](const Path& path) {
-      ++judged;
+      ++checked;
       std::vector<PartId> ids;
       for (const auto& m : cast.moving) ids.push_back(m.part);
       fake::Ruling ruling;
@@ -152,14 +153,14 @@ TEST_P(TransferPlannerContract, GivesUpWithinItsBudget) {
   EXPECT_EQ(errand.accepted, 0);
 }
 
-TEST_P(TransferPlannerContract, WhatTheJudgeRefusesIsNoSolution) {
+TEST_P(TransferPlannerContract, WhatIsRefusedIsNoSolution) {
   const Assembly assembly = fake::row(2);
   Errand errand(assembly, {0}, shift(0, 8, 0), shift(0, -6, 0));
   errand.refuse = true;
   errand.most_checks = 2000;
   const PathResult r = errand.go(*make());
   EXPECT_FALSE(is_success(r.outcome()));
-  EXPECT_GE(errand.judged, 1);
+  EXPECT_GE(errand.checked, 1);
 }
 
 TEST_P(TransferPlannerContract, StopsWhenToldTo) {
@@ -169,7 +170,7 @@ TEST_P(TransferPlannerContract, StopsWhenToldTo) {
   context.cancel.cancel();
   const PathResult r = errand.go(*make(), context);
   EXPECT_EQ(r.outcome(), Outcome::cancelled);
-  EXPECT_LE(errand.judged, 1);
+  EXPECT_LE(errand.checked, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registered, TransferPlannerContract, testing::ValuesIn(ids(PluginKind::transfer_planner)),

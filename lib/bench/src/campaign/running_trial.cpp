@@ -122,7 +122,7 @@ void RunningTrial::take_result() {
     row_.counts = counts.dump();
     row_.simulated_steps = count(counts, "steps");
     row_.nodes = count(counts, "nodes");
-    row_.collision_checks = count(counts, "checks");
+    row_.collision_checks = count(counts, "state_checks");
     if (const double peak = r.at("peak_rss_mb").get<double>(); peak > 0) row_.peak_rss_mb = peak;
     row_.outcome = r.at("outcome").get<std::string>();
     const auto outcome = outcome_from_string(row_.outcome);

@@ -1,7 +1,4 @@
 // Plan -> plan.json (DESIGN section 7, docs/plan-format.md).
-#include <stdexcept>
-#include <string>
-
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
@@ -66,13 +63,12 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
 Json import_json(const ImportParams& params) {
   Json out;
   for (const auto& [importer, values] : params)
-    for (const auto& [name, value] : values)
-      std::visit(
+    for (const auto& [name, value] : values) std::visit(
           [&](const auto& v) {
-            if constexpr (requires { Json(v); })
+            if constexpr (std::is_constructible_v<Json, decltype(v)>)
               out[importer][name] = v;
             else
-              throw std::invalid_argument("importer '" + importer + "': a plugin is no parameter of an importer");
+              out[importer][name] = to_text(value);  // a choice of plugins
           },
           value);
   return out;

@@ -71,7 +71,7 @@ TEST(TreePlanner, SameSeedSamePath) {
     EXPECT_TRUE(slot().judge(a.path()->poses()).accept);
     EXPECT_TRUE(a.path()->poses().front()[0].is_identity());
   }
-  EXPECT_FALSE(same(slot().plan(1, kEffort).path, slot().plan(2, kEffort).path));
+  EXPECT_FALSE(same(slot().plan(1, kEffort).path()->poses(), slot().plan(2, kEffort).path()->poses()));
 }
 
 /// Searches on other threads, and generators made by others, change nothing.
@@ -108,7 +108,7 @@ TEST(TreePlanner, KeepsToItsBudget) {
   for (const std::uint64_t steps : {50, 1000}) {
     const PathResult r = task.plan(1, {.max_steps = steps});
     EXPECT_EQ(r.outcome(), Outcome::timeout);
-    EXPECT_LE(r.stats.state_checks, static_cast<double>(steps) + 64);
+    EXPECT_LE(r.stats.state_checks, steps + 64);
     EXPECT_EQ(r.best_pose.size(), 1u);
     EXPECT_FALSE(r.blocked_by.empty());
   }
@@ -140,7 +140,7 @@ TEST(TreePlanner, GoesOnAfterARefusal) {
   };
   const PathResult r = slot().plan(1, {.max_steps = 400'000}, {}, strict);
   EXPECT_EQ(r.outcome(), Outcome::solved);
-  EXPECT_EQ(r.stats.refused, 5);
+  EXPECT_EQ(r.stats.refused, 5u);
   EXPECT_TRUE(slot().judge(r.path()->poses()).accept);
 }
 

@@ -100,7 +100,7 @@ TEST(EachItsWay, UnderADepthLimitTheStepsAreCounted) {
     MazeRun run;
     go(run, maze, {0, 1}, "contact_search", {.max_depth = depth});
     EXPECT_EQ(run.result.outcome(), Outcome::depth_limit);
-    EXPECT_EQ(run.result.stats.steps, static_cast<double>(run.notes.steps));
+    EXPECT_EQ(run.result.stats.steps, run.notes.steps);
     EXPECT_LE(run.notes.steps, 2 * (2000 * depth + 10)) << "in both motion spaces, and an advance is not cut short";
     MazeRun less;
     go(less, maze, {0, 1}, "contact_search", {.max_depth = depth, .max_steps = 300});

@@ -25,11 +25,11 @@ Maze winding(int bends) {
 }
 
 void expect_lawful(const MazeRun& run, const Maze& maze) {
-  EXPECT_EQ(run.result.stats.steps, static_cast<double>(run.notes.steps));
+  EXPECT_EQ(run.result.stats.steps, run.notes.steps);
   for (const PartId p : run.result.blocked_by) EXPECT_EQ(p, 9u);
   ASSERT_EQ(run.result.best_pose.size(), 1u);
   if (run.result.outcome() != Outcome::solved) {
-    EXPECT_TRUE(run.result.path()->poses().empty() || run.result.outcome() == Outcome::start_is_goal);
+    EXPECT_FALSE(run.result.path());
     return;
   }
   ASSERT_GE(run.result.path()->poses().size(), 2u);
@@ -125,8 +125,7 @@ TEST(BfsMaze, StartIsGoal) {
   search(run, maze);
   EXPECT_EQ(run.result.outcome(), Outcome::start_is_goal);
   EXPECT_EQ(run.notes.advances, 0u);
-  ASSERT_TRUE(run.result.path());
-  for (const auto& instant : run.result.path()->poses()) EXPECT_TRUE(instant[0].is_identity());
+  EXPECT_FALSE(run.result.path()) << "there is nothing to verify";
 }
 
 TEST(BfsMaze, CancelledBeforeAndDuring) {
@@ -206,7 +205,7 @@ TEST(BfsMaze, LearnsFromARefusal) {
   EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.notes.learned, 1u);
   EXPECT_EQ(run.judged.size(), 2u) << "the world holds now what the judge refused";
-  EXPECT_EQ(run.result.stats.refused, 1);
+  EXPECT_EQ(run.result.stats.refused, 1u);
   EXPECT_LT(run.result.path()->poses().back()[0].t.z(), -4.9);
   EXPECT_TRUE(run.result.message.empty());
   expect_lawful(run, maze);

@@ -70,7 +70,7 @@ TEST(BfsPhysics, AClosedBoxWithThinWallsIsExhausted) {
   for (const char* motion : {"translation", "rotation", "auto"}) {
     const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 60'000});
     EXPECT_EQ(r.outcome(), Outcome::exhausted) << motion << ", " << r.stats.steps << " steps";
-    EXPECT_EQ(r.stats.refused, 0) << "the physics holds by itself";
+    EXPECT_EQ(r.stats.refused, 0u) << "the physics holds by itself";
     EXPECT_EQ(r.blocked_by, std::vector<PartId>{1});
     EXPECT_FALSE(r.path());
   }
@@ -81,7 +81,7 @@ TEST(BfsPhysics, NothingLeavesAClosedBoxHoweverLoose) {
   for (const char* motion : {"translation", "rotation"}) {
     const PathResult r = bench.plan({0}, {{"motion", std::string(motion)}}, {.max_steps = 6'000});
     EXPECT_FALSE(is_success(r.outcome())) << motion;
-    EXPECT_EQ(r.stats.refused, 0) << "the physics holds by itself";
+    EXPECT_EQ(r.stats.refused, 0u) << "the physics holds by itself";
   }
 }
 
@@ -91,7 +91,7 @@ TEST(BfsPhysics, ADepthLimitLimitsSimulatedSteps) {
     const PathResult r = bench.plan({0}, {}, {.max_depth = depth});
     EXPECT_EQ(r.outcome(), Outcome::depth_limit) << depth;
     // 2000 per level, once translating and from the second level on once turning; a run under way is ended.
-    EXPECT_LE(r.stats.steps, (depth == 1 ? 1 : 2) * 2000.0 * depth + 2 * 500) << depth;
+    EXPECT_LE(r.stats.steps, (depth == 1 ? 1u : 2u) * 2000u * depth + 2 * 500) << depth;
   }
 }
 

@@ -72,8 +72,8 @@ TEST(Resume, FindsWhatASearchFromTheStartFindsWithLessSimulation) {
       ASSERT_EQ(third_anew.run.result.outcome(), Outcome::solved);
       EXPECT_EQ(third.run.result.outcome(), Outcome::solved);
       EXPECT_EQ(third.run.result.path()->poses().front()[0].t, Vector3d::Zero());
-      EXPECT_GT(third.run.result.stats.resumed_nodes, 0);
-      EXPECT_GT(third.run.result.stats.spared, 0);
+      EXPECT_GT(third.run.result.stats.resumed_nodes, 0u);
+      EXPECT_GT(third.run.result.stats.spared, 0u);
       EXPECT_LT(third.run.notes.steps, third_anew.run.notes.steps);
       EXPECT_EQ(third.run.result.state, nullptr);
     }
@@ -114,7 +114,7 @@ TEST(Resume, InPortionsAsInOneGo) {
       std::shared_ptr<const SearchState> reached;
       Outcome end = Outcome::timeout;
       int portions = 0;
-      double nodes = 0;
+      std::uint64_t nodes = 0;
       for (; end == Outcome::timeout && portions < 2000; ++portions) {
         MazeRun run;
         search(run, m.maze, few, {.max_steps = 550 + 37 * seed}, accept, {}, 1, {true, true, true, 4}, "bfs", {},
@@ -187,7 +187,6 @@ TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
   open.maze.exit = Aabb{Vector3d::Constant(7), Vector3d::Constant(8)};
   const Made again(open, "bfs", 0, {}, first.run.result.state.get());
   EXPECT_EQ(again.run.result.outcome(), Outcome::start_is_goal);
-  EXPECT_EQ(again.run.result.path()->poses().size(), 2U);
 }
 
 /// What the judge has taught is not forgotten, unless it was about what has left.

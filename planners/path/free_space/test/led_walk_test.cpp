@@ -112,6 +112,8 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
       EXPECT_EQ(helped.stats, alone.stats);
       EXPECT_EQ(helped.blocked_by, alone.blocked_by);
       EXPECT_EQ(helped.message, alone.message);
+      ASSERT_EQ(helped.path().has_value(), alone.path().has_value());
+      if (!alone.path()) continue;
       ASSERT_EQ(helped.path()->poses().size(), alone.path()->poses().size());
       for (std::size_t k = 0; k < alone.path()->poses().size(); ++k)
         EXPECT_EQ(helped.path()->poses()[k][0].t, alone.path()->poses()[k][0].t);

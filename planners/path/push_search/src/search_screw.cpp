@@ -15,8 +15,10 @@ namespace {
 constexpr double kGlideStep = 0.1, kMostGlideStep = 2.4, kLeastGlideStep = 0.0125;
 /// Steps grow to this share of the way that was clear.
 constexpr double kGlideShare = 0.125;
-/// Penetration that counts as none, and the room that a part is given before it glides on.
-constexpr double kGlideDepth = 1e-3, kGlideClearance = 0.02;
+/// Penetration that counts as none, as a share of the tolerance.
+constexpr double kGlideDepthShare = 0.1;
+/// The room that a part is given before it glides on; assembly units.
+constexpr double kGlideClearance = 0.02;
 /// A glide that covers less is not worth another one.
 constexpr double kLeastGlide = 0.15;
 /// What is kept of a glide that got stuck.
@@ -157,7 +159,7 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
     const State next = at(way + step);
     ++looks_;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min<std::uint64_t>(*limits_.steps_left, 1);
-    if (world_->penetration(next) > kGlideDepth) {
+    if (world_->penetration(next) > kGlideDepthShare * query_.tolerance) {
       step *= 0.5;
       in_a_row = 0;
       if (step < kLeastGlideStep) return GlideEnd::blocked;

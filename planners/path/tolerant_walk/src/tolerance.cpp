@@ -13,8 +13,8 @@ constexpr double kSpacing = 0.03;         // ... their samples are so far apart,
 constexpr std::size_t kSamples = 5'000;   // or so that there are no more of each part around the other,
 constexpr std::size_t kElsewhere = 1000;  // and so many all over
 constexpr double kReach = 3, kLeastReach = 0.02;  // an overlap is excused so near the start: overlaps; assembly units
-constexpr double kOverlap = 1e-3;                 // assembly units; less is within what is allowed beyond
-constexpr double kLeast = 5e-4;                   // assembly units: not less is aimed at
+constexpr double kOverlapShare = 0.125;           // of what is allowed beyond; less overlap is within it
+constexpr double kLeastShare = 0.0625;            // of what is allowed beyond: not less is aimed at
 constexpr double kLearned = 0.5;                  // share of what was too deep at a place that the judge has named
 constexpr double kBeside = 0.05;                  // assembly units: what is so near such a place ...
 constexpr std::size_t kMostBeside = 100;          // ... counts as well, so many corners of triangles of it
@@ -50,7 +50,7 @@ Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& sti
   const auto key = std::pair(moving.part, still.part);
   if (const auto known = pairs_.find(key); known != pairs_.end()) return known->second;
   Allowance deep = allowed(moving.part, still.part);
-  const bool strict = overlap_ == Overlap::near_start && deep.overlap > kOverlap;
+  const bool strict = overlap_ == Overlap::near_start && deep.overlap > kOverlapShare * max_penetration_;
   if (strict) deep = {0, deep.beyond, true};
   return pairs_.emplace(key, probes(moving, still, deep, strict)).first->second;
 }
@@ -85,7 +85,8 @@ Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& st
 
 /// Where the judge sees deeper than samples do again, less is aimed at.
 bool Tolerance::tighten(const PlacedPart& moving, const PlacedPart& still, Pair& both) {
-  if (overlap_ == Overlap::everywhere || both.refused < 2 || both.deep.beyond < kLeast) return false;
+  if (overlap_ == Overlap::everywhere || both.refused < 2 || both.deep.beyond < kLeastShare * max_penetration_)
+    return false;
   Allowance deep = both.deep;
   deep.beyond *= kLearned;
   Pair next = probes(moving, still, deep, true);

@@ -57,8 +57,8 @@ TEST(TolerantRrt, KeepsToItsBudget) {
   Table table(snapped(0.03, Pose{}));
   const PathResult r = table.plan("tolerant_rrt", {}, 1, 500);
   EXPECT_EQ(r.outcome(), Outcome::timeout);
-  EXPECT_GE(r.stats.state_checks, 500);
-  EXPECT_LE(r.stats.state_checks, 500 + 400);  // a flight is not cut short
+  EXPECT_GE(r.stats.state_checks, 500u);
+  EXPECT_LE(r.stats.state_checks, 500u + 400u);  // a flight is not cut short
 }
 
 TEST(TolerantRrt, IsWhatGuidedComesToWhenContactSearchFails) {

@@ -1,0 +1,173 @@
+/// What the laws of path planners are tried with: the first simulator that has what a planner needs, with its default
+/// parameters.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "counting_simulator.h"
+#include "small_assemblies.h"
+
+namespace dismantle::contract {
+
+inline bool covers(const Capabilities& has, const Capabilities& needs) {
+  return (has.dynamics || !needs.dynamics) && (has.contacts || !needs.contacts) && (has.distance || !needs.distance);
+}
+
+inline bool same(const Path& a, const Path& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k].size() != b[k].size()) return false;
+    for (std::size_t i = 0; i < a[k].size(); ++i)
+      if (!bitwise(a[k][i], b[k][i])) return false;
+  }
+  return true;
+}
+
+/// Empty where nothing was found.
+inline Path poses_of(const PathResult& result) { return result.path() ? result.path()->poses() : Path{}; }
+
+/// Doc of PathPlanner: cancellation and budgets are looked at at least so often.
+constexpr std::uint64_t kLook = 100;
+/// VerifyOptions::max_penetration, assembly units.
+constexpr double kTolerance = 0.01;
+/// Enough for any of the small assemblies.
+constexpr std::uint64_t kPlenty = 30'000;
+
+class PathPlannerContract : public testing::TestWithParam<std::string> {
+ protected:
+  struct Ready {
+    std::shared_ptr<Simulator> simulator;
+    std::vector<std::shared_ptr<const Prepared>> prepared;  ///< as small_assemblies()
+  };
+  struct Run {
+    PathResult result;
+    std::vector<std::pair<Path, bool>> checked;  ///< and whether it was accepted
+    Counted counted;
+    std::string output;
+  };
+  using Rule = std::function<fake::Ruling(const Path&)>;
+
+  static std::shared_ptr<PathPlanner> make() { return registry().create<PathPlanner>(GetParam()); }
+  /// The simulator and what it prepared, once for all tests; null when there is none.
+  static const Ready* ready() {
+    static std::map<std::string, Ready> cache;
+    const Capabilities needs = make()->traits().needs;
+    auto candidates = registry().types(PluginKind::simulator);  // this project's first: a third party's id has a dot
+    std::stable_partition(candidates.begin(), candidates.end(),
+                          [](const RegisteredType* t) { return t->type.id.find('.') == std::string::npos; });
+    for (const RegisteredType* candidate : candidates) {
+      const std::string& id = candidate->type.id;
+      if (cache.contains(id)) {
+        if (covers(cache.at(id).simulator->capabilities(), needs)) return &cache.at(id);
+        continue;
+      }
+      auto simulator = registry().create<Simulator>(id);
+      if (!covers(simulator->capabilities(), needs)) continue;
+      Ready& r = cache[id];
+      r.simulator = simulator;
+      for (const auto& small : small_assemblies()) {
+        RunContext context;
+        r.prepared.push_back(simulator->prepare(small.assembly, kTolerance, context));
+      }
+      return &r;
+    }
+    return nullptr;
+  }
+
+  static fake::Ruling verify(const Small& small, const Cast& cast, const Path& path) {
+    std::vector<PartId> moving;
+    std::vector<PlacedPart> group = cast.moving;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      moving.push_back(group[i].part);
+      group[i].pose = path.back()[i];
+    }
+    const MotionCheck check = small.verifier->check_motion(moving, cast.still, path);
+    fake::Ruling v = fake::ruling_of(check);
+    v.accept = v.accept && small.verifier->apart(group, cast.still);
+    if (v.has_witness) v.reason = "it cuts";
+    return v;
+  }
+
+  /// One search; a rule that is empty is the verifier.
+  static void plan(Run& run, std::size_t which, const Budget& effort = {.max_steps = kPlenty}, RunContext context = {},
+                   const Rule& rule = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr,
+                   const SearchState* resume_from = nullptr) {
+    const Small& small = small_assemblies()[which];
+    CountingSimulator simulator(ready()->simulator, run.counted);
+    const Cast chosen = cast != nullptr ? *cast : small.cast();
+    const fake::RuleChecker checker([&](const Path& path) {
+      const fake::Ruling ruling = rule ? rule(path) : verify(small, chosen, path);
+      run.checked.emplace_back(path, ruling.accept);
+      return ruling;
+    });
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[which], chosen, effort, kTolerance, checker, {},
+                          resume_from};
+    const auto own = make();
+    testing::internal::CaptureStdout();
+    run.result = plan_path(planner != nullptr ? *planner : *own, query, context);
+    run.output = testing::internal::GetCapturedStdout();
+    expect_lawful(run, small, chosen, effort);
+  }
+
+  /// What holds however a search ends.
+  static void expect_lawful(const Run& run, const Small& small, const Cast& cast, const Budget& effort) {
+    SCOPED_TRACE(small.name);
+    const PathResult& r = run.result;
+    EXPECT_TRUE(run.output.empty()) << "planners never print: " << run.output;
+    EXPECT_NE(r.outcome(), Outcome::crashed);
+    for (const PartId id : r.blocked_by)
+      EXPECT_TRUE(std::any_of(cast.still.begin(), cast.still.end(), [id](const auto& p) { return p.part == id; }))
+          << "part " << id << " does not stand still";
+    for (std::size_t i = 0; i < r.blocked_by.size(); ++i)
+      EXPECT_EQ(std::count(r.blocked_by.begin(), r.blocked_by.end(), r.blocked_by[i]), 1);
+    if (!r.best_pose.empty()) {
+      EXPECT_EQ(r.best_pose.size(), cast.moving.size());
+    }
+    if (effort.max_steps > 0) {
+      // Between two looks at the budget; and without dynamics a path that was found within it may still be simplified.
+      constexpr std::uint64_t kSimplify = 300;
+      EXPECT_LE(run.counted.steps, effort.max_steps + kLook + (run.checked.empty() ? 0 : kSimplify));
+    }
+    for (const auto& [path, accepted] : run.checked) {
+      ASSERT_GE(path.size(), 2u);
+      for (const auto& instant : path) {
+        ASSERT_EQ(instant.size(), cast.moving.size());
+        for (const auto& pose : instant) {
+          ASSERT_TRUE(pose.t.allFinite());
+          ASSERT_NEAR(pose.q.norm(), 1, 1e-9);
+        }
+      }
+      for (std::size_t i = 0; i < cast.moving.size(); ++i)
+        EXPECT_TRUE(bitwise(path.front()[i], cast.moving[i].pose)) << "starts where the parts are";
+    }
+    if (r.outcome() == Outcome::solved) {
+      ASSERT_FALSE(run.checked.empty()) << "no path without a check";
+      EXPECT_TRUE(std::any_of(run.checked.begin(), run.checked.end(), [&](const auto& j) {
+        return j.second && same(j.first, r.path()->poses());
+      })) << "just this path was accepted";
+      const auto world = ready()->simulator->world(
+          small.assembly, *ready()->prepared[static_cast<std::size_t>(&small - small_assemblies().data())], cast,
+          MotionSpace::rigid);
+      State end = world->initial_state();
+      for (std::size_t i = 0; i < end.bodies.size(); ++i) end.bodies[i].pose = r.path()->poses().back()[i];
+      EXPECT_TRUE(world->separated(end));
+    } else if (r.outcome() != Outcome::start_is_goal) {
+      EXPECT_FALSE(r.path()) << to_string(r.outcome());
+    }
+  }
+
+  void SetUp() override {
+    if (ready() == nullptr) GTEST_SKIP() << "no simulator here has what this planner needs";
+  }
+};
+
+}  // namespace dismantle::contract
