@@ -14,7 +14,7 @@
 #include "dismantle/engine/run.h"
 #include "dismantle/settings.h"
 #include "dismantle/viewer_template.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle::app {

@@ -7,7 +7,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/settings.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 #include "dismantle/viewer_template.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle::app {
 namespace {

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <memory>
 #include <system_error>
 #include <thread>
 
 #include "dismantle/errors.h"
+#include "dismantle/executor.h"
 #include "dismantle/host/ingredients.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"
@@ -49,6 +51,7 @@ RunContext context_of(const RunSettings& settings, Console& console) {
   RunContext context;
   if (settings.timeout > 0) context.deadline = Deadline::after_seconds(settings.timeout);
   context.threads = settings.threads > 0 ? settings.threads : std::max(1u, std::thread::hardware_concurrency());
+  if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
   console.attach(context);
   cancel_on_signals(context.cancel);
   return context;

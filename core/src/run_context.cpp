@@ -7,10 +7,6 @@
 
 namespace dismantle {
 
-void RunContext::pause_point() const {
-  if (speculative && executor) executor->pause_point();
-}
-
 namespace {
 
 /// Finaliser and increment of SplitMix64 (Steele, Lea, Flood 2014).

@@ -10,11 +10,12 @@
 #include "dismantle/assembly.h"
 #include "dismantle/certificate.h"
 #include "dismantle/export.h"
-#include "dismantle/part_memo.h"
 #include "dismantle/run_context.h"
 #include "dismantle/simulator.h"
 
 namespace dismantle {
+
+class PartMemo;
 
 /// How long a proof takes, found or not. The engine runs provers of low effort earlier and more often.
 enum class ProofEffort {

@@ -15,7 +15,7 @@
 
 namespace dismantle {
 
-class Verifier;
+class PairChecker;
 struct AttemptResult;
 
 /// "Can these parts leave together while those stay, with this effort?" All other parts are out.
@@ -85,9 +85,8 @@ class DISMANTLE_API PathOracle {
   /// Answers are remembered, live as long as the oracle, and depend on nothing but the question; may be called from
   /// several threads. What is proved of parts holds wherever they have been moved since.
   virtual const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
-  /// The judge of this run. What it says of two parts on a way holds whatever other parts there are, so a planner may
-  /// ask it about pairs, also from several threads. nullptr: an oracle without geometry.
-  virtual const Verifier* judge() const { return nullptr; }
+  /// Facts about pairs of parts. nullptr: an oracle without geometry.
+  virtual const PairChecker* pair_checker() const { return nullptr; }
   /// Only planners that declare so (SequencePlanner::keeps_constraints) are run when there are any.
   virtual const Constraints& constraints() const;
 };

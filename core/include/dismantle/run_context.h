@@ -78,8 +78,6 @@ struct RunContext {
   std::function<void(const ProgressEvent&)> on_progress;   ///< may be empty; called from one thread at a time
   std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; likewise
 
-  /// Where speculative: waits while a thread of the executor does something more urgent (Executor::PauseScope).
-  DISMANTLE_API void pause_point() const;
   bool should_stop() const { return cancel.cancelled() || deadline.passed(); }
   void progress(std::string_view phase, std::size_t done, std::size_t total, std::string_view detail = {}) const {
     if (on_progress) on_progress({phase, done, total, detail});

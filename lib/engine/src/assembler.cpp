@@ -10,6 +10,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "placed_paths.h"
 
 namespace dismantle {
 
@@ -28,26 +29,6 @@ bool near(const Pose& a, const Pose& b) {
 
 bool contains(const std::vector<PartId>& parts, PartId id) {
   return std::find(parts.begin(), parts.end(), id) != parts.end();
-}
-
-Path displaced(const Pose& displacement, const Path& path) {
-  Path result = path;
-  for (auto& instant : result)
-    for (auto& pose : instant) pose = displacement * pose;
-  return result;
-}
-
-Path backwards(Path path) {
-  std::reverse(path.begin(), path.end());
-  return path;
-}
-
-Aabb box_under(const Aabb& box, const Pose& pose) {
-  Aabb out;
-  for (int k = 0; k < 8; ++k)
-    out.extend(pose * Eigen::Vector3d(k & 1 ? box.hi.x() : box.lo.x(), k & 2 ? box.hi.y() : box.lo.y(),
-                                      k & 4 ? box.hi.z() : box.lo.z()));
-  return out;
 }
 
 }  // namespace

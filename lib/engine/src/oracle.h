@@ -46,7 +46,7 @@ class Oracle final : public PathOracle {
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override {
     return proofs_.prove(question, context);
   }
-  const Verifier* judge() const override { return &verifier_; }
+  const PairChecker* pair_checker() const override { return &verifier_; }
   const Constraints& constraints() const override { return constraints_; }
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.

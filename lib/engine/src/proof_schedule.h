@@ -14,6 +14,7 @@
 #include "dismantle/engine/run.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/path_oracle.h"
+#include "dismantle/part_memo.h"
 
 namespace dismantle {
 

@@ -10,7 +10,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/run_context.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle {
 namespace {

@@ -304,7 +304,7 @@ bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<Pla
   return impl_->hulls_of(group, rest).after(Vec3::Zero());
 }
 
-double Verifier::way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
+double Verifier::separation_distance(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
                            const Vec3& direction, double most, int halvings) const {
   verify::HullsApart hulls = impl_->hulls_of(group, rest);
   double within = 0, out = most;

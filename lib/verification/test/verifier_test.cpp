@@ -71,7 +71,7 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
     };
     constexpr double kMost = 20;
     constexpr int kHalvings = 12;
-    const double way = verifier.way_apart(group, rest, d, kMost, kHalvings);
+    const double way = verifier.separation_distance(group, rest, d, kMost, kHalvings);
     EXPECT_TRUE(apart_after(way));
     if (const double before = way - 1.5 * kMost / (1 << kHalvings); before > 0) {
       EXPECT_FALSE(apart_after(before)) << way;
@@ -87,7 +87,7 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
   }
   EXPECT_GT(found, 40);
   const Verifier verifier(assembly_of({kCube, kCube}), {0.01});
-  EXPECT_LT(verifier.way_apart({{0, Pose{}}}, {}, Vec3::UnitX(), 5, 10), 0.01) << "nothing is in the way";
+  EXPECT_LT(verifier.separation_distance({{0, Pose{}}}, {}, Vec3::UnitX(), 5, 10), 0.01) << "nothing is in the way";
 }
 
 TEST(Verifier, KissingSlideIsOneCheapSweep) {

@@ -8,6 +8,7 @@
 
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/query.h"
+#include "dismantle/part_memo.h"
 #include "enclosed_ball/ball_room.h"
 
 namespace dismantle::immobility {

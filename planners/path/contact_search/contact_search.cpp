@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "dismantle/executor.h"
 #include "dismantle/plugin.h"
 #include "dismantle/push/plan.h"
 #include "parameters.h"
@@ -15,7 +16,7 @@ class ContactSearch final : public PathPlanner {
     return {.needs = push::required(), .concurrent = true, .simultaneous_motion = true, .resumable = true};
   }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
-    return push::start(query, tactics_, context, [&context] { context.pause_point(); });
+    return push::start(query, tactics_, context, [&context] { pause_point(context); });
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "dismantle/free_space/led_walk.h"
 #include "dismantle/plugin.h"
@@ -20,7 +21,9 @@ class State final : public SearchState {
   std::shared_ptr<const SearchState> tree, near_start;
 };
 
-bool unsuccessful(const PathResult& r) { return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted; }
+bool unsuccessful(const PathResult& r) {
+  return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted;
+}
 
 /// One search; of a group that is thinner than its initial overlap, two: that overlap is first allowed near the start
 /// only. A group that has only some play so may be held with interference all the way out, and then it is allowed
@@ -42,6 +45,7 @@ class Search final : public PathSearch {
 
   PathResult result() override {
     PathResult result = last_;
+    result.stats += first_stats_;
     if (is_success(result.outcome())) return result;
     auto state = std::make_shared<State>();
     state->tree = tree_state_;
@@ -62,7 +66,8 @@ class Search final : public PathSearch {
       if (tree_->leads_out() && left_of_budget() > 0) {
         Budget own{.timeout = portion.timeout > 0 ? std::max(1e-9, end.seconds_left()) : 0};
         if (portion.max_steps > 0)
-          own.max_steps = std::max<std::uint64_t>(1, portion.max_steps - std::min(portion.max_steps, used() - begun_at));
+          own.max_steps =
+              std::max<std::uint64_t>(1, portion.max_steps - std::min(portion.max_steps, used() - begun_at));
         const SearchStatus status = tree_->run(own);
         last_ = tree_->result();
         (near_start_ ? near_start_state_ : tree_state_) = last_.state;
@@ -83,12 +88,13 @@ class Search final : public PathSearch {
     PathQuery own = query_;
     own.resume_from = state != nullptr ? (near_start_ ? state->near_start : state->tree).get() : nullptr;
     if (query_.budget.max_steps > 0)  // what the first search has used is not there for the second
-      own.budget.max_steps = std::max<std::uint64_t>(1, query_.budget.max_steps - std::min(query_.budget.max_steps, before_));
+      own.budget.max_steps =
+          std::max<std::uint64_t>(1, query_.budget.max_steps - std::min(query_.budget.max_steps, before_));
     tree_.reset();
     own_query_.emplace(own);
     tree_.emplace(parameters_.tree(thin_ && !near_start_), *own_query_, context_,
-                  free_space::LedWalk::Effort{static_cast<std::size_t>(parameters_.cells), patience_, detours_}, overlap,
-                  cache_);
+                  free_space::LedWalk::Effort{static_cast<std::size_t>(parameters_.cells), patience_, detours_},
+                  overlap, cache_);
   }
 
   /// State checks of both searches.
@@ -108,6 +114,7 @@ class Search final : public PathSearch {
   std::optional<PathQuery> own_query_;
   std::optional<free_space::LedWalk> tree_;
   std::uint64_t before_ = 0;  // state checks of the first search
+  SearchStats first_stats_;
   PathResult last_ = PathResult::failure(Outcome::depth_limit);
   std::shared_ptr<const SearchState> tree_state_, near_start_state_;
   SearchStatus status_ = SearchStatus::paused;

@@ -21,7 +21,6 @@ struct Parameters {
   std::int64_t shortcuts = 100;
   std::int64_t max_refusals = 150;
   std::int64_t level_steps = 20'000;
-  std::int64_t max_steps = 0;
 
   static void describe(Schema<Parameters>& s) {
     s.add_choice<Motion>("motion", &Parameters::motion,
@@ -77,11 +76,6 @@ struct Parameters {
            .min = 1,
            .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
                   "level doubles them."});
-    s.add("max_steps", &Parameters::max_steps,
-          {.unit = "1",
-           .min = 0,
-           .max = 1e15,
-           .doc = "Simulated time steps after which a search is given up; 0: none."});
   }
 };
 

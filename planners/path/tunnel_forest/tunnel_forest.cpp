@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 
 #include "dismantle/path/ended_search.h"
@@ -18,9 +17,8 @@ class TunnelForest final : public PathPlanner {
     const Capabilities has = query.simulator.capabilities();
     if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
       return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
-    std::uint64_t most = path::doubled_per_level(parameters_.level_steps, query.budget.max_depth);
-    if (parameters_.max_steps > 0) most = std::min(most, static_cast<std::uint64_t>(parameters_.max_steps));
-    return std::make_unique<Growth>(parameters_, query, context, most);
+    return std::make_unique<Growth>(parameters_, query, context,
+                                    path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));
   }
 
  private:

@@ -35,7 +35,7 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
       history_(state_, params),
       report_(state_, oracle) {
   state_.add_listener(history_);
-  if (const Verifier* verifier = oracle.judge(); verifier != nullptr && params.straight) {
+  if (const PairChecker* verifier = oracle.pair_checker(); verifier != nullptr && params.straight) {
     straight_ = std::make_unique<StraightMotion>(state_, oracle, *verifier);
     state_.add_listener(*straight_);
     if (params.cages) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
@@ -56,7 +56,7 @@ void Disassembly::add(std::unique_ptr<Strategy> strategy) {
 
 /// What costs least and proves most comes first.
 void Disassembly::make_strategies() {
-  const Verifier* verifier = oracle_.judge();
+  const PairChecker* verifier = oracle_.pair_checker();
   if (straight_) {
     add(std::make_unique<TargetFirst>(state_, *straight_));
     add(std::make_unique<FreePart>(state_, *straight_));

@@ -15,10 +15,10 @@ constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
 
 }  // namespace
 
-Relations::Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+Relations::Relations(const PairChecker& pairs, const Directions& directions, const Orientations& orientations,
                      std::shared_ptr<Executor> executor)
     : directions_(directions),
-      judge_(judge),
+      pairs_(pairs),
       shadows_(directions.all.size()),
       turns_(orientations),
       executor_(std::move(executor)),
@@ -37,7 +37,7 @@ Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eige
   Shadow s;
   for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
   const Eigen::Matrix3d frame = frames_[direction] * turn;
-  for (const Vec3& v : judge_.hull(part)) {
+  for (const Vec3& v : pairs_.hull(part)) {
     const Vec3 p = frame * v;
     for (int k = 0; k < 3; ++k) s.lo[k] = std::min(s.lo[k], p[k]), s.hi[k] = std::max(s.hi[k], p[k]);
   }
@@ -52,7 +52,7 @@ const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, s
   }
   auto& list = shadows_[direction];
   if (list.empty())
-    for (PartId id = 0; id < judge_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
+    for (PartId id = 0; id < pairs_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
   return list[part];
 }
 
@@ -111,7 +111,7 @@ Relations::Ahead::Request Relations::request(const Pair& pair) const {
   end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
   const Pose still{Vec3::Zero(), turns_[p.turn_still]};
   return {key_of(pair), [this, p, still, way = std::vector<Pose>{begin, end}](const RunContext&) {
-            return !judge_.passes(p.moving, p.still, still, way);
+            return !pairs_.passes(p.moving, p.still, still, way);
           }};
 }
 

@@ -14,7 +14,7 @@
 #include "blocking/directions.h"
 #include "blocking/orientations.h"
 #include "dismantle/speculative_cache.h"
-#include "dismantle/verification/verifier.h"
+#include "dismantle/pair_checker.h"
 
 namespace dismantle::blocking {
 
@@ -34,7 +34,7 @@ using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, st
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
-  Relations(const Verifier& judge, const Directions& directions, const Orientations& orientations,
+  Relations(const PairChecker& pairs, const Directions& directions, const Orientations& orientations,
             std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
@@ -73,7 +73,7 @@ class Relations {
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
   const Directions& directions_;
-  const Verifier& judge_;
+  const PairChecker& pairs_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   const Orientations& turns_;

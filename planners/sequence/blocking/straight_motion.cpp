@@ -15,7 +15,7 @@ constexpr double kClear = 0.01;     // assembly units: further than that, so tha
 
 }  // namespace
 
-StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const Verifier& verifier)
+StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairChecker& verifier)
     : state_(state),
       oracle_(oracle),
       verifier_(verifier),
@@ -298,7 +298,7 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
   const double length =
-      verifier_.way_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
+      verifier_.separation_distance(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
       kClear;
   Path path(2);
   for (const auto& p : attempt.moving) {

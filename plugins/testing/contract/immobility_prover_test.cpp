@@ -9,6 +9,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/testing/held_shapes.h"
+#include "dismantle/part_memo.h"
 #include "small_assemblies.h"
 
 namespace dismantle::contract {

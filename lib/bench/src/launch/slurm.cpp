@@ -8,7 +8,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle::bench {
 namespace {

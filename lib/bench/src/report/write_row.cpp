@@ -7,7 +7,7 @@
 #include "dismantle/bench/report.h"
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 #include "store/compress.h"
 #include "store/sqlite.h"
 

@@ -14,7 +14,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/preparation/read_input.h"
-#include "dismantle/write_file.h"
+#include "dismantle/plan_io/write_file.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "trial/files.h"
 

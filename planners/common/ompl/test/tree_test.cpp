@@ -87,7 +87,7 @@ TEST(TreePlanner, ThreadsDoNotDisturbEachOther) {
     });
   for (auto& t : threads) t.join();
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_TRUE(same(alone[i].path()->poses(), together[i].path));
+    EXPECT_TRUE(same(alone[i].path()->poses(), together[i].path()->poses()));
     EXPECT_EQ(alone[i].stats, together[i].stats);
   }
 }
@@ -166,7 +166,8 @@ TEST(TreePlanner, MotionSpaces) {
 /// The nearest exit is the shortest way out of the box, and leads out.
 TEST(TreePlanner, ExitsLeadOut) {
   Rng rng(1);
-  const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().cast, {}, {}};
+  const fake::RuleChecker checker = fake::accept_all();
+  const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().cast, {}, 0.01, checker};
   RunContext context;
   CheckBudget budget(query, context);
   Scene scene(query, MotionSpace::rigid, 0.004, 0.01, budget);

@@ -13,6 +13,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/query.h"
+#include "dismantle/part_memo.h"
 
 namespace dismantle::immobility {
 namespace {

@@ -1,4 +1,5 @@
 #include "dismantle/immobility/query.h"
+#include "dismantle/part_memo.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -17,7 +17,7 @@ namespace dismantle::blocking {
 
 class RotationInPlace final : public Strategy {
  public:
-  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Verifier& verifier,
+  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const PairChecker& verifier,
                   const RotationParams& params)
       : state_(state), oracle_(oracle), straight_(straight), verifier_(verifier), params_(params) {}
   std::string_view name() const noexcept override { return "rotation_in_place"; }
@@ -50,7 +50,7 @@ class RotationInPlace final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion& straight_;
-  const Verifier& verifier_;
+  const PairChecker& verifier_;
   const RotationParams& params_;
   PerGroup<bool> done_;
   std::map<PartId, std::vector<TurningAxis>> axes_;

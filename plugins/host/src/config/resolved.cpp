@@ -115,7 +115,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
       writer.values(name, specs, config.sections.at(name));
     }
   };
-  writer.importers(import_params_of(config, registry));
+  writer.importers(import_params_of(config, registry), registry);
   fixed("assembly");
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};

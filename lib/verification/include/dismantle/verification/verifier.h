@@ -10,6 +10,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/executor.h"
 #include "dismantle/export.h"
+#include "dismantle/pair_checker.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/run_context.h"
 
@@ -63,11 +64,11 @@ struct MotionCheck {
 /// cut into intervals whose sagitta is covered by a margin.
 ///
 /// Built once per assembly; const functions are safe to call from several threads.
-class DISMANTLE_API Verifier {
+class DISMANTLE_API Verifier : public PairChecker {
  public:
   /// Idle threads of `executor`, which may be null, help to build it; it does not depend on that.
   Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
-  ~Verifier();
+  ~Verifier() override;
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
   /// relative to each other are not looked at.
@@ -78,17 +79,17 @@ class DISMANTLE_API Verifier {
                            const RunContext& context) const;
   /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
   /// means refused, or not proved with a small share of the effort.
-  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
+  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const override;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   /// Way along the unit vector `direction`, at most `most` (where it is taken for granted), after which `group` is so;
   /// found by halving that so many times.
-  double way_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
-                   const Eigen::Vector3d& direction, double most, int halvings) const;
+  double separation_distance(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
+                   const Eigen::Vector3d& direction, double most, int halvings) const override;
   const VerifyOptions& options() const;
-  std::size_t parts() const;
+  std::size_t parts() const override;
   /// Corners of the convex hull of a part, in its assembled frame.
-  const std::vector<Eigen::Vector3d>& hull(PartId part) const;
+  const std::vector<Eigen::Vector3d>& hull(PartId part) const override;
   /// The part's closed shells, as the checks see them.
   const std::vector<geometry::Solid>& solids(PartId part) const;
 

@@ -4,19 +4,22 @@
 #include <cstring>
 #include <exception>
 
+#include "dismantle/executor.h"
+#include "dismantle/pair_checker.h"
+#include "dismantle/part_memo.h"
 #include "dismantle/plugin.h"
 
 namespace dismantle::abi {
 
 inline constexpr std::uint64_t kBoundaryLayout =
-    layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, RawPart,
+    layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
                 Importer, Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
                 World, Prepared, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal,
                 PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
                 PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
                 ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
-                Rng, ProgressEvent, RunContext, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+                Rng, ProgressEvent, RunContext, Executor, PairChecker, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
                 PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 

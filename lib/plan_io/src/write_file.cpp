@@ -1,18 +1,18 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
 #include "dismantle/errors.h"
-#include "dismantle/write_file.h"
-#include "text.h"
+#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& file, int error) {
-  throw Error(text::join(file.string(), ": cannot write: ", std::generic_category().message(error)));
+  throw Error(fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(error)));
 }
 
 }  // namespace
@@ -20,7 +20,7 @@ namespace {
 void write_file(const std::filesystem::path& file, const std::string& content) {
   // The process id keeps two runs that write to one folder from sharing a temporary file.
   std::filesystem::path temporary = file;
-  temporary.replace_filename(text::join(".", file.filename().string(), ".", ::getpid(), ".tmp"));
+  temporary.replace_filename(fmt::format(".{}.{}.tmp", file.filename().string(), ::getpid()));
 
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd < 0) fail(file, errno);

@@ -96,6 +96,10 @@ class DISMANTLE_API Executor {
   std::shared_ptr<Pool> pool_;
 };
 
+/// For long work that may turn out not to be needed (RunContext::speculative): waits while a thread of the executor does
+/// something more urgent (Executor::PauseScope). Else nothing.
+DISMANTLE_API void pause_point(const RunContext& context);
+
 namespace detail {
 
 /// The indices of a loop, taken by one thread after the other until stop().

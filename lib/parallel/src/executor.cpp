@@ -208,4 +208,8 @@ void Executor::pause_point() {
   ++pool_->slots_taken;
 }
 
+void pause_point(const RunContext& context) {
+  if (context.speculative && context.executor) context.executor->pause_point();
+}
+
 }  // namespace dismantle

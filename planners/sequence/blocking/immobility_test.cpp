@@ -1,0 +1,129 @@
+// Parts that are proved to hold each other: they leave as one, and the plan says why.
+#include "blocking/take_apart.h"
+
+namespace dismantle {
+namespace {
+
+TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
+  Rng rng(3);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+    std::set<std::string> locked;
+    for (unsigned k = 0; k < 5; ++k) {
+      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
+      const std::string name = "block" + std::to_string(k);
+      parts.push_back({name, {box}});
+      if (rng.uniform() < 0.5) continue;
+      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
+      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
+      locked.insert(name);
+      locked.insert(name + "_twin");
+    }
+    Assembly assembly = fake::assembly_of(parts);
+    for (PartId a = 0; a < assembly.parts.size(); ++a)
+      for (PartId b = a + 1; b < assembly.parts.size(); ++b)
+        if (const double depth =
+                penetration_depth(*assembly.parts[a].mesh, Pose{}, *assembly.parts[b].mesh, Pose{}, 1e-4);
+            depth > 0)
+          assembly.overlaps.push_back({a, b, depth});
+    const RunResult r = take_apart(assembly);
+    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::infeasible);
+    std::set<std::string> told;
+    for (const auto& u : r.plan.unsolved) {
+      told.insert(u.part);
+      ASSERT_EQ(u.blocked_by.size(), 1u);
+      EXPECT_TRUE(u.message.find("locked") != std::string::npos) << u.message;
+      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
+    }
+    EXPECT_EQ(told, locked);
+    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
+  }
+}
+
+TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
+  using shapes::box;
+  Mesh tray = box({-3, -3, -2}, {3, 3, -1});
+  for (const double s : {-1.0, 1.0}) {
+    shapes::append(tray, box({std::min(2 * s, 3 * s), -3, -0.99}, {std::max(2 * s, 3 * s), 3, 2}));
+    shapes::append(tray, box({-1.99, std::min(2 * s, 3 * s), -0.99}, {1.99, std::max(2 * s, 3 * s), 2}));
+  }
+  for (const double opening : {0.3, 0.95}) {
+    const Assembly assembly =
+        shapes::assembly_of({tray, shapes::can(1, 0.6, 0.2, opening), shapes::tube(0.4, 0.8, -0.1, 0.1, 48),
+                             box({-0.5, -0.5, 0.7}, {0.5, 0.5, 1})});
+    RunOptions options;
+    options.constraints.base = {0};  // else it is the tray that leaves the two
+    RunResult r = take_apart(assembly, 1, options);
+    if (opening > 0.8) {
+      EXPECT_EQ(r.outcome, Outcome::solved) << "the ring fits through";
+      EXPECT_EQ(r.sequence_counts["held"], 0);
+      continue;
+    }
+    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.sequence_counts["held"], 1);
+    ASSERT_EQ(r.plan.disassembly.size(), 2u);
+    EXPECT_EQ(r.plan.disassembly[1].separates[0].size(), 2u);
+    ASSERT_EQ(r.plan.unsolved.size(), 2u);
+    for (const auto& u : r.plan.unsolved) {
+      EXPECT_NE(u.message.find("hold each other"), std::string::npos) << u.message;
+      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part1" ? "part2" : "part1"});
+    }
+    BlockingParams without;
+    without.cages = false;
+    RunContext context;
+    const RunResult searched =
+        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), options, context);
+    EXPECT_GT(searched.counts.attempts, r.counts.attempts) << "searched instead";
+  }
+}
+
+TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) {
+  for (const double rim : {0.1, -0.01}) {
+    const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, rim, 0.15};
+    const Assembly assembly =
+        shapes::assembly_of({held.around(), held.block(), shapes::box({-0.2, -0.2, 0.5}, {0.2, 0.2, 0.7})});
+    RunResult r = take_apart(assembly);
+    ASSERT_FALSE(r.plan.disassembly.empty()) << "the loose one leaves";
+    if (rim < 0) {
+      EXPECT_EQ(r.outcome, Outcome::solved);
+      continue;
+    }
+    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.sequence_counts["held"], 1);
+    EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
+    ASSERT_EQ(r.plan.unsolved.size(), 2u);
+    for (const auto& u : r.plan.unsolved) {
+      EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
+      EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part0" ? "part1" : "part0"});
+    }
+  }
+}
+
+TEST(Blocking, AfterASearchInVainAFlatPieceInAChamberIsProvedToBeHeld) {
+  const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
+  RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.plan.disassembly.size(), 1u) << "the loose one leaves";
+  EXPECT_EQ(r.sequence_counts["held"], 1);
+  EXPECT_GT(r.counts.attempts, 0);
+  ASSERT_EQ(r.plan.unsolved.size(), 2u);
+  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("flat disc"), std::string::npos) << u.message;
+}
+
+TEST(Blocking, AfterAllSearchesThreeOfWhichNoTwoWouldDoAreProvedToHoldEachOther) {
+  const shapes::Keyed keyed{.play = 0.003};
+  RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_TRUE(r.plan.disassembly.empty());
+  EXPECT_EQ(r.sequence_counts["held"], 2) << "three became one";
+  EXPECT_GT(r.counts.attempts, 0) << "the proof spares no search";
+  ASSERT_EQ(r.plan.unsolved.size(), 3u);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_NE(u.message.find("hold each other in place"), std::string::npos) << u.message;
+    EXPECT_EQ(u.blocked_by.size(), 2u);
+    EXPECT_EQ(std::count(u.blocked_by.begin(), u.blocked_by.end(), u.part), 0);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
