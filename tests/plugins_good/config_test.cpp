@@ -74,7 +74,7 @@ TEST_F(Config, ProversAreAListOfIdsOrOfMapsWithParameters) {
 TEST_F(Config, WhatIsWrongWithProvers) {
   EXPECT_EQ(errors_of("schema: 1\nimmobility: {provers: [rings, ring, bfs, ring, {max_rings: 1}, {type: ring}], prove: 1}\n"),
             R"(run.yaml:2:24: error: unknown immobility_prover 'rings'; did you mean 'ring'?
-run.yaml:2:37: error: 'bfs' is a path_planner, not a immobility_prover
+run.yaml:2:37: error: 'bfs' is a path_planner, not an immobility_prover
 run.yaml:2:42: error: immobility.provers lists 'ring' twice
 run.yaml:2:48: error: an entry of immobility.provers must be the id of an immobility prover, or a map with its type and parameters
 run.yaml:2:71: error: immobility.provers lists 'ring' twice

@@ -51,6 +51,8 @@ class Oracle final : public PathOracle {
 
   /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
   const AskedAbout* asked_about(const AttemptResult* result) const;
+  /// What proves that parts are left for good.
+  ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
   double proof_seconds() const { return proofs_.seconds(); }
   /// PathResult::stats by name, summed over the answers that were asked for, in the order of asking; interrupted ones
