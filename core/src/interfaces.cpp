@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "dismantle/importer.h"
-#include "dismantle/pair_checker.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/sequence_planner.h"
 #include "dismantle/simulator.h"
@@ -19,7 +18,7 @@ bool World::leaves(const State& state, std::size_t body) {
 }
 Prepared::~Prepared() = default;
 Simulator::~Simulator() = default;
-PairChecker::~PairChecker() = default;
+
 PathOracle::~PathOracle() = default;
 const Certificate* PathOracle::prove(const SeparationQuestion& /*question*/, const RunContext& /*context*/) {
   return nullptr;

@@ -10,20 +10,6 @@ namespace dismantle {
 VerifiedPath::VerifiedPath(Path poses, double max_penetration, std::optional<PartId> released, std::uint64_t checker)
     : poses_(std::move(poses)), max_penetration_(max_penetration), released_(released), checker_(checker) {}
 
-VerifiedPath VerifiedPath::reordered(const std::vector<std::size_t>& order) const {
-  std::vector<bool> seen(order.size(), false);
-  for (const std::size_t i : order) {
-    if (i >= order.size() || seen[i]) throw std::invalid_argument("not a permutation of the moving parts");
-    seen[i] = true;
-  }
-  VerifiedPath result = *this;
-  for (std::size_t k = 0; k < poses_.size(); ++k) {
-    if (poses_[k].size() != order.size()) throw std::invalid_argument("not a permutation of the moving parts");
-    for (std::size_t i = 0; i < order.size(); ++i) result.poses_[k][i] = poses_[k][order[i]];
-  }
-  return result;
-}
-
 PathChecker::PathChecker() {
   static std::atomic<std::uint64_t> last{0};
   id_ = ++last;

@@ -83,11 +83,14 @@ run.yaml:15:16: error: unknown path_planner '3'; there are: bfs, clash, duo, gui
 }
 
 TEST_F(Nested, CapabilitiesOfWhatIsHeldCount) {
-  EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: team, of: [t_rrt], last: t_rrt}\n"),
-            "");
-  EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: team, of: [t_rrt, bfs], last: t_rrt}\n"),
-            "run.yaml:3:22: error: path_planner 'bfs' needs a simulator with dynamics, which 'geometry_only' does not "
-            "have\n");
+  EXPECT_EQ(
+      errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: team, of: [t_rrt], last: t_rrt}\n"),
+      "");
+  EXPECT_EQ(
+      errors_of(
+          "schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: team, of: [t_rrt, bfs], last: t_rrt}\n"),
+      "run.yaml:3:22: error: path_planner 'bfs' needs a simulator with dynamics, which 'geometry_only' does not "
+      "have\n");
 }
 
 TEST_F(Nested, DepthIsLimited) {
@@ -104,8 +107,8 @@ TEST_F(Nested, LayersReachIntoLists) {
   write("base.yaml",
         "schema: 1\npath_planner: {type: team, of: [{type: t_rrt, goal_bias: 0.2, after: 5}, bfs, bfs]}\n");
   write("top.yaml", "schema: 1\nextends: base.yaml\npath_planner: {of: {1: {motion: rotation}}}\n");
-  const RunConfig config = load("top.yaml", {"path_planner.of.t_rrt.range=0.25", "path_planner.of.2.type=guided",
-                                             "path_planner.of.1.after=9"});
+  const RunConfig config = load(
+      "top.yaml", {"path_planner.of.t_rrt.range=0.25", "path_planner.of.2.type=guided", "path_planner.of.1.after=9"});
   const auto& items = of(config.path_planner);
   ASSERT_EQ(items.size(), 3u);
   EXPECT_EQ(number(items[0], "goal_bias"), 0.2);
@@ -116,7 +119,9 @@ TEST_F(Nested, LayersReachIntoLists) {
   EXPECT_EQ(items[2].type, "guided");
   EXPECT_EQ(config.origins.at("path_planner.of.0.range"), "<--set>:1");
   EXPECT_EQ(config.origins.at("path_planner.of.1.motion"), "top.yaml:3");
-  EXPECT_EQ(errors({"top.yaml", {"path_planner.of.3.after=1", "path_planner.of.bfs.after=1", "path_planner.of.trrt.after=1"}, {}}),
+  EXPECT_EQ(errors({"top.yaml",
+                    {"path_planner.of.3.after=1", "path_planner.of.bfs.after=1", "path_planner.of.trrt.after=1"},
+                    {}}),
             "<--set>:1: error: path_planner.of has no item '3'; items are 0 (t_rrt), 1 (bfs), 2 (bfs)\n"
             "<--set>:2: error: path_planner.of has 2 items of type 'bfs': name one by its index, from 0\n"
             "<--set>:3: error: path_planner.of has no item 'trrt'; did you mean 't_rrt'?\n");
@@ -125,13 +130,15 @@ TEST_F(Nested, LayersReachIntoLists) {
 // Law: an item, or a plugin held alone, whose type changes starts afresh.
 TEST_F(Nested, ChangedTypeDropsTheParametersOfTheOther) {
   write("base.yaml",
-        "schema: 1\npath_planner: {type: team, of: [{type: bfs, motion: rotation}], last: {type: bfs, motion: rotation}}\n");
+        "schema: 1\npath_planner: {type: team, of: [{type: bfs, motion: rotation}], last: {type: bfs, motion: "
+        "rotation}}\n");
   const RunConfig same = load("base.yaml", {"path_planner.of.0.type=bfs", "path_planner.last.type=bfs"});
   EXPECT_EQ(std::get<std::string>(of(same.path_planner)[0].parameters.at("motion")), "rotation");
   const RunConfig other = load("base.yaml", {"path_planner.of.0.type=guided", "path_planner.last.type=guided"});
   EXPECT_EQ(std::get<std::string>(of(other.path_planner)[0].parameters.at("motion")), "auto");
-  EXPECT_EQ(std::get<std::string>(std::get<PluginChoice>(other.path_planner.parameters.at("last")).parameters.at("motion")),
-            "auto");
+  EXPECT_EQ(
+      std::get<std::string>(std::get<PluginChoice>(other.path_planner.parameters.at("last")).parameters.at("motion")),
+      "auto");
 }
 
 TEST_F(Nested, PresetsAreTypesWithOtherDefaults) {
@@ -146,8 +153,9 @@ TEST_F(Nested, PresetsAreTypesWithOtherDefaults) {
   EXPECT_EQ(plain.origins.at("path_planner.of.1.goal_bias"), "preset duo");
   EXPECT_EQ(plain.origins.at("path_planner.type"), "run.yaml:2");
 
-  const RunConfig set = load_text("schema: 1\npath_planner: {type: duo}\n",
-                                  {"path_planner.of.1.range=0.125", "path_planner.of.bfs.after=3", "path_planner.fair=false"});
+  const RunConfig set =
+      load_text("schema: 1\npath_planner: {type: duo}\n",
+                {"path_planner.of.1.range=0.125", "path_planner.of.bfs.after=3", "path_planner.fair=false"});
   EXPECT_EQ(number(of(set.path_planner)[1], "goal_bias"), 0.25);
   EXPECT_EQ(number(of(set.path_planner)[1], "range"), 0.125);
   EXPECT_EQ(after(of(set.path_planner)[0]), 3);
@@ -157,8 +165,9 @@ TEST_F(Nested, PresetsAreTypesWithOtherDefaults) {
 
   const RunConfig replaced = load_text("schema: 1\npath_planner: {type: duo, of: [guided]}\n");
   ASSERT_EQ(of(replaced.path_planner).size(), 1u);
-  EXPECT_EQ(errors_of("schema: 1\npath_planner: {type: duo, motion: rotation}\n"),
-            "run.yaml:2:27: error: unknown key 'motion' in path_planner (duo); it belongs to path_planner.of.0 (bfs)\n");
+  EXPECT_EQ(
+      errors_of("schema: 1\npath_planner: {type: duo, motion: rotation}\n"),
+      "run.yaml:2:27: error: unknown key 'motion' in path_planner (duo); it belongs to path_planner.of.0 (bfs)\n");
   EXPECT_NE(registry_.create<PathPlanner>("duo"), nullptr);
   EXPECT_NE(registry_.create<PathPlanner>("solo"), nullptr);
   EXPECT_THROW(registry_.create<PathPlanner>("team"), PluginError);  // of whom?
@@ -182,9 +191,12 @@ TEST_F(Nested, PresetsThatCannotBeUsed) {
       if (p.types == std::vector<std::string>{id}) return p.message;
     return std::string();
   };
-  EXPECT_NE(problem("acme.a").find("holds itself: acme.a -> acme.b -> acme.c -> acme.a"), std::string::npos) << problem("acme.a");
-  EXPECT_NE(problem("acme.typo").find("acme.typo.yaml:3:27: error: unknown key 'motoin'"), std::string::npos) << problem("acme.typo");
-  EXPECT_NE(problem("acme.extra").find("acme.extra.yaml:4:1: error: unknown key 'run' in a preset"), std::string::npos) << problem("acme.extra");
+  EXPECT_NE(problem("acme.a").find("holds itself: acme.a -> acme.b -> acme.c -> acme.a"), std::string::npos)
+      << problem("acme.a");
+  EXPECT_NE(problem("acme.typo").find("acme.typo.yaml:3:27: error: unknown key 'motoin'"), std::string::npos)
+      << problem("acme.typo");
+  EXPECT_NE(problem("acme.extra").find("acme.extra.yaml:4:1: error: unknown key 'run' in a preset"), std::string::npos)
+      << problem("acme.extra");
   EXPECT_NE(problem("nodot").find("must carry a dot"), std::string::npos) << problem("nodot");
   EXPECT_EQ(problem("acme.good"), "");
   EXPECT_NE(registry_.lookup("acme.good"), nullptr);

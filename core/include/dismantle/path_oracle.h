@@ -15,26 +15,17 @@
 
 namespace dismantle {
 
-class PairChecker;
-struct AttemptResult;
-
-/// "Can these parts leave together while those stay, with this effort?" All other parts are out.
+/// "Can these parts leave while those are where they are, with this effort?" All other parts are gone.
 struct Attempt {
   std::vector<PlacedPart> moving;
   std::vector<PlacedPart> still;
   unsigned max_depth = 0;  ///< 0 = no limit
-  /// For propose() only: the parts are shifted and stay in their group. The way has to be valid, not to lead out.
-  bool part_way = false;
-  /// Not empty: the moving parts move at once, each in its own way, until one of these (they are among `moving`) is
-  /// out: apart from all others, moving and still. The others that moved stay in their group, where the way ends.
-  std::vector<PartId> leaving{};
-  /// A later attempt may go on from this one: where it is in vain, what it has reached is kept in memory.
-  bool keep_reached = false;
-  /// For attempt() and prefetch(): null, or an answer of the same oracle to an attempt in vain of the same parts from
-  /// the same places, in which these parts stood still where they are now, and perhaps others that are out by now. The
-  /// search goes on from the states that were reached then, if they were kept and the path planner can. Part of the
-  /// question: the same attempt after another one, or after none, is another question.
-  const AttemptResult* after = nullptr;
+  Goal goal{};
+  /// For attempt() and prefetch(): the search may resume the last one that was asked for with the same moving parts at
+  /// the same poses, the same goal, and at least these fixed parts at these poses; and a later one may resume this. That
+  /// saves time, and the answer then depends on which attempts were asked for before, in their order. False: it depends
+  /// on nothing but this question.
+  bool resume = false;
 };
 
 /// What the user asks of the order. Parts by id, each list sorted by nothing in particular.
@@ -46,12 +37,15 @@ struct Constraints {
   bool empty() const { return base.empty() && together.empty() && before.empty() && !target; }
 };
 
-/// An answer. `path` has passed the verifier.
+/// An answer, with its question. `path` has passed the verifier.
 struct AttemptResult {
+  /// Moving and fixed parts by ascending id, and so are the columns of the path and of the best pose, however the
+  /// question listed them. An answer from memory may have been found with another max_depth.
+  Attempt attempt;
   PathResult result;
   double max_penetration = 0;  ///< certified upper bound over the path, above the initial overlap; assembly units
   double seconds = 0;
-  std::optional<PartId> out{};  ///< success of an attempt with Attempt::leaving: who of these is out
+  std::optional<PartId> out{};  ///< success of an attempt with Goal::any_of: the one of these that is out
   /// Why nothing was found, if that is proved; with `infeasible` always. Lives as long as the oracle.
   const Certificate* certificate = nullptr;
   double proof_seconds = 0;  ///< spent on proofs; not part of `seconds`
@@ -70,23 +64,26 @@ class DISMANTLE_API PathOracle {
  public:
   virtual ~PathOracle();
   /// Reference stays valid for the life of the oracle.
-  /// @throws std::invalid_argument when the attempt makes no sense: nobody moves, a part is unknown or listed twice,
-  /// someone leaves who does not move, or Attempt::after is not what it has to be.
+  /// @throws std::invalid_argument when the attempt makes no sense: no part moves, a part is unknown or listed twice, or
+  /// one of the goal does not move.
   virtual const AttemptResult& attempt(const Attempt& attempt, RunContext& context) = 0;
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;
-  /// Judges a way that the asker has found itself, in place of a search: `way` as PathResult::path, its first instant
-  /// where the attempt has the moving parts. `solved`: valid, and (unless part_way) it ends apart from what stays,
-  /// with `leaving` one of these;
-  /// else `exhausted`, with the part that is in the way and what is wrong.
-  virtual const AttemptResult& propose(const Attempt& attempt, const Path& way, RunContext& context) = 0;
+  /// Checks a path that the caller has found, in place of a search: `path` as PathResult::path, columns as
+  /// attempt.moving, which is in ascending order; it begins where the attempt has the moving parts. `solved`: valid, and the goal is
+  /// reached at its end; else `exhausted`, with the part that is in the way and what is wrong.
+  virtual const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext& context) = 0;
   virtual OracleCounts counts() const = 0;
   /// Can these parts, as they are assembled, be separated at all? nullptr: not proved, by the provers of that effort.
   /// Answers are remembered, live as long as the oracle, and depend on nothing but the question; may be called from
   /// several threads. What is proved of parts holds wherever they have been moved since.
   virtual const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
-  /// Facts about pairs of parts. nullptr: an oracle without geometry.
-  virtual const PairChecker* pair_checker() const { return nullptr; }
+  /// Penetration above the initial overlap of a pair that the verifier tolerates (verify.max_penetration); assembly
+  /// units. 0: an oracle without geometry, for tests.
+  virtual double tolerance() const { return 0; }
+  /// What is derived from the parts, shared with provers; null: none is shared. "solids": std::vector<geometry::Solid>;
+  /// "hull": std::vector<Eigen::Vector3d>, corners of the convex hull.
+  virtual PartMemo* memo() { return nullptr; }
   /// Only planners that declare so (SequencePlanner::keeps_constraints) are run when there are any.
   virtual const Constraints& constraints() const;
 };

@@ -37,9 +37,6 @@ class DISMANTLE_API VerifiedPath {
   double max_penetration() const { return max_penetration_; }
   /// Where a Goal names parts: the one of them that is apart from all others at the end.
   const std::optional<PartId>& released() const { return released_; }
-  /// The same motion with the moving parts listed in another order: part i of the result is part order[i] of this.
-  /// @throws std::invalid_argument when `order` is not a permutation of the moving parts.
-  VerifiedPath reordered(const std::vector<std::size_t>& order) const;
 
  private:
   friend class PathChecker;
@@ -95,6 +92,10 @@ struct Goal {
   /// parts move independently and simultaneously until one of these (they are among the moving ones) is apart from all
   /// others, moving and fixed (World::leaves).
   std::vector<PartId> any_of{};
+  /// Intermediate placement, of proposed paths only (no query has it): the parts are moved and stay in their group. The
+  /// path has to be valid, and to separate nothing. Not together with any_of.
+  bool placement = false;
+  bool operator==(const Goal&) const = default;
 };
 
 /// One question to a path planner. All references outlive the search.

@@ -10,12 +10,11 @@
 
 namespace dismantle {
 
-/// One step: a group of parts leaves the group that it was in, or (part_way) is shifted and stays in it. After an
-/// attempt with Attempt::leaving one part leaves (AttemptResult::out), the others that moved stay in the group.
+/// One step, by the goal of its attempt: a group of parts leaves the group that it was in; or it is moved and stays in
+/// it (Goal::placement); or one part leaves (AttemptResult::out), and the others that moved stay (Goal::any_of).
 struct Removal {
-  std::vector<PartId> parts;  ///< that moved, as Path columns
+  std::vector<PartId> parts;  ///< that moved, ascending, as Path columns
   const AttemptResult* attempt = nullptr;
-  bool part_way = false;  ///< as in the Attempt that was proposed
 };
 
 struct Unsolved {

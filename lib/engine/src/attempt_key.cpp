@@ -47,6 +47,13 @@ void append(std::string& bytes, const std::vector<PlacedPart>& parts) {
   }
 }
 
+void append(std::string& bytes, const Goal& goal) {
+  if (goal.placement) bytes.push_back('p');
+  if (goal.any_of.empty()) return;
+  bytes.push_back('l');
+  for (const PartId id : goal.any_of) append(bytes, id);
+}
+
 CastDigest sha256(const std::string& bytes) {
   CastDigest digest{};
   unsigned length = 0;
@@ -64,13 +71,12 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   std::vector<bool> seen(part_count, false);
   canonicalise(result.moving, seen);
   canonicalise(result.still, seen);
-  if (result.leaving.empty()) return result;
-  if (result.part_way || result.moving.size() < 2)
-    throw std::invalid_argument(
-        "attempt in which a part leaves those that move with it, but none does or nobody leaves");
-  std::sort(result.leaving.begin(), result.leaving.end());
-  result.leaving.erase(std::unique(result.leaving.begin(), result.leaving.end()), result.leaving.end());
-  for (const PartId id : result.leaving)
+  if (result.goal.any_of.empty()) return result;
+  if (result.goal.placement || result.moving.size() < 2)
+    throw std::invalid_argument("attempt in which one of several parts is to leave, but only one moves or all stay");
+  std::sort(result.goal.any_of.begin(), result.goal.any_of.end());
+  result.goal.any_of.erase(std::unique(result.goal.any_of.begin(), result.goal.any_of.end()), result.goal.any_of.end());
+  for (const PartId id : result.goal.any_of)
     if (std::none_of(result.moving.begin(), result.moving.end(), [id](const PlacedPart& p) { return p.part == id; }))
       throw std::invalid_argument(fmt::format("attempt in which part {} is to leave, but does not move", id));
   return result;
@@ -81,11 +87,14 @@ CastDigest digest_of(const Attempt& canonical_attempt) {
   bytes.reserve(64 * (canonical_attempt.moving.size() + canonical_attempt.still.size()) + 16);
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.still);
-  if (canonical_attempt.part_way) bytes.push_back('p');
-  if (!canonical_attempt.leaving.empty()) {
-    bytes.push_back('l');
-    for (const PartId id : canonical_attempt.leaving) append(bytes, id);
-  }
+  append(bytes, canonical_attempt.goal);
+  return sha256(bytes);
+}
+
+CastDigest digest_of_moving(const Attempt& canonical_attempt) {
+  std::string bytes;
+  append(bytes, canonical_attempt.moving);
+  append(bytes, canonical_attempt.goal);
   return sha256(bytes);
 }
 
@@ -101,7 +110,7 @@ bool may_follow(const Attempt& now, const Attempt& earlier) {
     return a.part == b.part && a.pose.t == b.pose.t && a.pose.q.coeffs() == b.pose.q.coeffs();
   };
   const auto before = [](const PlacedPart& p, PartId id) { return p.part < id; };
-  return now.leaving == earlier.leaving && now.part_way == earlier.part_way &&
+  return now.goal == earlier.goal &&
          std::equal(now.moving.begin(), now.moving.end(), earlier.moving.begin(), earlier.moving.end(), same) &&
          std::all_of(now.still.begin(), now.still.end(), [&](const PlacedPart& s) {
            const auto then = std::lower_bound(earlier.still.begin(), earlier.still.end(), s.part, before);

@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// SHA-256 of who moves and who stands still, and where, and whether part-way, and who is leaving; without the depth.
+/// SHA-256 of who moves and who stands still, and where, and the goal; without the depth.
 using CastDigest = std::array<unsigned char, 32>;
 
 struct AttemptKey {
@@ -21,10 +21,10 @@ struct AttemptKey {
   auto operator<=>(const AttemptKey&) const = default;
 };
 
-/// Moving and still parts by ascending id, leaving ones too, quaternions with the sign that makes them unique, no
+/// Moving and still parts by ascending id, those of the goal too, quaternions with the sign that makes them unique, no
 /// negative zeros.
 /// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, a pose is not
-/// finite, or someone is leaving who does not move or moves alone.
+/// finite, or one of the goal does not move or moves alone.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
 /// Digest of a canonical cast.
@@ -32,6 +32,9 @@ CastDigest digest_of(const Attempt& canonical_attempt);
 
 /// Digest of a question as a whole, for those that go on where it ended.
 CastDigest digest_of(const AttemptKey& key);
+
+/// Digest of what two attempts have in common of which one may resume the other: the moving parts and the goal.
+CastDigest digest_of_moving(const Attempt& canonical_attempt);
 
 /// May the search for `now` go on from what the one for `earlier` has reached? Both canonical: the same parts move from
 /// the same places, to the same end, and whoever stands still now stood there then.

@@ -35,7 +35,6 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
   if (!finite || result.best_pose.size() != attempt.moving.size()) result.best_pose.clear();
 }
 
-
 }  // namespace
 
 /// The answers of the verifier for one attempt.
@@ -57,13 +56,13 @@ class AttemptRunner::Checker final : public PathChecker {
       return answer;
     }
     std::optional<PartId> released;
-    if (!attempt_.part_way) {
+    if (!attempt_.goal.placement) {
       std::vector<PlacedPart> group = attempt_.moving;
       for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = written.path.back()[i];
       released = runner_.first_out(attempt_, group);
-      if (!attempt_.leaving.empty() && !released)
+      if (!attempt_.goal.any_of.empty() && !released)
         answer.reason = "the path ends before any part that is to leave is apart from all others";
-      else if (attempt_.leaving.empty() && !runner_.verifier_.apart(group, attempt_.still))
+      else if (attempt_.goal.any_of.empty() && !runner_.verifier_.apart(group, attempt_.still))
         answer.reason = "the path ends before the convex hulls are apart";
       if (!answer.reason.empty()) return answer;
     }
@@ -74,7 +73,7 @@ class AttemptRunner::Checker final : public PathChecker {
   /// No motion at all, where the attempt is over before it begins; nothing where it is not.
   std::optional<VerifiedPath> rest() const {
     const std::optional<PartId> released = runner_.first_out(attempt_, attempt_.moving);
-    const bool is_apart = attempt_.leaving.empty()
+    const bool is_apart = attempt_.goal.any_of.empty()
                               ? attempt_.still.empty() || runner_.verifier_.apart(attempt_.moving, attempt_.still)
                               : released.has_value();
     if (!is_apart) return std::nullopt;
@@ -117,7 +116,7 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
 /// The first of those that are leaving whose hull is apart from that of all others, the moving ones where `group` has
 /// them.
 std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
-  for (const PartId id : attempt.leaving) {
+  for (const PartId id : attempt.goal.any_of) {
     std::vector<PlacedPart> alone, others = attempt.still;
     for (const PlacedPart& p : group) (p.part == id ? alone : others).push_back(p);
     if (verifier_.apart(alone, others)) return id;
@@ -175,12 +174,12 @@ ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path
   return computed;
 }
 
-PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, RunContext& context,
-                               const Checker& checker) const {
+PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed,
+                               RunContext& context, const Checker& checker) const {
   const PathPlannerTraits traits = planner.traits();
   const std::string missing = lacking(traits.needs, attempt.moving.size());
   if (!missing.empty()) return PathResult::failure(Outcome::unsupported, missing);
-  if (!attempt.leaving.empty() && !traits.simultaneous_motion)
+  if (!attempt.goal.any_of.empty() && !traits.simultaneous_motion)
     return PathResult::failure(
         Outcome::unsupported,
         fmt::format("path planner '{}' does not move several parts independently at the same time", planner_id_));
@@ -191,13 +190,13 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, Run
                         {attempt.max_depth, path_steps_, path_timeout_},
                         verifier_.options().max_penetration,
                         checker,
-                        {attempt.leaving},
-                        attempt.after != nullptr ? attempt.after->result.state.get() : nullptr};
+                        attempt.goal,
+                        resumed != nullptr ? resumed->result.state.get() : nullptr};
   return plan_path(planner, query, context);
 }
 
 ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                                   const RunContext& context) const {
+                                   const AttemptResult* resumed, const RunContext& context) const {
   const Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   AttemptResult& answer = computed.answer;
@@ -208,10 +207,10 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   // A path that was found just in time is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
   try {
-    if (attempt.still.empty() && attempt.leaving.empty()) {
+    if (attempt.still.empty() && attempt.goal.any_of.empty()) {
       result.start_is_goal();  // nothing left to be apart from
     } else {
-      result = plan(planner, attempt, own, checker);
+      result = plan(planner, attempt, resumed, own, checker);
     }
     if (result.outcome() == Outcome::start_is_goal) {
       if (std::optional<VerifiedPath> rest = checker.rest()) {

@@ -24,8 +24,9 @@ class AttemptRunner {
                 const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
-  /// the attempt is added here. Throws nothing: what a plugin throws becomes Outcome::crashed.
-  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
+  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. Throws nothing:
+  /// what a plugin throws becomes Outcome::crashed.
+  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const AttemptResult* resumed,
                       const RunContext& context) const;
 
   /// Verifies a way in place of a search. `attempt` and the columns of `way` in the same order.
@@ -35,7 +36,8 @@ class AttemptRunner {
 
  private:
   class Checker;
-  PathResult plan(PathPlanner& planner, const Attempt& attempt, RunContext& context, const Checker& checker) const;
+  PathResult plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed, RunContext& context,
+                  const Checker& checker) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;

@@ -64,8 +64,8 @@ void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
 
 /// A search, unless it is proved before that it finds nothing; where it found nothing, perhaps a proof after it. Time
 /// limits of the attempt begin with the search.
-ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                            const RunContext& context) {
+ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, const RunContext& context) {
+  const Attempt& attempt = question.attempt;
   Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   computed.answer.certificate = proofs_.before(attempt, context);
@@ -73,7 +73,7 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const 
   if (computed.answer.certificate != nullptr) {
     computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
   } else {
-    computed = runner_.run(planner, attempt, key, context);
+    computed = runner_.run(planner, attempt, question.key, question.resumed, context);
     begin = Clock::now();
     if (!computed.interrupted) computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
     proof_seconds += seconds_since(begin);
@@ -84,7 +84,8 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const 
       result.state = nullptr;
     }
     // A proof that was cut short leaves open what a longer one says.
-    if (computed.answer.certificate == nullptr && context.should_stop() && !is_success(computed.answer.result.outcome()))
+    if (computed.answer.certificate == nullptr && context.should_stop() &&
+        !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
   }
   computed.answer.proof_seconds = proof_seconds;
@@ -92,7 +93,7 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Attempt& attempt, const 
 }
 
 /// On any thread. What is computed ahead has no log, and brings its lines along.
-LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, RunContext context) {
+LoggedAttempt Oracle::compute(const Question& question, RunContext context) {
   LoggedAttempt result;
   context.threads = 1;
   if (!context.on_log)
@@ -109,13 +110,12 @@ LoggedAttempt Oracle::compute(const Attempt& attempt, const AttemptKey& key, Run
     problem = "it threw something that is not a std::exception";
   }
   if (planner) {
-    result.computed = run(*planner, attempt, key, context);
+    result.computed = run(*planner, question, context);
     give_back(std::move(planner));
     return result;
   }
   PathResult& crashed = result.computed.answer.result;
-  crashed.fail(Outcome::crashed,
-               fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem));
+  crashed.fail(Outcome::crashed, fmt::format("path planner '{}' could not be made: {}", runner_.planner_id(), problem));
   context.log(LogLevel::error, crashed.message);
   return result;
 }
@@ -131,87 +131,64 @@ const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   return answer;
 }
 
-/// `question.after` is dropped where nothing was kept to go on from: then it begins anew, and is the same question as
-/// one that was to begin anew.
-AttemptKey Oracle::key_of(Attempt& question) const {
-  AttemptKey key{digest_of(question), question.max_depth, {}};
-  const AttemptResult* const after = std::exchange(question.after, nullptr);
-  if (after == nullptr) return key;
-  const AskedAbout* asked = asked_about(after);
-  if (asked == nullptr || is_success(after->result.outcome()))
-    throw std::invalid_argument("attempt that is to go on from what is not an attempt in vain of this oracle");
-  if (!asked->resumable) return key;
-  if (!may_follow(question, *asked->resumable))
-    throw std::invalid_argument("attempt that is to go on from one of other parts, or at other places");
-  question.after = after;
-  key.after = digest_of(asked->key);
-  return key;
+/// The last answer that was asked for and that a search for `attempt` may resume.
+const AttemptResult* Oracle::last_resumable(const Attempt& attempt) const {
+  const auto known = unsuccessful_.find(digest_of_moving(attempt));
+  if (known == unsuccessful_.end()) return nullptr;
+  const auto last = std::find_if(known->second.rbegin(), known->second.rend(),
+                                 [&](const AttemptResult* earlier) { return may_follow(attempt, earlier->attempt); });
+  return last == known->second.rend() ? nullptr : *last;
 }
 
-const AttemptResult& Oracle::answer(const Attempt& attempt, const AttemptKey& key, RunContext& context) {
-  if (const AttemptResult* known = remembered(key)) {
+/// A search that resumes another one is another question than one that begins anew. The same attempt asked for again
+/// has the same answer.
+Oracle::Question Oracle::question_of(const Attempt& attempt) const {
+  Question question{canonical(attempt, part_count_), {}};
+  question.key = {digest_of(question.attempt), attempt.max_depth, {}};
+  if (!attempt.resume) return question;
+  const AttemptResult* last = last_resumable(question.attempt);
+  if (last == nullptr) return question;
+  const AttemptKey& key = keys_.at(last);
+  if (key.cast == question.key.cast && key.max_depth == question.key.max_depth) {
+    question.key = key;
+  } else if (last->result.state) {
+    question.resumed = last;
+    question.key.after = digest_of(key);
+  }
+  return question;
+}
+
+const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context) {
+  const std::lock_guard lock(ask_mutex_);
+  Question question = question_of(attempt);
+  if (const AttemptResult* known = remembered(question.key)) {
     ++memoised_;
     return *known;
   }
   if (context.should_stop()) {
     AttemptResult stopped;
+    stopped.attempt = std::move(question.attempt);
     stopped.result.fail(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout,
                         "not begun: the run was told to stop");
     return keep(std::move(stopped));
   }
-  const auto compute_it = [&](const RunContext& c) { return compute(attempt, key, c); };
-  LoggedAttempt logged = computed_ahead_.get(key, compute_it, context);
+  const auto compute_it = [&](const RunContext& c) { return compute(question, c); };
+  LoggedAttempt logged = computed_ahead_.get(question.key, compute_it, context);
   for (const auto& line : logged.log) context.log(line.level, line.text);
   ComputedAttempt& computed = logged.computed;
-  if (!attempt.keep_reached) computed.answer.result.state = nullptr;
+  if (!attempt.resume) computed.answer.result.state = nullptr;
+  computed.answer.attempt = std::move(question.attempt);
   const AttemptResult& result = keep(std::move(computed.answer));
   for (const auto& [name, count] : result.result.stats.by_name()) planner_counts_[name] += count;
   if (computed.interrupted) return result;  // says nothing about the question: not remembered
   ++planned_;
-  answers_.emplace(key, &result);
+  answers_.emplace(question.key, &result);
+  keys_.emplace(&result, question.key);
   const Outcome outcome = result.result.outcome();
-  if (holds_for_all(outcome) || holds_for_deeper(outcome)) finals_.try_emplace(key.cast, Final{key.max_depth, &result});
-  asked_about_.emplace(&result, AskedAbout{key, ids_of(attempt.moving), attempt.leaving,
-                                           result.result.state ? std::make_shared<Attempt>(attempt) : nullptr});
+  if (holds_for_all(outcome) || holds_for_deeper(outcome))
+    finals_.try_emplace(question.key.cast, Final{question.key.max_depth, &result});
+  if (attempt.resume && !is_success(outcome)) unsuccessful_[digest_of_moving(result.attempt)].push_back(&result);
   return result;
-}
-
-const AttemptResult& Oracle::reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
-                                       const std::vector<PartId>& order) {
-  const auto known = reordered_.find({&result, order});
-  if (known != reordered_.end()) return *known->second;
-  std::vector<std::size_t> column;
-  for (const PartId id : order)
-    column.push_back(static_cast<std::size_t>(std::lower_bound(canonical_order.begin(), canonical_order.end(), id) -
-                                              canonical_order.begin()));
-  const auto permute = [&](std::vector<Pose>& poses) {
-    const std::vector<Pose> old = poses;
-    for (std::size_t i = 0; i < column.size(); ++i) poses[i] = old[column[i]];
-  };
-  AttemptResult copy = result;
-  if (result.result.outcome() == Outcome::start_is_goal)
-    copy.result.start_is_goal(result.result.path()->reordered(column));
-  else if (result.result.path())
-    copy.result.solve(result.result.path()->reordered(column), result.result.depth);
-  if (!copy.result.best_pose.empty()) permute(copy.result.best_pose);
-  const AttemptResult& kept = keep(std::move(copy));
-  reordered_.emplace(std::pair{&result, order}, &kept);
-  if (const AskedAbout* asked = asked_about(&result)) {
-    AskedAbout same = *asked;
-    same.moving = order;
-    asked_about_.emplace(&kept, std::move(same));
-  }
-  return kept;
-}
-
-const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context) {
-  Attempt question = canonical(attempt, part_count_);
-  const std::vector<PartId> order = ids_of(attempt.moving);
-  const std::vector<PartId> canonical_order = ids_of(question.moving);
-  const std::lock_guard lock(ask_mutex_);
-  const AttemptKey key = key_of(question);
-  const AttemptResult& result = answer(question, key, context);
-  return order == canonical_order ? result : reordered(result, canonical_order, order);
 }
 
 void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
@@ -219,32 +196,35 @@ void Oracle::prefetch(std::span<const Attempt> attempts, RunContext& context) {
   std::deque<SpeculativeCache<AttemptKey, LoggedAttempt>::Sequence> wanted;
   const std::lock_guard lock(ask_mutex_);
   for (const Attempt& attempt : attempts) {
-    Attempt question = canonical(attempt, part_count_);
-    const AttemptKey key = key_of(question);
-    if (remembered(key)) continue;
-    const auto compute_it = [this, question = std::move(question), key](const RunContext& c) {
-      return compute(question, key, c);
+    Question question = question_of(attempt);
+    if (remembered(question.key)) continue;
+    const AttemptKey key = question.key;
+    const auto compute_it = [this, question = std::move(question)](const RunContext& c) {
+      return compute(question, c);
     };
     wanted.push_back({{key, compute_it}});
   }
   computed_ahead_.prefetch(std::move(wanted), context);
 }
 
-const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& way, RunContext& context) {
-  const CastDigest cast = digest_of(canonical(attempt, part_count_));
+const AttemptResult& Oracle::propose(const Attempt& attempt, const Path& path, RunContext& context) {
+  Attempt question = canonical(attempt, part_count_);
+  if (ids_of(question.moving) != ids_of(attempt.moving))
+    throw std::invalid_argument("a proposed path whose parts are not in ascending order");
   const std::lock_guard lock(ask_mutex_);
   ComputedAttempt computed;
-  if (const Certificate* proof = attempt.part_way ? nullptr : proofs_.locked(attempt)) {
+  if (const Certificate* proof = attempt.goal.placement ? nullptr : proofs_.locked(attempt)) {
     computed.answer.certificate = proof;
     computed.answer.result = infeasible_by(*proof, attempt);
   } else {
-    computed = runner_.check_proposal(attempt, way, context);
+    computed = runner_.check_proposal(attempt, path, context);
   }
+  computed.answer.attempt = std::move(question);
   const AttemptResult& result = keep(std::move(computed.answer));
   if (computed.interrupted) return result;
   ++proposed_;
   if (is_success(result.result.outcome()))
-    asked_about_.emplace(&result, AskedAbout{{.cast = cast}, ids_of(attempt.moving), attempt.leaving});
+    keys_.emplace(&result, AttemptKey{digest_of(result.attempt), 0, {}});
   else
     ++refused_;
   return result;
@@ -260,9 +240,9 @@ OracleCounts Oracle::counts() const {
   return counts;
 }
 
-const AskedAbout* Oracle::asked_about(const AttemptResult* result) const {
-  const auto known = asked_about_.find(result);
-  return known == asked_about_.end() ? nullptr : &known->second;
+const AttemptKey* Oracle::key_of(const AttemptResult* result) const {
+  const auto known = keys_.find(result);
+  return known == keys_.end() ? nullptr : &known->second;
 }
 
 std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const Prepared& prepared,

@@ -15,14 +15,6 @@
 
 namespace dismantle {
 
-/// What an answer was an answer to.
-struct AskedAbout {
-  AttemptKey key;
-  std::vector<PartId> moving;  ///< columns of the path
-  std::vector<PartId> leaving{};
-  std::shared_ptr<const Attempt> resumable{};  ///< canonical; null where no search can go on from there
-};
-
 struct LogLine {
   LogLevel level = LogLevel::info;
   std::string text;
@@ -46,11 +38,12 @@ class Oracle final : public PathOracle {
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context) override {
     return proofs_.prove(question, context);
   }
-  const PairChecker* pair_checker() const override { return &verifier_; }
+  PartMemo* memo() override { return &proofs_.memo(); }
+  double tolerance() const override { return verifier_.options().max_penetration; }
   const Constraints& constraints() const override { return constraints_; }
 
-  /// Nothing when `result` is not an answer of this oracle that was planned or remembered.
-  const AskedAbout* asked_about(const AttemptResult* result) const;
+  /// Null when `result` is not an answer of this oracle that was planned, remembered, or accepted as proposed.
+  const AttemptKey* key_of(const AttemptResult* result) const;
   /// What proves that parts are left for good.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
@@ -64,16 +57,19 @@ class Oracle final : public PathOracle {
     unsigned max_depth = 0;
     const AttemptResult* answer = nullptr;
   };
-  AttemptKey key_of(Attempt& canonical_attempt) const;
-  const AttemptResult& answer(const Attempt& canonical_attempt, const AttemptKey& key, RunContext& context);
+  struct Question {
+    Attempt attempt;  ///< canonical
+    AttemptKey key;
+    const AttemptResult* resumed = nullptr;  ///< the answer of the search that this one resumes
+  };
+  Question question_of(const Attempt& attempt) const;
+  const AttemptResult* last_resumable(const Attempt& canonical_attempt) const;
   const AttemptResult* remembered(const AttemptKey& key);
-  LoggedAttempt compute(const Attempt& attempt, const AttemptKey& key, RunContext context);
-  ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const RunContext& context);
+  LoggedAttempt compute(const Question& question, RunContext context);
+  ComputedAttempt run(PathPlanner& planner, const Question& question, const RunContext& context);
   std::shared_ptr<PathPlanner> borrow_planner();
   void give_back(std::shared_ptr<PathPlanner> planner);
   const AttemptResult& keep(AttemptResult result);
-  const AttemptResult& reordered(const AttemptResult& result, const std::vector<PartId>& canonical_order,
-                                 const std::vector<PartId>& order);
 
   std::size_t part_count_;
   const Verifier& verifier_;
@@ -85,8 +81,8 @@ class Oracle final : public PathOracle {
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;
   std::map<CastDigest, Final> finals_;
-  std::map<const AttemptResult*, AskedAbout> asked_about_;
-  std::map<std::pair<const AttemptResult*, std::vector<PartId>>, const AttemptResult*> reordered_;
+  std::map<const AttemptResult*, AttemptKey> keys_;
+  std::map<CastDigest, std::vector<const AttemptResult*>> unsuccessful_;  ///< by digest_of_moving, in order of asking
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
   std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads

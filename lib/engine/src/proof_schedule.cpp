@@ -44,10 +44,13 @@ ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier,
     const ProverTraits traits = named.prover->traits();
     provers_.push_back({std::move(named), traits});
   }
-  if (provers_.empty()) return;
-  for (const Part& part : assembly.parts)  // what the verifier has already; it outlives the memo
+  for (const Part& part : assembly.parts) {  // what the verifier has already; it outlives the memo
     memo_.put("solids", part.id,
               std::shared_ptr<const std::vector<geometry::Solid>>(std::shared_ptr<void>(), &verifier.solids(part.id)));
+    memo_.put("hull", part.id,
+              std::shared_ptr<const std::vector<Eigen::Vector3d>>(std::shared_ptr<void>(), &verifier.hull(part.id)));
+  }
+  if (provers_.empty()) return;
   std::vector<const Certificate*> found(assembly.overlaps.size());
   parallel_for(
       found.size(), context,
@@ -128,9 +131,9 @@ const Certificate* ProofSchedule::prove_placed(const Attempt& attempt, const Run
 }
 
 const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
-  if (!attempt.leaving.empty()) {
+  if (!attempt.goal.any_of.empty()) {
     const Certificate* found = nullptr;
-    for (const PartId id : attempt.leaving) {
+    for (const PartId id : attempt.goal.any_of) {
       const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.still, other); };
       const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
         return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
@@ -148,9 +151,9 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
 }
 
 const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContext& context) {
-  if (provers_.empty() || attempt.part_way) return nullptr;
+  if (provers_.empty() || attempt.goal.placement) return nullptr;
   if (const Certificate* lock = locked(attempt)) return lock;
-  if (!attempt.leaving.empty() || attempt.still.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
+  if (!attempt.goal.any_of.empty() || attempt.still.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
   if (const Certificate* found = prove_placed(attempt, context)) return found;
   if (attempt.moving.size() != 1 || attempt.still.size() != 1) return nullptr;
   return prove({{attempt.moving.front().part, attempt.still.front().part}, ProofEffort::low, 1}, context);
@@ -166,7 +169,7 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool for_half, 
 /// Only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at the end, for
 /// most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
-  if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.leaving.empty() || attempt.part_way ||
+  if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
       attempt.moving.size() != 1 || attempt.still.size() != 1 || !as_deep(attempt, kDepthForHigh))
     return nullptr;
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help

@@ -45,6 +45,7 @@ class ProofSchedule {
   /// As PathOracle::prove.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
 
+  PartMemo& memo() { return memo_; }
   /// Time that proofs took, on all threads, those computed ahead included.
   double seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
 

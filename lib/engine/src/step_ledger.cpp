@@ -66,7 +66,8 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   PlanStep step;
   step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
   const std::optional<PartId>& alone = removal.attempt->out;
-  if (!removal.part_way) step.separates.emplace_back();
+  const bool separates = !removal.attempt->attempt.goal.placement;
+  if (separates) step.separates.emplace_back();
   for (std::size_t i = 0; i < removal.parts.size(); ++i) {
     const std::string& name = assembly_.parts[removal.parts[i]].name;
     PlanMove move{name, {}};
@@ -74,7 +75,7 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
     for (const auto& instant : result.path()->poses())
       move.poses.push_back(assembly_.normalization.pose_to_input(instant[i]));
     step.moves.push_back(std::move(move));
-    if (!removal.part_way && (!alone || *alone == removal.parts[i])) step.separates.back().push_back(name);
+    if (separates && (!alone || *alone == removal.parts[i])) step.separates.back().push_back(name);
   }
   step.max_penetration = removal.attempt->max_penetration;
   step.seconds = removal.attempt->seconds;
@@ -85,20 +86,21 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
 }
 
 void StepLedger::book(const Removal& removal) {
-  std::vector<PartId>& group = group_of(removal.parts);
-  const AskedAbout* asked = oracle_.asked_about(removal.attempt);
-  if (asked == nullptr || !is_success(removal.attempt->result.outcome()))
+  const AttemptKey* key = oracle_.key_of(removal.attempt);
+  if (key == nullptr || !is_success(removal.attempt->result.outcome()))
     throw std::logic_error("a removal that is not a successful answer of the oracle");
+  const Goal& goal = removal.attempt->attempt.goal;
+  std::vector<PartId>& group = group_of(removal.parts);
   Attempt question;
-  question.part_way = removal.part_way;
-  question.leaving = asked->leaving;
+  question.goal = goal;
   for (const PartId id : removal.parts) question.moving.push_back({id, poses_[id]});
   std::vector<PartId> rest;
   for (const PartId id : group)
     if (std::find(removal.parts.begin(), removal.parts.end(), id) == removal.parts.end()) rest.push_back(id);
   if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
   for (const PartId id : rest) question.still.push_back({id, poses_[id]});
-  if (removal.parts != asked->moving || digest_of(canonical(question, assembly_.parts.size())) != asked->key.cast)
+  if (removal.parts != ids_of(removal.attempt->attempt.moving) ||
+      digest_of(canonical(question, assembly_.parts.size())) != key->cast)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
   if (removal.attempt->out)
@@ -116,9 +118,9 @@ void StepLedger::book(const Removal& removal) {
   for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i)
     plan_.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
   const std::optional<PartId> alone = removal.attempt->out;
-  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), removal.part_way, alone});
-  if (!removal.part_way) groups_[from] = std::move(rest);
-  groups_.push_back(removal.part_way ? std::vector<PartId>{} : alone ? std::vector<PartId>{*alone} : removal.parts);
+  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), goal.placement, alone});
+  if (!goal.placement) groups_[from] = std::move(rest);
+  groups_.push_back(goal.placement ? std::vector<PartId>{} : alone ? std::vector<PartId>{*alone} : removal.parts);
   refresh_status();
 }
 
@@ -163,7 +165,7 @@ void StepLedger::check_constraints(const Removal& removal, const std::vector<Par
       throw std::logic_error("a removal that parts what is to stay together");
   }
   for (const auto& [a, b] : constraints_.before)
-    if (!removal.part_way && holds(removal.parts, b) && !holds(rest, b) && holds(rest, a))
+    if (!removal.attempt->attempt.goal.placement && holds(removal.parts, b) && !holds(rest, b) && holds(rest, a))
       throw std::logic_error("a removal before another that is to come first");
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
-#include "dismantle/plan.h"
 #include "dismantle/engine/run.h"
+#include "dismantle/plan.h"
 #include "oracle.h"
 
 namespace dismantle {

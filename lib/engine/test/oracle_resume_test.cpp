@@ -1,9 +1,7 @@
-// Attempts that go on from what an earlier one has reached.
+// Attempts that resume an earlier one.
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "dismantle/testing/oracle_rig.h"
@@ -13,11 +11,18 @@ namespace {
 
 using fake::Rig;
 
-Attempt keeping(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
+Attempt resuming(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
   Attempt attempt = fake::leave(assembly, part, max_depth);
-  attempt.keep_reached = true;
+  attempt.resume = true;
   return attempt;
 }
+
+Attempt without(Attempt attempt, PartId out) {
+  std::erase_if(attempt.still, [&](const PlacedPart& p) { return p.part == out; });
+  return attempt;
+}
+
+double length(const AttemptResult& answer) { return answer.result.stats.extra.at("length"); }
 
 /// How many searches it took to come there, and a number drawn by each.
 struct Chain final : SearchState {
@@ -38,39 +43,34 @@ PathResult in_vain(const PathQuery& query, RunContext& context) {
   return r;
 }
 
-Attempt after(Attempt attempt, const AttemptResult& earlier, std::optional<PartId> out = {}) {
-  attempt.after = &earlier;
-  if (out) std::erase_if(attempt.still, [&](const PlacedPart& p) { return p.part == *out; });
-  return attempt;
-}
-
-TEST(OracleResume, ThePlannerIsGivenWhatTheEarlierOneReached) {
+TEST(OracleResume, ThePlannerIsGivenTheStateOfTheLastSearch) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
-  const AttemptResult& first = s.ask(keeping(s.assembly, 0, 1));
-  EXPECT_EQ(first.result.stats.extra.at("length"), 1);
-  const AttemptResult& deeper = s.ask(after(keeping(s.assembly, 0, 2), first));
-  EXPECT_EQ(deeper.result.stats.extra.at("length"), 2);
-  const AttemptResult& fewer = s.ask(after(keeping(s.assembly, 0, 2), deeper, PartId{3}));
-  EXPECT_EQ(fewer.result.stats.extra.at("length"), 3);
+  EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 1))), 1);
+  EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 2))), 2);
+  EXPECT_EQ(length(s.ask(without(resuming(s.assembly, 0, 2), 3))), 3);
   EXPECT_EQ(s.oracle->counts().attempts, 3u);
 }
 
-TEST(OracleResume, WhatItGoesOnFromIsPartOfTheQuestion) {
+TEST(OracleResume, TheSameAttemptAgainHasTheSameAnswer) {
   Rig s(fake::row(4), fake::ingredients(in_vain));
-  const AttemptResult& one = s.ask(keeping(s.assembly, 0, 1));
-  const AttemptResult& two = s.ask(keeping(s.assembly, 0, 2));
-  const Attempt question = keeping(s.assembly, 0, 3);
-  const AttemptResult& anew = s.ask(question);
-  const AttemptResult &after_one = s.ask(after(question, one)), &after_two = s.ask(after(question, two));
-  EXPECT_NE(&anew, &after_one);
-  EXPECT_NE(&after_one, &after_two);
-  EXPECT_EQ(&s.ask(after(question, one)), &after_one);
-  EXPECT_EQ(&s.ask(question), &anew);
+  const AttemptResult& one = s.ask(resuming(s.assembly, 0, 1));
+  EXPECT_EQ(&s.ask(resuming(s.assembly, 0, 1)), &one);
+  const AttemptResult& two = s.ask(resuming(s.assembly, 0, 2));
+  EXPECT_EQ(&s.ask(resuming(s.assembly, 0, 2)), &two);
   EXPECT_EQ(s.oracle->counts().memoised, 2u);
-  // So is what that one went on from.
-  const AttemptResult& two_after_one = s.ask(after(keeping(s.assembly, 0, 2), one));
-  EXPECT_NE(&s.ask(after(question, two_after_one)), &after_two);
-  EXPECT_EQ(s.ask(after(question, two_after_one)).result.stats.extra.at("length"), 3);
+  // What it resumes is part of the question: this goes on from the last one.
+  const AttemptResult& one_after_two = s.ask(resuming(s.assembly, 0, 1));
+  EXPECT_NE(&one_after_two, &one);
+  EXPECT_EQ(length(one_after_two), 3);
+}
+
+TEST(OracleResume, AttemptsThatDoNotAskForItBeginAnewAndLeaveNothing) {
+  Rig s(fake::row(4), fake::ingredients(in_vain));
+  const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
+  EXPECT_EQ(first.result.state, nullptr);
+  EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 2))), 1);
+  EXPECT_EQ(length(s.ask(fake::leave(s.assembly, 0, 3))), 1);
+  EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 4))), 2);
 }
 
 TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
@@ -79,49 +79,47 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
     return fake::outcome(Outcome::depth_limit);
   };
   Rig s(fake::row(4), fake::ingredients(keeps_nothing));
-  const AttemptResult& first = s.ask(keeping(s.assembly, 0, 1));
-  const AttemptResult& deeper = s.ask(after(keeping(s.assembly, 0, 2), first));
-  EXPECT_EQ(&s.ask(keeping(s.assembly, 0, 2)), &deeper);
+  s.ask(resuming(s.assembly, 0, 1));
+  const AttemptResult& deeper = s.ask(resuming(s.assembly, 0, 2));
+  EXPECT_EQ(&s.ask(fake::leave(s.assembly, 0, 2)), &deeper);
 }
 
-TEST(OracleResume, WhereNobodyWantsToGoOnNothingIsKept) {
-  Rig s(fake::row(4), fake::ingredients(in_vain));
-  const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
-  EXPECT_EQ(first.result.state, nullptr);
-  EXPECT_EQ(s.ask(after(keeping(s.assembly, 0, 2), first)).result.stats.extra.at("length"), 1);
-}
-
+/// Of several the last is resumed that had at least the fixed parts of now, where they are now.
 TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
-  Rig s(fake::row(4), fake::ingredients(in_vain)), other(fake::row(4), fake::ingredients(in_vain));
-  const Attempt all = keeping(s.assembly, 0, 1);
-  const AttemptResult& first = s.ask(all);
-  const AttemptResult& fewer = s.ask(after(all, first, PartId{2}));
-  EXPECT_THROW(s.ask(after(all, fewer)), std::invalid_argument) << "part 2 was not there then";
-  EXPECT_THROW(s.ask(after(keeping(s.assembly, 1, 1), first)), std::invalid_argument) << "another part";
-  EXPECT_THROW(s.ask(after(all, other.ask(all))), std::invalid_argument) << "of another oracle";
-  Attempt moved = after(all, first);
-  moved.still[0].pose.t.x() += 0.25;
-  EXPECT_THROW(s.ask(moved), std::invalid_argument) << "one that stands elsewhere now";
-  moved = after(all, first);
-  moved.moving[0].pose.t.x() += 0.25;
-  EXPECT_THROW(s.ask(moved), std::invalid_argument) << "from another place";
-  EXPECT_EQ(s.oracle->counts().attempts, 2u);
+  Rig s(fake::row(4), fake::ingredients(in_vain));
+  const Attempt all = resuming(s.assembly, 0, 1);
+  EXPECT_EQ(length(s.ask(all)), 1);
+  EXPECT_EQ(length(s.ask(without(all, 2))), 2);
+  EXPECT_EQ(length(s.ask(without(without(all, 2), 3))), 3);
+  Attempt now = all;
+  now.max_depth = 2;
+  EXPECT_EQ(length(s.ask(now)), 2) << "from the first: part 2 was not there in the later ones";
+  now = without(all, 1);
+  EXPECT_EQ(length(s.ask(now)), 3) << "from the last that had part 2";
+  EXPECT_EQ(length(s.ask(resuming(s.assembly, 1, 1))), 1) << "another part";
+  now = all;
+  now.still[0].pose.t.x() += 0.25;
+  EXPECT_EQ(length(s.ask(now)), 1) << "one that is elsewhere now";
+  now = all;
+  now.moving[0].pose.t.x() += 0.25;
+  EXPECT_EQ(length(s.ask(now)), 1) << "from another place";
 }
 
-TEST(OracleResume, SuccessLeavesNothingToGoOnFrom) {
+TEST(OracleResume, SuccessLeavesNothingToResume) {
   const auto finds = [](const PathQuery& query, RunContext& context) {
     PathResult r = fake::push(query, context);
     r.state = std::make_shared<Chain>();
+    EXPECT_EQ(query.resume_from, nullptr);
     return r;
   };
   Rig s(fake::row(3), fake::ingredients(finds));
-  const AttemptResult& out = s.ask(keeping(s.assembly, 0));
+  const AttemptResult& out = s.ask(resuming(s.assembly, 0, 1));
   ASSERT_EQ(out.result.outcome(), Outcome::solved);
   EXPECT_EQ(out.result.state, nullptr);
-  EXPECT_THROW(s.ask(after(keeping(s.assembly, 0), out)), std::invalid_argument);
+  s.ask(resuming(s.assembly, 0, 2));
 }
 
-/// Chains of searches, each going on from the last while other parts leave: the same on any number of threads, hinted
+/// Chains of searches, each resuming the last while other parts leave: the same on any number of threads, hinted
 /// or not, in any order of the parts.
 TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
   const Assembly assembly = fake::row(6);
@@ -130,10 +128,8 @@ TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
     std::vector<double> drawn(5, 0);
     std::vector<const AttemptResult*> last(5, nullptr);
     const auto question = [&](PartId part, unsigned depth) {
-      Attempt a = keeping(assembly, part, depth);
-      if (depth > 2) a = after(a, *last[part], PartId{5});
-      a.after = last[part];
-      return a;
+      const Attempt a = resuming(assembly, part, depth);
+      return depth > 2 ? without(a, 5) : a;
     };
     for (const unsigned depth : {1u, 2u, 3u, 4u}) {
       std::vector<Attempt> all;

@@ -240,29 +240,29 @@ TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   Attempt both;
   both.moving = {{1, Pose{}}, {2, Pose{}}};
   both.still = {{0, Pose{}}};
-  both.leaving = {2, 1};
+  both.goal.any_of = {2, 1};
   const AttemptResult& r = s.ask(both);
   EXPECT_EQ(r.result.outcome(), Outcome::solved) << r.result.message;
   EXPECT_EQ(r.out, PartId{2}) << "1 is in the tube still";
-  both.leaving = {2};
+  both.goal.any_of = {2};
   EXPECT_EQ(s.ask(both).out, PartId{2});
   EXPECT_EQ(asked, 2u) << "another question: not answered from memory";
-  both.leaving = {2, 2};
+  both.goal.any_of = {2, 2};
   EXPECT_EQ(s.ask(both).out, PartId{2});
-  both.leaving = {1};
+  both.goal.any_of = {1};
   EXPECT_EQ(s.ask(both).result.outcome(), Outcome::exhausted) << "2 is out, but it is 1 that was to leave";
   EXPECT_FALSE(s.ask(both).out);
   EXPECT_EQ(asked, 3u);
   second = 0.2;
-  both.leaving = {1, 2};
+  both.goal.any_of = {1, 2};
   both.max_depth = 2;
   EXPECT_EQ(s.ask(both).result.outcome(), Outcome::exhausted) << "nobody is out";
   EXPECT_EQ(asked, 4u);
 
-  both.leaving = {0};
+  both.goal.any_of = {0};
   EXPECT_THROW(s.ask(both), std::invalid_argument) << "it does not move";
-  both.leaving = {1};
-  both.part_way = true;
+  both.goal.any_of = {1};
+  both.goal.placement = true;
   EXPECT_THROW(s.ask(both), std::invalid_argument);
 }
 
@@ -279,7 +279,7 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
   Attempt both;
   both.moving = {{0, Pose{}}, {1, Pose{}}};
   both.still = {{2, Pose{}}};
-  both.leaving = {0};
+  both.goal.any_of = {0};
   const AttemptResult& r = s.ask(both);
   EXPECT_EQ(r.result.outcome(), Outcome::unsupported);
   EXPECT_NE(r.result.message.find("independently at the same time"), std::string::npos);
@@ -300,7 +300,7 @@ TEST(Oracle, JudgesWaysThatItIsShown) {
   EXPECT_FALSE(blocked.result.message.empty());
   Attempt part_way = top;
   EXPECT_EQ(s.oracle->propose(top, up(top, 0.5), s.context).result.outcome(), Outcome::exhausted) << "not out";
-  part_way.part_way = true;
+  part_way.goal.placement = true;
   EXPECT_EQ(s.oracle->propose(part_way, up(top, 0.5), s.context).result.outcome(), Outcome::solved);
   Path elsewhere = up(top, 3);
   elsewhere[0][0].t.x() += 0.1;

@@ -19,7 +19,8 @@ using fake::leave;
 using fake::Steps;
 
 TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
-  const AttemptResult forged{fake::outcome(Outcome::solved), 0, 0};
+  AttemptResult forged;
+  forged.result = fake::outcome(Outcome::solved);
   const std::vector<std::pair<std::string, Steps>> cheats{
       {"own answer",
        [&](const Assembly&, PathOracle&, SequenceObserver& observer, RunContext&) {
@@ -80,15 +81,15 @@ TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
   const auto lift = [](const PathQuery& q, RunContext&) { return fake::shown(q, fake::straight(q.cast, {0, 0, 30})); };
   const auto in_groups = [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
     Attempt both;
-    both.moving = {{2, Pose{}}, {1, Pose{}}};
+    both.moving = {{1, Pose{}}, {2, Pose{}}};
     both.still = {{0, Pose{}}};
     SequenceResult result;
     const AttemptResult& up = oracle.attempt(both, c);
-    result.removals.push_back({{2, 1}, &up});
+    result.removals.push_back({{1, 2}, &up});
     observer.removed(result.removals.back(), 1);
     Attempt apart;
-    apart.moving = {{2, up.result.path()->poses().back()[0]}};
-    apart.still = {{1, up.result.path()->poses().back()[1]}};
+    apart.moving = {{2, up.result.path()->poses().back()[1]}};
+    apart.still = {{1, up.result.path()->poses().back()[0]}};
     result.removals.push_back({{2}, &oracle.attempt(apart, c)});
     observer.removed(result.removals.back(), 1);
     result.outcome = Outcome::solved;
@@ -100,9 +101,9 @@ TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
                           RunOptions{}, context);
   EXPECT_EQ(r.outcome, Outcome::solved);
   ASSERT_EQ(r.plan.disassembly.size(), 2u);
-  EXPECT_EQ(r.plan.disassembly[0].separates, (std::vector<std::vector<std::string>>{{"block2", "block1"}}));
+  EXPECT_EQ(r.plan.disassembly[0].separates, (std::vector<std::vector<std::string>>{{"block1", "block2"}}));
   EXPECT_EQ(r.plan.remaining, (std::vector<std::string>{"tube"}));
-  const auto& first = r.plan.disassembly[0].moves[0].poses;
+  const auto& first = r.plan.disassembly[0].moves[1].poses;
   const auto& second = r.plan.disassembly[1].moves[0].poses;
   EXPECT_EQ(first.back().t, second.front().t);  // rule (a)
 }
@@ -112,17 +113,17 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
     const auto at_once = [&](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext&) {
       SequenceResult result;
       Attempt both;
-      both.moving = {{2, Pose{}}, {1, Pose{}}};
+      both.moving = {{1, Pose{}}, {2, Pose{}}};
       both.still = {{0, Pose{}}};
-      both.leaving = {1, 2};
+      both.goal.any_of = {1, 2};
       Path way = fake::straight({both.moving, both.still}, {0, 0, 30});
-      way[1][1].t.z() = 0.5;
+      way[1][0].t.z() = 0.5;
       RunContext c;
       const AttemptResult& r = oracle.propose(both, way, c);
-      result.removals.push_back({{2, 1}, &r});
+      result.removals.push_back({{1, 2}, &r});
       observer.removed(result.removals.back(), 2);
       Attempt last;
-      last.moving = {{1, honest ? r.result.path()->poses().back()[1] : Pose{}}};
+      last.moving = {{1, honest ? r.result.path()->poses().back()[0] : Pose{}}};
       last.still = {{0, Pose{}}};
       result.removals.push_back({{1}, &oracle.propose(last, fake::straight({last.moving, {}}, {0, 0, 30}), c)});
       observer.removed(result.removals.back(), 1);
@@ -161,7 +162,7 @@ RunResult in_bits(const std::vector<PartId>& order) {
       const PartId part = order[k];
       const bool last = std::count(order.begin() + static_cast<std::ptrdiff_t>(k), order.end(), part) == 1;
       Attempt a;
-      a.part_way = !last;
+      a.goal.placement = !last;
       a.moving = {{part, at[part]}};
       for (const auto& p : assembly.parts)
         if (p.id != part && !gone[p.id]) a.still.push_back({p.id, at[p.id]});
@@ -169,7 +170,7 @@ RunResult in_bits(const std::vector<PartId>& order) {
       const AttemptResult& r = oracle.propose(a, way, c);
       at[part] = r.result.path()->poses().back()[0];
       gone[part] = last;
-      result.removals.push_back({{part}, &r, !last});
+      result.removals.push_back({{part}, &r});
       observer.removed(result.removals.back(), 1);
     }
     result.outcome = Outcome::solved;

@@ -11,7 +11,7 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/solid.h"
 #include "geometry_names.h"
-#include "starts_off.h"
+#include "dismantle/geometry/starts_off.h"
 
 namespace dismantle {
 

@@ -9,8 +9,8 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/hull.h"
-#include "pair_check.h"
-#include "sampling.h"
+#include "dismantle/geometry/pair_check.h"
+#include "dismantle/geometry/motion_samples.h"
 #include "verifier_impl.h"
 
 namespace dismantle {
@@ -28,8 +28,7 @@ constexpr double kWorthwhile = 1e-3;
 /// A rung is tried if the deepest point known takes no more than this share of it.
 constexpr double kRoom = 0.8;
 constexpr std::size_t kManySegments = 16;  // of a way that is looked at in samples first
-/// Budgets per pair of solids, in sweep tests: for passes(), for a rung that need not hold, and for one that decides.
-constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;
+/// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
 constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
 /// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
@@ -269,22 +268,7 @@ bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const s
   Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
   if (!a.swept.overlaps(b.swept)) return true;
   const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
-  for (const auto& x : impl_->bodies[moving].solids)
-    for (const auto& y : impl_->bodies[still].solids) {
-      const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
-      Aabb grown = x.box;
-      grown.inflate(limits.most());
-      const verify::RelativeMotion forward(poses_a, poses_b, grown);
-      if (!forward.swept_box().overlaps(y.box)) continue;
-      grown = y.box;
-      grown.inflate(limits.most());
-      const verify::RelativeMotion backward(poses_b, poses_a, grown);
-      // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
-      if (verify::sample_beyond(x, y, forward, backward, limits)) return false;
-      verify::Budget budget{kQuickTests, kQuickPatches};
-      if (verify::check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
-    }
-  return true;
+  return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[still].solids, still_at, limits);
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,
@@ -302,17 +286,6 @@ verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group
 
 bool Verifier::apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const {
   return impl_->hulls_of(group, rest).after(Vec3::Zero());
-}
-
-double Verifier::separation_distance(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
-                           const Vec3& direction, double most, int halvings) const {
-  verify::HullsApart hulls = impl_->hulls_of(group, rest);
-  double within = 0, out = most;
-  for (int k = 0; k < halvings; ++k) {
-    const double middle = 0.5 * (within + out);
-    (hulls.after(middle * direction) ? out : within) = middle;
-  }
-  return out;
 }
 
 }  // namespace dismantle

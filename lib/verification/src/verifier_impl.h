@@ -9,7 +9,7 @@
 #include "dismantle/geometry/solid.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
-#include "hulls_apart.h"
+#include "dismantle/geometry/hulls_apart.h"
 
 namespace dismantle {
 

@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/testing/shapes.h"
 
@@ -63,6 +65,8 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
       (id < 3 ? group : rest).push_back({id, turned ? random_pose(rng, 0.5) : shift(random_vector(rng, -0.5, 0.5))});
     }
     const Verifier verifier(assembly_of(meshes), {0.01});
+    std::vector<Aabb> boxes;
+    for (const Mesh& mesh : meshes) boxes.push_back(mesh.box());
     const Vec3 d = trial % 3 == 0 ? Vec3(Vec3::Unit(trial % 9 / 3)) : Vec3(random_vector(rng, -1, 1).normalized());
     const auto apart_after = [&](double way) {
       std::vector<PlacedPart> moved = group;
@@ -71,7 +75,13 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
     };
     constexpr double kMost = 20;
     constexpr int kHalvings = 12;
-    const double way = verifier.separation_distance(group, rest, d, kMost, kHalvings);
+    const auto hulls = [&](const std::vector<PlacedPart>& parts) {
+      std::vector<geometry::PlacedHull> placed;
+      for (const PlacedPart& p : parts)
+        placed.push_back({&meshes[p.part], &boxes[p.part], &verifier.hull(p.part), p.pose});
+      return placed;
+    };
+    const double way = geometry::HullsApart(hulls(group), hulls(rest)).distance(d, kMost, kHalvings);
     EXPECT_TRUE(apart_after(way));
     if (const double before = way - 1.5 * kMost / (1 << kHalvings); before > 0) {
       EXPECT_FALSE(apart_after(before)) << way;
@@ -86,8 +96,10 @@ TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
     EXPECT_LE(way, std::max(0.0, top - bottom) + 2 * kMost / (1 << kHalvings));
   }
   EXPECT_GT(found, 40);
-  const Verifier verifier(assembly_of({kCube, kCube}), {0.01});
-  EXPECT_LT(verifier.separation_distance({{0, Pose{}}}, {}, Vec3::UnitX(), 5, 10), 0.01) << "nothing is in the way";
+  const Aabb box = kCube.box();
+  const std::vector<Vec3> corners = hull_corners(kCube.vertices);
+  geometry::HullsApart alone({{&kCube, &box, &corners, Pose{}}}, {});
+  EXPECT_LT(alone.distance(Vec3::UnitX(), 5, 10), 0.01) << "nothing is in the way";
 }
 
 TEST(Verifier, KissingSlideIsOneCheapSweep) {

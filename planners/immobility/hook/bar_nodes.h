@@ -21,6 +21,8 @@ struct Node {
 /// Nodes for a depth, thinned out: the deepest first, others only at some distance.
 std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth);
 
+/// Share of what two nodes keep: nodes nearer to each other than that are joined.
+inline constexpr double kJoined = 0.95;
 /// By node: the nodes that it is joined with.
 using Joined = std::vector<std::vector<std::size_t>>;
 Joined join(const std::vector<Node>& nodes);

@@ -28,8 +28,7 @@ class ContactSearch final : public PathPlanner {
 
 DISMANTLE_PLUGIN("dismantle.contact_search", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::contact_search::ContactSearch, dismantle::contact_search::Parameters>(
-      "contact_search",
-      "Search over pushes, turns and screws that the contacts propose, in a physics simulator.",
+      "contact_search", "Search over pushes, turns and screws that the contacts propose, in a physics simulator.",
       {.source = "Tian et al. 2022, Algorithm 1, with actions proposed by geometry",
        .needs = dismantle::push::required()});
 }

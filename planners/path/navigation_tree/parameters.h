@@ -29,20 +29,22 @@ struct Parameters {
                   "of it: depth is measured at samples."});
     s.add("step", &Parameters::step,
           {.unit = "unit", .min = 1e-5, .max = 1, .doc = "How far a point of the part moves in a first step, about."});
-    s.add("patience", &Parameters::patience,
-          {.unit = "1",
-           .min = 0,
-           .max = 1e12,
-           .doc = "State checks without progress after which the narrowest place ahead is taken for closed; 12 times as "
-                  "many in all. One counts as the number of its distance queries in thousands, a quarter at least. 0: "
-                  "nothing is searched."});
+    s.add(
+        "patience", &Parameters::patience,
+        {.unit = "1",
+         .min = 0,
+         .max = 1e12,
+         .doc = "State checks without progress after which the narrowest place ahead is taken for closed; 12 times as "
+                "many in all. One counts as the number of its distance queries in thousands, a quarter at least. 0: "
+                "nothing is searched."});
     s.add("detours", &Parameters::detours,
           {.unit = "1", .min = 0, .max = 1000, .doc = "Places that may be taken for closed before it gives up."});
-    s.add("full_depth", &Parameters::full_depth,
-          {.unit = "1",
-           .min = 0,
-           .max = 64,
-           .doc = "Under a depth limit below this, `patience` and `detours` are halved for each level that is missing."});
+    s.add(
+        "full_depth", &Parameters::full_depth,
+        {.unit = "1",
+         .min = 0,
+         .max = 64,
+         .doc = "Under a depth limit below this, `patience` and `detours` are halved for each level that is missing."});
     s.add("cells", &Parameters::cells,
           {.unit = "1",
            .min = 1000,
@@ -57,12 +59,13 @@ struct Parameters {
            .doc = "Poses that the rest of the path reproduces this closely are dropped."});
     s.add("max_refusals", &Parameters::max_refusals,
           {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before it gives up."});
-    s.add("max_refusals_overlapping", &Parameters::max_refusals_overlapping,
-          {.unit = "1",
-           .min = 1,
-           .max = 1e6,
-           .doc = "The same in the second search for a group that is thinner than its initial overlap: the one in which "
-                  "that overlap is allowed everywhere, so that paths may lead through walls."});
+    s.add(
+        "max_refusals_overlapping", &Parameters::max_refusals_overlapping,
+        {.unit = "1",
+         .min = 1,
+         .max = 1e6,
+         .doc = "The same in the second search for a group that is thinner than its initial overlap: the one in which "
+                "that overlap is allowed everywhere, so that paths may lead through walls."});
   }
 
   /// Of the tree. `overlapping`: in the second search of a thin group.

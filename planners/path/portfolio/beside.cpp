@@ -55,8 +55,8 @@ PortfolioSearch::Decision PortfolioSearch::run_beside_first(Portion& portion) {
   std::size_t at = 1;
   Portion unlimited;
   Decision rest;
-  Executor::TaskHandle beside = context_.executor->submit([&] { rest = run_in_order(at, own, unlimited); },
-                                                          Executor::Priority::fork_join);
+  Executor::TaskHandle beside =
+      context_.executor->submit([&] { rest = run_in_order(at, own, unlimited); }, Executor::Priority::fork_join);
   const CancelAtEnd cancel{own.cancel};
   const Decision decision = run_member(first, kUnlimited, portion);
   if (decision.status != SearchStatus::exhausted || decision.by != nullptr) {

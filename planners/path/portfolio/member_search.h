@@ -16,8 +16,8 @@ bool in_vain(const PathResult& result);
 
 class MemberSearch {
  public:
-  /// `planner` and `member` outlive it. `stream`: 0, or a number for members of a type that another one has, too, so that
-  /// their random numbers differ.
+  /// `planner` and `member` outlive it. `stream`: 0, or a number for members of a type that another one has, too, so
+  /// that their random numbers differ.
   MemberSearch(PathPlanner& planner, const Member& member, std::string name, std::uint64_t stream)
       : planner_(&planner), member_(&member), name_(std::move(name)), stream_(stream) {}
 

@@ -14,7 +14,7 @@ enum class Size { any, small, large };
 
 /// One planner of the portfolio, and when it takes part.
 struct Member {
-  PluginRef<PathPlanner> plugin;
+  PluginRef<PathPlanner> plugin{};
   std::int64_t after = 0;
   bool whole = false;
   std::int64_t max_steps = 0;
@@ -47,8 +47,9 @@ struct Member {
     s.add("depth_limited", &Member::depth_limited, {.doc = "Takes part in searches with a depth limit."});
     s.add("least_depth", &Member::least_depth,
           {.unit = "1", .min = 0, .max = 1000, .doc = "Takes part only where the depth limit is at least this."});
-    s.add("least_depth_large", &Member::least_depth_large,
-          {.unit = "1", .min = 0, .max = 1000, .doc = "The same for large groups, where it is more than `least_depth`."});
+    s.add(
+        "least_depth_large", &Member::least_depth_large,
+        {.unit = "1", .min = 0, .max = 1000, .doc = "The same for large groups, where it is more than `least_depth`."});
     s.add("large", &Member::large,
           {.unit = "1",
            .min = 0,
@@ -62,10 +63,11 @@ struct Member {
                        "The groups for which it takes part.");
     s.add("first", &Member::first,
           {.doc = "Under a depth limit it runs before the members without this key, whatever its place in the list."});
-    s.add("when_refused", &Member::when_refused,
-          {.doc = "Under a depth limit: where the first member was exhausted and the verifier refused paths of it, this "
-                  "one takes part at any depth, and runs without a depth limit. Such paths lead out and cut in a little "
-                  "too deep."});
+    s.add(
+        "when_refused", &Member::when_refused,
+        {.doc = "Under a depth limit: where the first member was exhausted and the verifier refused paths of it, this "
+                "one takes part at any depth, and runs without a depth limit. Such paths lead out and cut in a little "
+                "too deep."});
     s.add("final", &Member::final,
           {.doc = "When it ends as `exhausted`, the portfolio does, too. For members whose search is complete."});
   }
@@ -83,14 +85,18 @@ struct Parameters {
   static void describe(Schema<Parameters>& s) {
     const std::vector<EnumChoice<Mode>> modes{
         {"fallback", Mode::fallback, "one after the other: the next one begins when the one before has ended in vain"},
-        {"alternate", Mode::alternate, "in turns that grow, so that the sum is at most a few times the cost of the best"}};
+        {"alternate", Mode::alternate,
+         "in turns that grow, so that the sum is at most a few times the cost of the best"}};
     s.add_choice<Mode>("mode", &Parameters::mode, modes, "How members share a search without a depth limit.");
     s.add_choice<Mode>("depth_limited_mode", &Parameters::depth_limited_mode, modes,
                        "How members share a search with a depth limit.");
     s.add("of", &Parameters::of,
           {.doc = "The members, in order. What the first one says is the outcome where none finds a path."});
     s.add("turn", &Parameters::turn,
-          {.unit = "1", .min = 1, .max = 1e12, .doc = "`alternate`: steps and state checks of the turns of the first round."});
+          {.unit = "1",
+           .min = 1,
+           .max = 1e12,
+           .doc = "`alternate`: steps and state checks of the turns of the first round."});
     s.add("growth", &Parameters::growth,
           {.unit = "1", .min = 1, .max = 100, .doc = "`alternate`: factor from the turns of one round to the next."});
     s.add("overlap_turn", &Parameters::overlap_turn,

@@ -105,15 +105,15 @@ std::uint64_t PortfolioSearch::allowance(const MemberSearch& m) const {
   const Member& member = m.member();
   std::uint64_t most = member.max_steps > 0 ? static_cast<std::uint64_t>(member.max_steps) : kUnlimited;
   if (member.share < 1 && query_.budget.max_steps > 0)
-    most = std::min(most, static_cast<std::uint64_t>(
-                              std::ceil(member.share * static_cast<double>(query_.budget.max_steps))));
+    most = std::min(most,
+                    static_cast<std::uint64_t>(std::ceil(member.share * static_cast<double>(query_.budget.max_steps))));
   return most == kUnlimited ? most : most - std::min(most, m.spent());
 }
 
 /// The verifier refused paths of the first member, and nothing else is left to it.
 bool PortfolioSearch::was_refused(const MemberSearch& m) const {
-  return limited_ && m.member().when_refused && primary_ != &m &&
-         primary_->last().outcome() == Outcome::exhausted && primary_->last().stats.refused > 0;
+  return limited_ && m.member().when_refused && primary_ != &m && primary_->last().outcome() == Outcome::exhausted &&
+         primary_->last().stats.refused > 0;
 }
 
 bool PortfolioSearch::ready(const MemberSearch& m) {
@@ -121,8 +121,8 @@ bool PortfolioSearch::ready(const MemberSearch& m) {
 }
 
 void PortfolioSearch::begin(MemberSearch& m, const RunContext& context, const PathChecker& checker) {
-  PathQuery query{query_.assembly, query_.simulator, query_.prepared, query_.cast,       query_.budget,
-                  query_.tolerance, checker,         query_.goal,     nullptr};
+  PathQuery query{query_.assembly,  query_.simulator, query_.prepared, query_.cast, query_.budget,
+                  query_.tolerance, checker,          query_.goal,     nullptr};
   if (was_refused(m)) query.budget.max_depth = 0;
   if (query_.budget.timeout > 0) query.budget.timeout = std::max(1e-9, deadline_.seconds_left());
   if (const auto* state = dynamic_cast<const PortfolioState*>(query_.resume_from))
@@ -196,8 +196,8 @@ PortfolioSearch::Decision PortfolioSearch::alternate(Portion& portion) {
       at_ = 0;
     }
     MemberSearch& m = *order_[at_];
-    const bool waits = &m != primary_ && !primary_->ended() &&
-                       primary_->spent() < static_cast<std::uint64_t>(m.member().after);
+    const bool waits =
+        &m != primary_ && !primary_->ended() && primary_->spent() < static_cast<std::uint64_t>(m.member().after);
     if (!m.begun() && !m.ended() && !waits && !ready(m)) m.leave_out();
     if (!m.ended() && !waits) {
       const Decision decision = take_turn(m, portion);

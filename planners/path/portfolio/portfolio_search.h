@@ -63,16 +63,16 @@ class PortfolioSearch final : public PathSearch {
   RunContext& context_;
   const bool limited_;  ///< in depth
   Deadline deadline_;
-  std::vector<MemberSearch> members_;  ///< in the order of the list
-  std::vector<MemberSearch*> order_;   ///< those that take part, in the order in which they are run
-  MemberSearch* primary_ = nullptr;    ///< the first of the list that takes part
+  std::vector<MemberSearch> members_;                   ///< in the order of the list
+  std::vector<MemberSearch*> order_;                    ///< those that take part, in the order in which they are run
+  MemberSearch* primary_ = nullptr;                     ///< the first of the list that takes part
   std::optional<std::pair<double, double>> diagonals_;  ///< of the boxes of the moving and of the fixed parts
   std::unique_ptr<PathChecker> pausing_;
-  std::size_t at_ = 0;             ///< whose turn it is, in `order_`
-  std::uint64_t turn_ = 0;         ///< `alternate`: length of the turns of this round
-  std::uint64_t turn_began_ = 0;   ///< what the member had spent when its turn began
-  bool in_turn_ = false;           ///< a portion ended before the turn did
-  bool short_round_ = false;       ///< the first member has a short turn
+  std::size_t at_ = 0;            ///< whose turn it is, in `order_`
+  std::uint64_t turn_ = 0;        ///< `alternate`: length of the turns of this round
+  std::uint64_t turn_began_ = 0;  ///< what the member had spent when its turn began
+  bool in_turn_ = false;          ///< a portion ended before the turn did
+  bool short_round_ = false;      ///< the first member has a short turn
   SearchStatus status_ = SearchStatus::paused;
   const MemberSearch* decided_by_ = nullptr;
   PathResult refusal_;  ///< where no member takes part

@@ -35,14 +35,15 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
       history_(state_, params),
       report_(state_, oracle) {
   state_.add_listener(history_);
-  if (const PairChecker* verifier = oracle.pair_checker(); verifier != nullptr && params.straight) {
-    straight_ = std::make_unique<StraightMotion>(state_, oracle, *verifier);
+  if (oracle.tolerance() > 0) sweep_ = std::make_unique<PairSweep>(assembly, oracle);
+  if (sweep_ && params.straight) {
+    straight_ = std::make_unique<StraightMotion>(state_, oracle, *sweep_);
     state_.add_listener(*straight_);
     if (params.cages) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle, immobility_.get(), straight_.get());
   if (immobility_)
-    immobility_->before_proof = [this](const GroupState& group, const HoldQuestion& question) {
+    immobility_->before_proof = [this](const GroupState& group, const ImmobilityQuestion& question) {
       return lookahead_->before_proof(group, question);
     };
   searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), immobility_.get());
@@ -56,17 +57,15 @@ void Disassembly::add(std::unique_ptr<Strategy> strategy) {
 
 /// What costs least and proves most comes first.
 void Disassembly::make_strategies() {
-  const PairChecker* verifier = oracle_.pair_checker();
   if (straight_) {
     add(std::make_unique<TargetFirst>(state_, *straight_));
     add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) add(std::make_unique<FreeGroup>(state_, *straight_, params_));
   }
-  if (params_.slide_states > 0 && verifier != nullptr)
+  if (params_.slide_states > 0 && sweep_)
     add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), *lookahead_, params_));
   if (immobility_) add(std::make_unique<MergeImmobile>(*immobility_));
-  if (straight_ && params_.turns)
-    add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *verifier, params_));
+  if (straight_ && params_.turns) add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.at_once)
     add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, params_, params_.max_depth));
   add(std::make_unique<PathSearch>(state_, history_, *searcher_, immobility_.get(), params_));

@@ -28,6 +28,7 @@ class Disassembly {
   PathOracle& oracle_;
   DisassemblyState state_;
   SearchHistory history_;
+  std::unique_ptr<PairSweep> sweep_;          // null without geometry
   std::unique_ptr<StraightMotion> straight_;  // null when switched off, or without geometry
   std::unique_ptr<Immobility> immobility_;    // null when switched off, or without geometry
   std::unique_ptr<Lookahead> lookahead_;

@@ -9,7 +9,7 @@ constexpr double kInterlockedShare = 0.5;  // of the tolerance
 
 }  // namespace
 
-using Kind = HoldQuestion::Kind;
+using Kind = ImmobilityQuestion::Kind;
 
 Immobility::Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history,
                        PathOracle& oracle, const ImmobilityParams& params)
@@ -28,9 +28,9 @@ bool Immobility::limit_reached(Kind kind) const {
       return made >= params_.cage_proofs;
     case Kind::flat:
       return made >= params_.flat_proofs;
-    case Kind::confined_for_sure:
+    case Kind::confined_full:
       return made >= params_.early_confinement_proofs;
-    case Kind::confined_at_last:
+    case Kind::confined_half:
       break;
   }
   return made >= params_.late_confinement_proofs;
@@ -39,7 +39,7 @@ bool Immobility::limit_reached(Kind kind) const {
 /// Asks until one pair is proved inseparable, and merges it. Pairs that pass each other straight are left out.
 bool Immobility::merge_first(GroupState& group, const Questions& questions) {
   Questions open;
-  for (const HoldQuestion& q : questions) {
+  for (const ImmobilityQuestion& q : questions) {
     if (asked_.contains(q) || std::find(open.begin(), open.end(), q) != open.end()) continue;
     if (state_.stop() || limit_reached(q.kind)) return false;
     if (!straight_.passes_any(q.a, q.b))
@@ -48,7 +48,7 @@ bool Immobility::merge_first(GroupState& group, const Questions& questions) {
       asked_.insert(q);
   }
   for (std::size_t k = 0; k < open.size(); ++k) {
-    const HoldQuestion& q = open[k];
+    const ImmobilityQuestion& q = open[k];
     if (state_.stop() || limit_reached(q.kind)) return false;
     ++proofs_[q.kind];
     asked_.insert(q);
@@ -113,7 +113,7 @@ bool Immobility::merge_confined_early(GroupState& group) {
   Questions questions;
   for (const SubassemblyId s : group.members) {
     if (!history_.reached_depth_limit(s) || history_.last(s)->depth < params_.proof_depth) continue;
-    if (const auto blocker = only_blocker(group, s)) add_questions(Kind::confined_for_sure, s, *blocker, questions);
+    if (const auto blocker = only_blocker(group, s)) add_questions(Kind::confined_full, s, *blocker, questions);
   }
   return merge_first(group, questions);
 }
@@ -121,7 +121,7 @@ bool Immobility::merge_confined_early(GroupState& group) {
 bool Immobility::merge_confined_late(GroupState& group) {
   Questions questions;
   for (const SubassemblyId s : group.members)
-    if (const auto blocker = only_blocker(group, s)) add_questions(Kind::confined_at_last, s, *blocker, questions);
+    if (const auto blocker = only_blocker(group, s)) add_questions(Kind::confined_half, s, *blocker, questions);
   return merge_first(group, questions);
 }
 
@@ -139,7 +139,7 @@ bool Immobility::merge_interlocked(GroupState& group) {
 
 void Immobility::add_questions(Kind kind, SubassemblyId a, SubassemblyId b, Questions& questions) const {
   for (const PartId p : state_.parts_of(a))
-    for (const PartId q : state_.parts_of(b)) questions.push_back(HoldQuestion::of_pair(kind, p, q));
+    for (const PartId q : state_.parts_of(b)) questions.push_back(ImmobilityQuestion::of_pair(kind, p, q));
 }
 
 std::optional<SubassemblyId> Immobility::only_blocker(const GroupState& group, SubassemblyId id) const {
@@ -158,6 +158,6 @@ std::optional<SubassemblyId> Immobility::only_blocker(const GroupState& group, S
   return found;
 }
 
-void Immobility::begin(std::span<const HoldQuestion> questions) { answers_.begin(questions, state_.context()); }
+void Immobility::begin(std::span<const ImmobilityQuestion> questions) { answers_.begin(questions, state_.context()); }
 
 }  // namespace dismantle::blocking

@@ -21,7 +21,7 @@ namespace dismantle::blocking {
 /// Each question is asked once in a run, and each kind a limited number of times.
 class Immobility {
  public:
-  using Questions = std::vector<HoldQuestion>;
+  using Questions = std::vector<ImmobilityQuestion>;
 
   /// All references must outlive this.
   Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history, PathOracle& oracle,
@@ -47,27 +47,27 @@ class Immobility {
   // What will probably be asked, for idle threads.
   Questions cage_questions(const GroupState& group) const;
   Questions flat_questions(const GroupState& group) const;
-  void add_questions(HoldQuestion::Kind kind, SubassemblyId a, SubassemblyId b, Questions& questions) const;
+  void add_questions(ImmobilityQuestion::Kind kind, SubassemblyId a, SubassemblyId b, Questions& questions) const;
   /// The only one that the last search for `id` touched; of two, the other.
   std::optional<SubassemblyId> only_blocker(const GroupState& group, SubassemblyId id) const;
-  bool was_asked(const HoldQuestion& question) const { return asked_.contains(question); }
+  bool was_asked(const ImmobilityQuestion& question) const { return asked_.contains(question); }
   /// Idle threads seek these, the first first; what is not among them any more is cancelled.
-  void begin(std::span<const HoldQuestion> questions);
+  void begin(std::span<const ImmobilityQuestion> questions);
   /// Called before a proof is sought; returns what will probably be asked after it.
-  std::function<Questions(const GroupState&, const HoldQuestion&)> before_proof;
+  std::function<Questions(const GroupState&, const ImmobilityQuestion&)> before_proof;
 
  private:
   bool merge_first(GroupState& group, const Questions& questions);
   void add_flat_questions(const GroupState& group, SubassemblyId id, Questions& questions) const;
-  bool limit_reached(HoldQuestion::Kind kind) const;
+  bool limit_reached(ImmobilityQuestion::Kind kind) const;
 
   DisassemblyState& state_;
   StraightMotion& straight_;
   const SearchHistory& history_;
   PathOracle& oracle_;
   const ImmobilityParams& params_;
-  std::set<HoldQuestion> asked_;  // or not worth asking
-  std::map<HoldQuestion::Kind, unsigned> proofs_;
+  std::set<ImmobilityQuestion> asked_;  // or not worth asking
+  std::map<ImmobilityQuestion::Kind, unsigned> proofs_;
   std::set<std::vector<PartId>> interlocked_;  // groups that were asked about
   ProofsAhead answers_;
 };

@@ -57,17 +57,18 @@ void Lookahead::before_attempts(const Attempt& now, Attempts next) const {
 
 void Lookahead::before_translations(const GroupState& group) const {
   if (!is_active() || immobility_ == nullptr) return;
-  std::vector<HoldQuestion> questions = immobility_->cage_questions(group);
-  std::erase_if(questions, [&](const HoldQuestion& q) {
+  std::vector<ImmobilityQuestion> questions = immobility_->cage_questions(group);
+  std::erase_if(questions, [&](const ImmobilityQuestion& q) {
     return immobility_->was_asked(q) || straight_->passes_any_known(q.a, q.b) || straight_->passes_any_known(q.b, q.a);
   });
   immobility_->begin(questions);
 }
 
-std::vector<HoldQuestion> Lookahead::before_proof(const GroupState& group, const HoldQuestion& question) const {
+std::vector<ImmobilityQuestion> Lookahead::before_proof(const GroupState& group,
+                                                        const ImmobilityQuestion& question) const {
   if (!is_active()) return {};
   // Quick proofs are over before a search is.
-  if (question.kind != HoldQuestion::Kind::cage) oracle_.prefetch(next_searches(group), state_.context());
+  if (question.kind != ImmobilityQuestion::Kind::cage) oracle_.prefetch(next_searches(group), state_.context());
   return likely_proofs(group);
 }
 
@@ -163,11 +164,11 @@ void Lookahead::add_waiting(const GroupState& group, unsigned depth, const Subas
 
 /// Proofs about pairs, the likeliest to be sought first: flat pieces of this group; pairs that only wait for proofs;
 /// parts that were searched to some depth and have one other in their way; other groups of two.
-std::vector<HoldQuestion> Lookahead::likely_proofs(const GroupState& now) const {
-  using Kind = HoldQuestion::Kind;
-  std::vector<HoldQuestion> all;
+std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) const {
+  using Kind = ImmobilityQuestion::Kind;
+  std::vector<ImmobilityQuestion> all;
   if (immobility_ == nullptr) return all;
-  for (const HoldQuestion& q : immobility_->flat_questions(now))
+  for (const ImmobilityQuestion& q : immobility_->flat_questions(now))
     if (straight_->blocks_all_known(q.a, q.b)) all.push_back(q);
   std::vector<const GroupState*> groups{&now};
   for (const GroupState& g : state_.waiting()) groups.push_back(&g);
@@ -176,7 +177,7 @@ std::vector<HoldQuestion> Lookahead::likely_proofs(const GroupState& now) const 
       if (!g->is_pair() || g->searches_finished != searched) continue;
       const SubassemblyId a = g->members[0], b = g->members[1];
       if (searched || history_.reached_depth_limit(a) || history_.reached_depth_limit(b))
-        immobility_->add_questions(Kind::confined_at_last, a, b, all);
+        immobility_->add_questions(Kind::confined_half, a, b, all);
     }
   };
   add_pairs(true);
@@ -185,10 +186,10 @@ std::vector<HoldQuestion> Lookahead::likely_proofs(const GroupState& now) const 
       if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth < kDepthForProofInAdvance)
         continue;
       if (const auto blocker = immobility_->only_blocker(*g, s))
-        immobility_->add_questions(Kind::confined_for_sure, s, *blocker, all);
+        immobility_->add_questions(Kind::confined_full, s, *blocker, all);
     }
   add_pairs(false);
-  std::erase_if(all, [&](const HoldQuestion& q) { return immobility_->was_asked(q); });
+  std::erase_if(all, [&](const ImmobilityQuestion& q) { return immobility_->was_asked(q); });
   return all;
 }
 

@@ -23,7 +23,7 @@ class Lookahead {
   /// Proofs that will be asked for if no partial translation is found.
   void before_translations(const GroupState& group) const;
   /// Proofs that will probably be asked for after this one.
-  std::vector<HoldQuestion> before_proof(const GroupState& group, const HoldQuestion& question) const;
+  std::vector<ImmobilityQuestion> before_proof(const GroupState& group, const ImmobilityQuestion& question) const;
   bool other_pairs_wait() const;
 
  private:
@@ -37,7 +37,7 @@ class Lookahead {
   void add_waiting(const GroupState& group, unsigned depth, const Subassemblies& ids, Attempts& attempts) const;
   void add_searches(const GroupState& group, unsigned depth, const Subassemblies& ids, Attempts& attempts) const;
   void add_other_groups(Attempts& attempts) const;
-  std::vector<HoldQuestion> likely_proofs(const GroupState& now) const;
+  std::vector<ImmobilityQuestion> likely_proofs(const GroupState& now) const;
   bool is_active() const;
   std::size_t most() const;
 

@@ -41,6 +41,24 @@ void PartialTranslationParams::describe(S& s) {
                  .doc = "Advanced. Pairs of edges that the first search for partial translations may compare."});
   s.add<double>("slide_work_growth", &PartialTranslationParams::slide_work_growth,
                 {.unit = "1", .min = 1, .doc = "Advanced. Factor by which each later search may compare more."});
+  s.add<double>("slide_inset", &PartialTranslationParams::slide_inset,
+                {.unit = "1",
+                 .min = 0.1,
+                 .max = 0.5,
+                 .min_open = true,
+                 .max_open = true,
+                 .doc = "Advanced. Share of the verifier's tolerance by which the search takes parts to be thinner."});
+  s.add<double>("slide_least_step", &PartialTranslationParams::slide_least_step,
+                {.unit = "assembly units",
+                 .min = 0,
+                 .min_open = true,
+                 .doc = "Advanced. Shortest translation; the largest edge of an assembly is 10."});
+  s.add<double>("slide_play", &PartialTranslationParams::slide_play,
+                {.unit = "assembly units",
+                 .min = 0,
+                 .doc = "Advanced. Translations up to contact that are shorter only use up play, and are not made."});
+  s.add<unsigned>("slide_axes", &PartialTranslationParams::slide_axes,
+                  {.unit = "1", .min = 1, .max = 32, .doc = "Advanced. Axes along which parts move, at most."});
 }
 
 void ImmobilityParams::describe(S& s) {

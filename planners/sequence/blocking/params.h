@@ -30,6 +30,10 @@ struct PartialTranslationParams {
   unsigned slide_refusals = 12;
   double slide_work = 5e8;
   double slide_work_growth = 4;
+  double slide_inset = 0.3;
+  double slide_least_step = 0.05;
+  double slide_play = 0.25;
+  unsigned slide_axes = 9;
   static void describe(Schema<BlockingParams>& schema);
 };
 

@@ -198,8 +198,8 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   for (const Vec3& c : corners_) box_.extend(c);
 }
 
-double way_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d,
-                         double tolerance) {
+double distance_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d,
+                              double tolerance) {
   // By boxes first, across each axis that the way has no part in.
   double past = kInfinity;
   for (int k = 0; k < 3; ++k) {

@@ -43,7 +43,7 @@ class Polyhedron {
 
 /// Length of the way along unit vector `d` after which `a`, translated by `offset` at first, meets `b`; infinite when
 /// it never does. `tolerance`, below the insets: what passes so close counts as meeting. The two are apart at first.
-double way_until_contact(const Polyhedron& a, const Polyhedron& b, const Eigen::Vector3d& offset,
-                         const Eigen::Vector3d& d, double tolerance);
+double distance_until_contact(const Polyhedron& a, const Polyhedron& b, const Eigen::Vector3d& offset,
+                              const Eigen::Vector3d& d, double tolerance);
 
 }  // namespace dismantle::blocking

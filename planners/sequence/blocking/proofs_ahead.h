@@ -12,18 +12,18 @@
 namespace dismantle::blocking {
 
 /// Do two parts hold each other?
-struct HoldQuestion {
+struct ImmobilityQuestion {
   enum class Kind : char {
-    cage,               ///< ProofEffort::low
-    flat,               ///< ProofEffort::medium; a is the smaller part
-    confined_for_sure,  ///< ProofEffort::high, for motions that cut in as deep as paths may
-    confined_at_last,   ///< the same for motions that cut in half as deep
+    cage,           ///< ProofEffort::low
+    flat,           ///< ProofEffort::medium; a is the smaller part
+    confined_full,  ///< ProofEffort::high, for motions that cut in as deep as paths may
+    confined_half,  ///< the same for motions that cut in half as deep
   };
   Kind kind;
   PartId a, b;  ///< a < b, except for flat pieces
-  auto operator<=>(const HoldQuestion&) const = default;
+  auto operator<=>(const ImmobilityQuestion&) const = default;
 
-  static HoldQuestion of_pair(Kind kind, PartId a, PartId b) { return {kind, std::min(a, b), std::max(a, b)}; }
+  static ImmobilityQuestion of_pair(Kind kind, PartId a, PartId b) { return {kind, std::min(a, b), std::max(a, b)}; }
 };
 
 /// What is proved of a pair is a fact about the two, so it does not matter which thread finds it and when. One
@@ -36,14 +36,14 @@ class ProofsAhead {
 
   /// Idle threads work on the first few of `wanted`, the likeliest to be asked first, that are not known. What is not
   /// among them any more is cancelled.
-  void begin(std::span<const HoldQuestion> wanted, const RunContext& context);
+  void begin(std::span<const ImmobilityQuestion> wanted, const RunContext& context);
   /// The proof that they do, or null. Idle threads work on the first of `next` meanwhile.
-  const Certificate* answer(const HoldQuestion& question, std::span<const HoldQuestion> next,
+  const Certificate* answer(const ImmobilityQuestion& question, std::span<const ImmobilityQuestion> next,
                             const RunContext& context);
 
  private:
-  using Known = SpeculativeCache<HoldQuestion, const Certificate*>;
-  const Certificate* ask(const HoldQuestion& question, const RunContext& context) const;
+  using Known = SpeculativeCache<ImmobilityQuestion, const Certificate*>;
+  const Certificate* ask(const ImmobilityQuestion& question, const RunContext& context) const;
 
   PathOracle& oracle_;
   Known known_;

@@ -11,16 +11,16 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kGrid = 1e-6;    // offsets that differ by less are the same
-constexpr double kBeyond = 1e-3;  // how far past: the judge's margins have room
+constexpr double kBeyond = 1e-3;  // how far past, so that the verifier's margins have room
 
 }  // namespace
 
-Relations::Relations(const PairChecker& pairs, const Directions& directions, const Orientations& orientations,
+Relations::Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
                      std::shared_ptr<Executor> executor)
     : directions_(directions),
-      pairs_(pairs),
+      sweep_(sweep),
       shadows_(directions.all.size()),
-      turns_(orientations),
+      orientations_(orientations),
       executor_(std::move(executor)),
       blocks_ahead_(executor_, Executor::Priority::speculative, [](bool blocked) { return blocked; }) {
   for (const auto& d : directions.all) {
@@ -37,7 +37,7 @@ Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eige
   Shadow s;
   for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
   const Eigen::Matrix3d frame = frames_[direction] * turn;
-  for (const Vec3& v : pairs_.hull(part)) {
+  for (const Vec3& v : sweep_.hull(part)) {
     const Vec3 p = frame * v;
     for (int k = 0; k < 3; ++k) s.lo[k] = std::min(s.lo[k], p[k]), s.hi[k] = std::max(s.hi[k], p[k]);
   }
@@ -46,13 +46,13 @@ Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eige
 
 const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, std::size_t turn) const {
   if (turn != 0) {
-    const auto [entry, is_new] = turned_shadows_.try_emplace({turn, direction, part});
-    if (is_new) entry->second = cast(part, direction, turns_[turn].toRotationMatrix());
+    const auto [entry, is_new] = rotated_shadows_.try_emplace({turn, direction, part});
+    if (is_new) entry->second = cast(part, direction, orientations_[turn].toRotationMatrix());
     return entry->second;
   }
   auto& list = shadows_[direction];
   if (list.empty())
-    for (PartId id = 0; id < pairs_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
+    for (PartId id = 0; id < sweep_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
   return list[part];
 }
 
@@ -64,9 +64,9 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
 /// One of both ways of looking at a pair: i along d past j is j along -d past i. A proof that has a budget may tell
 /// them apart, and rounding offsets; asked like this, it does not matter who asks.
 Pair Relations::canonical(Pair p) {
-  if (p.moving > p.still) {
-    std::swap(p.moving, p.still);
-    std::swap(p.turn_moving, p.turn_still);
+  if (p.moving > p.fixed) {
+    std::swap(p.moving, p.fixed);
+    std::swap(p.orientation_moving, p.orientation_fixed);
     p.offset = -p.offset;
     p.direction = Directions::opposite(p.direction);
   }
@@ -77,8 +77,14 @@ Pair Relations::canonical(Pair p) {
 Relations::Key Relations::key_of(const Pair& pair) {
   const Pair p = canonical(pair);
   const auto grid = [](double x) { return std::lround(x / kGrid); };
-  return {p.moving,           p.still,       p.direction, grid(p.offset.x()), grid(p.offset.y()),
-          grid(p.offset.z()), p.turn_moving, p.turn_still};
+  return {p.moving,
+          p.fixed,
+          p.direction,
+          grid(p.offset.x()),
+          grid(p.offset.y()),
+          grid(p.offset.z()),
+          p.orientation_moving,
+          p.orientation_fixed};
 }
 
 bool Relations::known(const Pair& pair) const { return far(pair) || blocks_.contains(key_of(pair)); }
@@ -89,13 +95,14 @@ bool Relations::known_to_block(const Pair& pair) const {
   return found != blocks_.end() && found->second;
 }
 
-double Relations::way_past(const Pair& p) const {
-  return shadow(p.still, p.direction, p.turn_still).hi[0] - shadow(p.moving, p.direction, p.turn_moving).lo[0] -
-         p.offset.dot(directions_.all[p.direction]);
+double Relations::distance_past(const Pair& p) const {
+  return shadow(p.fixed, p.direction, p.orientation_fixed).hi[0] -
+         shadow(p.moving, p.direction, p.orientation_moving).lo[0] - p.offset.dot(directions_.all[p.direction]);
 }
 
 bool Relations::far(const Pair& p) const {
-  const Shadow &a = shadow(p.moving, p.direction, p.turn_moving), &b = shadow(p.still, p.direction, p.turn_still);
+  const Shadow &a = shadow(p.moving, p.direction, p.orientation_moving),
+               &b = shadow(p.fixed, p.direction, p.orientation_fixed);
   const Vec3 o = frames_[p.direction] * p.offset;
   if (b.hi[0] - a.lo[0] - o[0] <= 0) return true;  // past it already
   for (int k = 1; k < 3; ++k)
@@ -106,12 +113,12 @@ bool Relations::far(const Pair& p) const {
 /// Does the part fail to pass the other on its straight way?
 Relations::Ahead::Request Relations::request(const Pair& pair) const {
   const Pair p = canonical(pair);
-  const Pose begin{p.offset, turns_[p.turn_moving]};
+  const Pose begin{p.offset, orientations_[p.orientation_moving]};
   Pose end = begin;
-  end.t += (way_past(p) + kBeyond) * directions_.all[p.direction];
-  const Pose still{Vec3::Zero(), turns_[p.turn_still]};
-  return {key_of(pair), [this, p, still, way = std::vector<Pose>{begin, end}](const RunContext&) {
-            return !pairs_.passes(p.moving, p.still, still, way);
+  end.t += (distance_past(p) + kBeyond) * directions_.all[p.direction];
+  const Pose fixed_at{Vec3::Zero(), orientations_[p.orientation_fixed]};
+  return {key_of(pair), [this, p, fixed_at, path = std::vector<Pose>{begin, end}](const RunContext&) {
+            return !sweep_.passes(p.moving, p.fixed, fixed_at, path);
           }};
 }
 

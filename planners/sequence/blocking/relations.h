@@ -13,28 +13,28 @@
 
 #include "blocking/directions.h"
 #include "blocking/orientations.h"
+#include "blocking/pair_sweep.h"
 #include "dismantle/speculative_cache.h"
-#include "dismantle/pair_checker.h"
 
 namespace dismantle::blocking {
 
 /// Two parts as they stand, and where one of them is to go.
 struct Pair {
-  PartId moving = 0, still = 0;
+  PartId moving = 0, fixed = 0;
   std::size_t direction = 0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< translation of `moving` less that of `still`
-  std::size_t turn_moving = 0, turn_still = 0;       ///< numbers of Orientations
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();           ///< translation of `moving` less that of `fixed`
+  std::size_t orientation_moving = 0, orientation_fixed = 0;  ///< numbers of Orientations
 };
 
 /// A pair, how the two stand to each other, and a direction; see Relations.
 using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
 
-/// The judge's own verdict, pair by pair: what is free here is a valid straight way, up to the test of convex hulls at
-/// its end. Not safe to call from several threads; idle threads of an executor, if given, help.
+/// What is free here is a valid straight path past one part, up to the test of convex hulls at its end. Not safe to
+/// call from several threads; idle threads of an executor, if given, help.
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
-  Relations(const PairChecker& pairs, const Directions& directions, const Orientations& orientations,
+  Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
             std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
@@ -52,8 +52,8 @@ class Relations {
   void hint(const std::vector<std::vector<Pair>>& lists);
   /// Certainly apart all the way, by boxes alone.
   bool far(const Pair& pair) const;
-  /// Way along d after which `moving` is past `still`.
-  double way_past(const Pair& pair) const;
+  /// Way along d after which `moving` is past `fixed`.
+  double distance_past(const Pair& pair) const;
   /// Extent of a part along a direction, turned but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
   /// How many were asked for.
@@ -73,11 +73,11 @@ class Relations {
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
   const Directions& directions_;
-  const PairChecker& pairs_;
+  const PairSweep& sweep_;
   std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
-  const Orientations& turns_;
-  mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> turned_shadows_;  // turn, direction, part
+  const Orientations& orientations_;
+  mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part
   std::map<Key, bool> blocks_;
   std::shared_ptr<Executor> executor_;
   Ahead blocks_ahead_;

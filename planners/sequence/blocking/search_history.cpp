@@ -20,12 +20,7 @@ void SearchHistory::add(SubassemblyId id, PastSearch search, const PathResult& r
 Attempt SearchHistory::attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const {
   Attempt attempt = state_.attempt_for(group, {id});
   attempt.max_depth = depth;
-  attempt.keep_reached = true;
-  const PastSearch* search = last(id);
-  const auto same = [](const Pose& a, const Pose& b) { return a.t == b.t && a.q.coeffs() == b.q.coeffs(); };
-  if (search == nullptr || !same(search->pose, state_.pose(state_.part_of(id)))) return attempt;
-  const bool again = search->depth == depth && search->group_size == group.members.size();
-  attempt.after = again ? search->after : search->answer;  // the same question has the same answer
+  attempt.resume = true;
   return attempt;
 }
 

@@ -16,8 +16,6 @@ struct PastSearch {
   std::vector<PartId> blocked_by;  ///< parts that were touched, most often first
   std::size_t group_size = 0;      ///< when it was made
   const AttemptResult* answer = nullptr;
-  Pose pose{};                           ///< of the part, then
-  const AttemptResult* after = nullptr;  ///< the one that it was to go on from
 };
 
 class SearchHistory final : public GroupListener {
@@ -31,7 +29,7 @@ class SearchHistory final : public GroupListener {
   bool was_searched(SubassemblyId id) const { return cost_.contains(state_.part_of(id)); }
   void add(SubassemblyId id, PastSearch search, const PathResult& result);
 
-  /// The search for a path of `id` out of its group. It resumes the last one unless the part has been moved since.
+  /// The search for a path of `id` out of its group. The oracle resumes the last one where it can.
   Attempt attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const;
   /// Did its last search end because of the depth limit? Or with a proof that it and another part hold each other as
   /// assembled: then it is merged when the turn of such proofs comes, as others that reached the limit.

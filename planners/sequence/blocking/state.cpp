@@ -139,11 +139,10 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
     set_pose(attempt.moving[i].part, answer.result.path()->poses().back()[i]);
   }
   removal.attempt = &answer;
-  removal.part_way = attempt.part_way;
   removals_.push_back(removal);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {kind, ids});
   const std::size_t parts = assembly_.parts.size();
-  if (attempt.part_way) {
+  if (attempt.goal.placement) {
     observer_.removed(removals_.back(), parts - separations_);
     return;
   }

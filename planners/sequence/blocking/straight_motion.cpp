@@ -15,12 +15,12 @@ constexpr double kClear = 0.01;     // assembly units: further than that, so tha
 
 }  // namespace
 
-StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairChecker& verifier)
+StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep)
     : state_(state),
       oracle_(oracle),
-      verifier_(verifier),
+      sweep_(sweep),
       directions_(blocking::directions_of(state.assembly())),
-      relations_(verifier, directions_, state.orientations(), state.context().executor),
+      relations_(sweep, directions_, state.orientations(), state.context().executor),
       blocker_(state.subassemblies()) {}
 
 void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
@@ -59,8 +59,8 @@ Subassemblies StraightMotion::blockers(const GroupState& group, SubassemblyId id
   relations_.compute(pairs);
   Subassemblies found;
   for (const Pair& pair : pairs)
-    if (relations_.blocks(pair) && (found.empty() || found.back() != state_.subassembly_of(pair.still)))
-      found.push_back(state_.subassembly_of(pair.still));
+    if (relations_.blocks(pair) && (found.empty() || found.back() != state_.subassembly_of(pair.fixed)))
+      found.push_back(state_.subassembly_of(pair.fixed));
   return found;
 }
 
@@ -192,8 +192,8 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
         if (!relations_.known_to_block(pair)) continue;
         return {other, {}};
       }
-      unknown.emplace_back(relations_.extent(pair.still, direction, pair.turn_still).first -
-                               relations_.extent(pair.moving, direction, pair.turn_moving).second -
+      unknown.emplace_back(relations_.extent(pair.fixed, direction, pair.orientation_fixed).first -
+                               relations_.extent(pair.moving, direction, pair.orientation_moving).second -
                                pair.offset.dot(directions_.all[direction]),
                            pair);
     }
@@ -298,7 +298,7 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
   const double length =
-      verifier_.separation_distance(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
+      sweep_.distance_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
       kClear;
   Path path(2);
   for (const auto& p : attempt.moving) {

@@ -21,7 +21,7 @@ namespace dismantle::blocking {
 class StraightMotion final : public GroupListener {
  public:
   /// All references must outlive this.
-  StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairChecker& verifier);
+  StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep);
 
   /// Of the shortest path among the first few directions of which one is free.
   std::optional<std::size_t> free_direction(const GroupState& group, SubassemblyId id,
@@ -73,7 +73,7 @@ class StraightMotion final : public GroupListener {
 
   DisassemblyState& state_;
   PathOracle& oracle_;
-  const PairChecker& verifier_;
+  const PairSweep& sweep_;
   Directions directions_;
   Relations relations_;
   std::vector<std::map<std::size_t, SubassemblyId>> blocker_;      // by subassembly, by direction: one in the way

@@ -16,7 +16,8 @@ using path::test::Table;
 ParamSet forest(std::int64_t after, std::int64_t steps) {
   std::vector<std::string> without{"navigation_tree", "tolerant_rrt"};
   if (steps == 0) without.emplace_back("tunnel_forest");
-  return path::test::guided({{"turn", after}, {"tunnel_forest.after", after}, {"tunnel_forest.max_steps", steps}}, without);
+  return path::test::guided({{"turn", after}, {"tunnel_forest.after", after}, {"tunnel_forest.max_steps", steps}},
+                            without);
 }
 
 TEST(GuidedForest, TakesARingOffAnOpenOneThatPushesDoNot) {

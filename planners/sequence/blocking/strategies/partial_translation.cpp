@@ -19,7 +19,7 @@ PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& orac
       straight_(straight),
       lookahead_(lookahead),
       params_(params),
-      slides_(state.assembly()) {}
+      translations_(state.assembly(), oracle.tolerance(), params) {}
 
 /// Two bodies are left to the path planner, which gives one path instead of many steps.
 Result PartialTranslation::apply(GroupState& group) {
@@ -40,9 +40,9 @@ bool PartialTranslation::search(GroupState& group) {
   if (!std::all_of(group.members.begin(), group.members.end(), suits)) return false;
   lookahead_.before_translations(group);
   for (unsigned refusals = 0; refusals < params_.slide_refusals && !state_.stop(); ++refusals) {
-    const SlideSearch::Answer found = find(group);
-    if (found.end != SlideSearch::End::found) return false;
-    for (const Slide& slide : found.slides) {
+    const TranslationSearch::Answer found = find(group);
+    if (found.end != TranslationSearch::End::found) return false;
+    for (const Translation& slide : found.translations) {
       const Made made = make(group, slide);
       if (made == Made::removed) return true;
       if (made == Made::impossible) return false;
@@ -52,13 +52,13 @@ bool PartialTranslation::search(GroupState& group) {
   return false;
 }
 
-SlideSearch::Answer PartialTranslation::find(GroupState& group) {
+TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
   Places places;
   for (const PartId id : state_.parts_of(group.members)) places[id] = state_.pose(id).t;
   const double work = params_.slide_work * std::pow(params_.slide_work_growth, group.search_depth - 1);
-  SlideSearch::Answer found =
-      slides_.search(places, static_cast<std::size_t>(params_.slide_states), work, state_.context());
-  using End = SlideSearch::End;
+  TranslationSearch::Answer found =
+      translations_.search(places, static_cast<std::size_t>(params_.slide_states), work, state_.context());
+  using End = TranslationSearch::End;
   group.translations_limited = found.end == End::too_long;
   group.translations_exhausted = found.end == End::exhausted;
   state_.count("slide_states", static_cast<double>(found.states));
@@ -73,7 +73,7 @@ SlideSearch::Answer PartialTranslation::find(GroupState& group) {
   return found;
 }
 
-PartialTranslation::Made PartialTranslation::make(GroupState& group, const Slide& slide) {
+PartialTranslation::Made PartialTranslation::make(GroupState& group, const Translation& slide) {
   // The rest could move just as well: to the user it is the smaller part that does.
   Subassemblies ids;
   for (const PartId id : slide.parts) ids.push_back(state_.subassembly_of(id));
@@ -83,9 +83,9 @@ PartialTranslation::Made PartialTranslation::make(GroupState& group, const Slide
     std::swap(ids, rest);
     direction = -direction;
   }
-  if (!std::isinf(slide.way)) {
+  if (!std::isinf(slide.length)) {
     const AttemptResult* answer = nullptr;
-    if (translate(group, ids, slide.way * direction, answer)) return Made::yes;
+    if (translate(group, ids, slide.length * direction, answer)) return Made::yes;
     forbid(group, ids, direction, answer);
     return Made::refused;
   }
@@ -103,7 +103,7 @@ PartialTranslation::Made PartialTranslation::make(GroupState& group, const Slide
 bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& by,
                                    const AttemptResult*& answer) {
   Attempt attempt = state_.attempt_for(group, ids);
-  attempt.part_way = true;
+  attempt.goal.placement = true;
   Path path(2);
   for (const auto& p : attempt.moving) {
     path[0].push_back(p.pose);
@@ -124,7 +124,7 @@ void PartialTranslation::forbid(const GroupState& group, const Subassemblies& id
   for (const PartId m : moving)
     for (const PartId f : state_.parts_of(group.members))
       if (!std::binary_search(moving.begin(), moving.end(), f) && (!named || refusal->result.blocked_by.front() == f))
-        slides_.forbid(m, f, state_.pose(m).t - state_.pose(f).t, direction);
+        translations_.forbid(m, f, state_.pose(m).t - state_.pose(f).t, direction);
 }
 
 void PartialTranslation::on_group_changed(GroupState& group, const GroupChange&) { progress_[group].done = false; }

@@ -5,8 +5,8 @@
 
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
-#include "blocking/slides.h"
 #include "blocking/strategy.h"
+#include "blocking/translation_search.h"
 
 namespace dismantle::blocking {
 
@@ -30,8 +30,8 @@ class PartialTranslation final : public Strategy {
   /// What becomes of one slide that was found.
   enum class Made { yes, refused, removed, impossible };
   bool search(GroupState& group);
-  SlideSearch::Answer find(GroupState& group);
-  Made make(GroupState& group, const Slide& slide);
+  TranslationSearch::Answer find(GroupState& group);
+  Made make(GroupState& group, const Translation& slide);
   bool translate(GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& by, const AttemptResult*& answer);
   void forbid(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction,
               const AttemptResult* refusal);
@@ -41,7 +41,7 @@ class PartialTranslation final : public Strategy {
   StraightMotion* straight_;
   const Lookahead& lookahead_;
   const PartialTranslationParams& params_;
-  SlideSearch slides_;
+  TranslationSearch translations_;
   PerGroup<Progress> progress_;
 };
 

@@ -31,8 +31,8 @@ bool RotationInPlace::rotate_any(GroupState& group) {
   for (const SubassemblyId id : Subassemblies(group.members)) {
     if (!state_.is_single(id) || state_.is_base(state_.part_of(id))) continue;
     const auto [entry, is_new] = axes_.try_emplace(state_.part_of(id));
-    if (is_new) entry->second = turning_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.turn_axes);
-    for (const TurningAxis& axis : entry->second)
+    if (is_new) entry->second = rotation_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.turn_axes);
+    for (const RotationAxis& axis : entry->second)
       if (rotate(group, id, axis)) return true;
   }
   return false;
@@ -41,7 +41,7 @@ bool RotationInPlace::rotate_any(GroupState& group) {
 double RotationInPlace::arc() const { return 2 * std::numbers::pi / params_.turn_stops; }
 
 /// Both ways about the axis, until another subassembly is free.
-bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const TurningAxis& axis) {
+bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const RotationAxis& axis) {
   for (const int sense : {1, -1}) {
     const Rotation rotation{id, axis, state_.pose(state_.part_of(id)), sense};
     Path path{{rotation.start}};
@@ -101,7 +101,7 @@ bool RotationInPlace::arc_passes(PartId part, const Pose& from, const Pose& to, 
     key.insert(key.end(), p->q.coeffs().begin(), p->q.coeffs().end());
   }
   if (const auto known = arcs_.find(key); known != arcs_.end()) return known->second;
-  const bool passes = verifier_.passes(part, fixed, there, {from, to});
+  const bool passes = sweep_.passes(part, fixed, there, {from, to});
   return arcs_.emplace(std::move(key), passes).first->second;
 }
 
@@ -142,7 +142,7 @@ std::optional<std::pair<SubassemblyId, std::size_t>> RotationInPlace::freed_by(c
 /// Proposes the rotation to the oracle, and leaves the part there.
 bool RotationInPlace::commit(GroupState& group, SubassemblyId id, const Path& path) {
   Attempt attempt = state_.attempt_for(group, {id});
-  attempt.part_way = true;
+  attempt.goal.placement = true;
   const AttemptResult& answer = oracle_.propose(attempt, path, state_.context());
   if (!is_success(answer.result.outcome())) return false;
   state_.commit(group, {id}, attempt, answer, GroupChange::Kind::rotated);

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "blocking/params.h"
+#include "blocking/rotation_axes.h"
 #include "blocking/straight_motion.h"
 #include "blocking/strategy.h"
-#include "blocking/turns.h"
 
 namespace dismantle::blocking {
 
 class RotationInPlace final : public Strategy {
  public:
-  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const PairChecker& verifier,
+  RotationInPlace(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const PairSweep& sweep,
                   const RotationParams& params)
-      : state_(state), oracle_(oracle), straight_(straight), verifier_(verifier), params_(params) {}
+      : state_(state), oracle_(oracle), straight_(straight), sweep_(sweep), params_(params) {}
   std::string_view name() const noexcept override { return "rotation_in_place"; }
   Cost cost() const noexcept override { return Cost::arc_sweeps; }
   Result apply(GroupState& group) override;
@@ -29,14 +29,14 @@ class RotationInPlace final : public Strategy {
   /// A part on its way about an axis.
   struct Rotation {
     SubassemblyId id = 0;
-    TurningAxis axis;
+    RotationAxis axis;
     Pose start;
     int sense = 1;  ///< of the rotation about the axis, 1 or -1
 
     Pose at(double angle) const;  ///< rad
   };
   bool rotate_any(GroupState& group);
-  bool rotate(GroupState& group, SubassemblyId id, const TurningAxis& axis);
+  bool rotate(GroupState& group, SubassemblyId id, const RotationAxis& axis);
   bool step(const GroupState& group, const Rotation& rotation, unsigned stop, Path& path);
   double arc() const;  ///< rad, from one stop to the next
   bool sweeps_clear(const GroupState& group, SubassemblyId id, const Pose& from, const Pose& to);
@@ -50,10 +50,10 @@ class RotationInPlace final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion& straight_;
-  const PairChecker& verifier_;
+  const PairSweep& sweep_;
   const RotationParams& params_;
   PerGroup<bool> done_;
-  std::map<PartId, std::vector<TurningAxis>> axes_;
+  std::map<PartId, std::vector<RotationAxis>> axes_;
   /// Rotations that freed another part once: members of the group, part, orientation.
   std::set<std::pair<Subassemblies, std::pair<SubassemblyId, std::size_t>>> tried_;
   std::map<std::vector<double>, bool> arcs_;  // by two parts and three poses

@@ -46,8 +46,8 @@ Result SimultaneousMotion::apply(GroupState& group) {
     }
   }
   if (!sets.empty())
-    progress.note =
-        std::to_string(sets.size()) + " sets of parts were moved at once, each part in its own way, in vain";
+    progress.note = std::to_string(sets.size()) +
+                    " sets of parts were moved simultaneously, each part in its own way, without success";
   return Result::unchanged;
 }
 
@@ -86,8 +86,8 @@ std::optional<Attempt> SimultaneousMotion::attempt_for(const GroupState& group, 
                                                        unsigned round) const {
   Attempt attempt = state_.attempt_for(group, ids);
   for (const SubassemblyId s : ids)
-    if (state_.may_leave(group, {s})) attempt.leaving.push_back(state_.part_of(s));
-  if (attempt.leaving.empty()) return std::nullopt;
+    if (state_.may_leave(group, {s})) attempt.goal.any_of.push_back(state_.part_of(s));
+  if (attempt.goal.any_of.empty()) return std::nullopt;
   attempt.max_depth = std::min(depth_of(round), max_depth_);
   return attempt;
 }

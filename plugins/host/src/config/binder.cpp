@@ -73,8 +73,8 @@ std::optional<PluginChoice> Binder::choice(PluginKind kind, const std::vector<Pa
   if (id == nullptr && below == nullptr)
     return fail(node.mark, fmt::format("{} has no 'type': it must be the id of a {}", name, to_string(kind)));
   if (id != nullptr && (!id->is_scalar() || id->scalar.empty()))
-    return fail(id->mark, fmt::format("{}.type must be the id of a {}, got {}", name, to_string(kind),
-                                      id->kind_name()));
+    return fail(id->mark,
+                fmt::format("{}.type must be the id of a {}, got {}", name, to_string(kind), id->kind_name()));
   PluginChoice out;
   out.type = id != nullptr ? id->scalar : below->type;
   const RegisteredType* found = types_.lookup(kind, out.type);
@@ -131,10 +131,11 @@ void Binder::bind_parts(std::vector<Part>& parts, const ConfigNode* node, const 
       const ParamValue* fallback = below(part, spec);
       if (fallback != nullptr) {
         const ConfigNode untouched = nothing_said(node != nullptr ? node->mark : ConfigMark{});
-        part.values.emplace(spec.name, defaulted(spec, *fallback, untouched, context.name + "." + spec.name, part.origin));
+        part.values.emplace(spec.name,
+                            defaulted(spec, *fallback, untouched, context.name + "." + spec.name, part.origin));
       } else if (std::find(failed.begin(), failed.end(), spec.name) == failed.end()) {
-        const std::string text = fmt::format("{} ({}) needs the key '{}', which has no default", context.name,
-                                             context.type, spec.name);
+        const std::string text =
+            fmt::format("{} ({}) needs the key '{}', which has no default", context.name, context.type, spec.name);
         problems_.push_back(node != nullptr ? node->mark.error(text) : Diagnostic{"", 0, 0, text});
       }
     }

@@ -37,8 +37,8 @@ class Binder {
   ParamSet section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
                    const std::string& origin = "default");
 
-  /// A choice of a plugin, `{type: ID, ...}` or just `ID`. `name`: its place, "path_planner.of.1". `below`: what is laid
-  /// under it as long as the type stays; may be nullptr. Nothing, and a diagnostic, where no such type can be had.
+  /// A choice of a plugin, `{type: ID, ...}` or just `ID`. `name`: its place, "path_planner.of.1". `below`: what is
+  /// laid under it as long as the type stays; may be nullptr. Nothing, and a diagnostic, where no such type can be had.
   std::optional<PluginChoice> choice(PluginKind kind, const std::vector<ParamSpec>& options, const ConfigNode& node,
                                      const std::string& name, const PluginChoice* below, const std::string& origin);
 

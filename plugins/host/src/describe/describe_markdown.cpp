@@ -45,8 +45,8 @@ std::string describe_markdown(const RegisteredType& registered, const Registry& 
   out += markdown_fact("source", type.traits.source);
   out += markdown_fact("needs", joined(capability_words(type.traits.needs)));
   out += markdown_fact("provides", joined(capability_words(type.traits.provides)));
-  out +=
-      markdown_fact("plugin", fmt::format("{} {} ({}), {}", file.id, file.version, file.licence, file.path.filename().string()));
+  out += markdown_fact(
+      "plugin", fmt::format("{} {} ({}), {}", file.id, file.version, file.licence, file.path.filename().string()));
   if (!registered.preset_of.empty())
     out += fmt::format("\n## Stands for\n\n```yaml\n{}```\n", expansion(registered, registry));
   out += "\n## Parameters\n\n";

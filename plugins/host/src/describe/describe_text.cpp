@@ -47,14 +47,14 @@ std::string describe_text(const RegisteredType& registered, const Registry& regi
   const PluginType& type = registered.type;
   const PluginFile& file = *registered.file;
   const bool preset = !registered.preset_of.empty();
-  std::string out = fmt::format("{} ({}{})\n", type.id, to_string(type.kind), preset ? " preset" : "") + wrapped(type.summary, 2, 100) + "\n";
-  if (preset)
-    out += text_fact("preset of", registered.preset_of) + text_fact("in", registered.preset_file.string());
+  std::string out = fmt::format("{} ({}{})\n", type.id, to_string(type.kind), preset ? " preset" : "") +
+                    wrapped(type.summary, 2, 100) + "\n";
+  if (preset) out += text_fact("preset of", registered.preset_of) + text_fact("in", registered.preset_file.string());
   out += text_fact("source", type.traits.source);
   out += text_fact("needs", joined(capability_words(type.traits.needs)));
   out += text_fact("provides", joined(capability_words(type.traits.provides)));
   out += text_fact("plugin",
-              fmt::format("{} {} ({}){}", file.id, file.version, file.licence, file.built_in ? ", built in" : ""));
+                   fmt::format("{} {} ({}){}", file.id, file.version, file.licence, file.built_in ? ", built in" : ""));
   out += text_fact("url", file.url);
   out += text_fact("file", file.path.string());
   out += "\n";

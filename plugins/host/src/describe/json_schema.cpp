@@ -65,8 +65,7 @@ Json object(Json properties) {
 
 Json properties_of(const std::vector<ParamSpec>& specs, const std::string& place, Definitions& definitions) {
   Json properties = Json::object();
-  for (const auto& spec : specs)
-    properties[spec.name] = parameter_schema(spec, place + "." + spec.name, definitions);
+  for (const auto& spec : specs) properties[spec.name] = parameter_schema(spec, place + "." + spec.name, definitions);
   return properties;
 }
 
@@ -116,7 +115,8 @@ std::string json_schema(const Registry& registry) {
                                    {{"type", "array"},
                                     {"items", {{"type", "string"}}},
                                     {"description", "Folders of plugins, relative to this file."}}}});
-  for (const auto& section : plugin_sections()) properties[section.name] = plugin_section(section, registry, definitions);
+  for (const auto& section : plugin_sections())
+    properties[section.name] = plugin_section(section, registry, definitions);
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs, name, definitions));
   Json importers = Json::object();
   for (const auto* type : registry.types(PluginKind::importer))

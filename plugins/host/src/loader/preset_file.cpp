@@ -33,12 +33,12 @@ std::unique_ptr<PresetFile> read_preset(const fs::path& file, PluginKind kind) {
   const std::string key(to_string(kind));
   for (const auto& member : root.members)
     if (member.key != "summary" && member.key != key)
-      problems.push_back(member.key_mark.error(unknown_key_message(member.key, {"a preset", "", ""}, {"summary", key}, {})));
+      problems.push_back(
+          member.key_mark.error(unknown_key_message(member.key, {"a preset", "", ""}, {"summary", key}, {})));
   if (const auto* summary = root.find("summary"); summary != nullptr && summary->value.is_scalar())
     preset->summary = summary->value.scalar;
   if (preset->summary.empty()) problems.push_back(root.mark.error("a preset needs the key 'summary', one line"));
-  if (const auto* choice = root.find(key); choice != nullptr && choice->value.is_map())
-    preset->choice = choice->value;
+  if (const auto* choice = root.find(key); choice != nullptr && choice->value.is_map()) preset->choice = choice->value;
   if (named_type(preset->choice).empty())
     problems.push_back(root.mark.error(fmt::format("a preset needs the key '{0}', as '{0}: {{type: ID, ...}}'", key)));
   return preset;

@@ -116,14 +116,16 @@ void Registry::read_presets_of(const fs::path& search_path) {
   const fs::path folder = built_in ? preset_folder(search_path) : search_path / "presets";
   for (auto& preset : read_presets(folder)) {
     if (!built_in && preset->id.find('.') == std::string::npos)
-      preset->problems.push_back({"", 0, 0, "the id of a preset outside of the built-in folder must carry a dot, as in 'acme.fast'"});
+      preset->problems.push_back(
+          {"", 0, 0, "the id of a preset outside of the built-in folder must carry a dot, as in 'acme.fast'"});
     const auto [known, is_new] = open_presets_.try_emplace(preset->id, nullptr);
     if (is_new && !presets_.contains(preset->id)) {
       known->second = std::move(preset);
       continue;
     }
     if (is_new) open_presets_.erase(known);
-    problems_.push_back({preset->file, "", {preset->id}, fmt::format("preset '{}' is in two files; remove one of them", preset->id)});
+    problems_.push_back(
+        {preset->file, "", {preset->id}, fmt::format("preset '{}' is in two files; remove one of them", preset->id)});
   }
 }
 

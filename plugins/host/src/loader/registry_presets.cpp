@@ -26,7 +26,8 @@ void add_needs(const ParamSpec& spec, const TypeSource& types, Capabilities& nee
     needs.distance = needs.distance || more.distance;
     needs.max_moving = std::max(needs.max_moving, more.max_moving);
     for (ParamSpec inner : type.type.params) {
-      if (const auto own = choice.parameters.find(inner.name); own != choice.parameters.end()) inner.fallback = own->second;
+      if (const auto own = choice.parameters.find(inner.name); own != choice.parameters.end())
+        inner.fallback = own->second;
       add_needs(inner, types, needs);
     }
   }
@@ -66,8 +67,7 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
   const TypeSource types{[&](PluginKind kind, const std::string& other) -> const RegisteredType* {
                            if (std::find(chain.begin(), chain.end(), other) != chain.end()) return nullptr;
                            const RegisteredType* found = lookup(kind, other);
-                           if (found == nullptr && resolve_preset(other, chain) != nullptr)
-                             found = lookup(kind, other);
+                           if (found == nullptr && resolve_preset(other, chain) != nullptr) found = lookup(kind, other);
                            return found;
                          },
                          [&](PluginKind kind, const std::string& other) {
@@ -86,8 +86,8 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
                  .choice(preset.kind, {}, preset.choice, std::string(to_string(preset.kind)), nullptr, "default");
   chain.pop_back();
   if (!problems.empty()) {
-    const auto known = std::find_if(problems_.begin(), problems_.end(),
-                                    [&](const PluginProblem& p) { return p.file == preset.file; });
+    const auto known =
+        std::find_if(problems_.begin(), problems_.end(), [&](const PluginProblem& p) { return p.file == preset.file; });
     if (known == problems_.end())  // not reported on behalf of another one that holds it
       problems_.push_back({preset.file, "", {id}, ConfigError(std::move(problems)).what()});
     return nullptr;

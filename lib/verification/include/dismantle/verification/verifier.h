@@ -10,7 +10,6 @@
 #include "dismantle/assembly.h"
 #include "dismantle/executor.h"
 #include "dismantle/export.h"
-#include "dismantle/pair_checker.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/run_context.h"
 
@@ -64,11 +63,11 @@ struct MotionCheck {
 /// cut into intervals whose sagitta is covered by a margin.
 ///
 /// Built once per assembly; const functions are safe to call from several threads.
-class DISMANTLE_API Verifier : public PairChecker {
+class DISMANTLE_API Verifier {
  public:
   /// Idle threads of `executor`, which may be null, help to build it; it does not depend on that.
   Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
-  ~Verifier() override;
+  ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
   /// relative to each other are not looked at.
@@ -79,17 +78,13 @@ class DISMANTLE_API Verifier : public PairChecker {
                            const RunContext& context) const;
   /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
   /// means refused, or not proved with a small share of the effort.
-  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const override;
+  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
-  /// Way along the unit vector `direction`, at most `most` (where it is taken for granted), after which `group` is so;
-  /// found by halving that so many times.
-  double separation_distance(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
-                   const Eigen::Vector3d& direction, double most, int halvings) const override;
   const VerifyOptions& options() const;
-  std::size_t parts() const override;
+  std::size_t parts() const;
   /// Corners of the convex hull of a part, in its assembled frame.
-  const std::vector<Eigen::Vector3d>& hull(PartId part) const override;
+  const std::vector<Eigen::Vector3d>& hull(PartId part) const;
   /// The part's closed shells, as the checks see them.
   const std::vector<geometry::Solid>& solids(PartId part) const;
 

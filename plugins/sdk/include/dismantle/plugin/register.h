@@ -5,7 +5,6 @@
 #include <exception>
 
 #include "dismantle/executor.h"
-#include "dismantle/pair_checker.h"
 #include "dismantle/part_memo.h"
 #include "dismantle/plugin.h"
 
@@ -19,7 +18,7 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
                 PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
                 ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
-                Rng, ProgressEvent, RunContext, Executor, PairChecker, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
+                Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
                 PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 

@@ -9,7 +9,7 @@
 #include "blocking/directions.h"
 #include "blocking/graph.h"
 #include "blocking/polyhedron.h"
-#include "blocking/turns.h"
+#include "blocking/rotation_axes.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {
@@ -98,7 +98,7 @@ TEST(Polyhedron, WayUntilContactIsThatOfBoxes) {
     const Polyhedron p(fake::boxes({a}), inset), q(fake::boxes({b}), inset);
     ASSERT_EQ(p.edges().size(), 12u);
     ASSERT_EQ(p.faces().size(), 6u);
-    const double got = way_until_contact(p, q, offset, d, tolerance);
+    const double got = distance_until_contact(p, q, offset, d, tolerance);
     const auto shrunk = [&](const fake::Box& box, double by) {
       return fake::Box{box.lo + Vec3::Constant(by), box.hi - Vec3::Constant(by)};
     };
@@ -163,7 +163,7 @@ TEST(TurningAxes, AreThoseOfRoundSurfacesWhereverTheyAre) {
     const Pose at{Vec3(rng.normal(), rng.normal(), rng.normal()),
                   Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized()};
     for (auto& v : mesh.vertices) v = at * v;
-    const auto axes = turning_axes(mesh, 3);
+    const auto axes = rotation_axes(mesh, 3);
     ASSERT_FALSE(axes.empty());
     const Vec3 true_axis = at.q * Vec3::UnitZ();
     EXPECT_GT(std::abs(axes[0].direction.dot(true_axis)), 1 - 1e-6);
@@ -172,8 +172,8 @@ TEST(TurningAxes, AreThoseOfRoundSurfacesWhereverTheyAre) {
 }
 
 TEST(TurningAxes, NoneWhereTurningChangesNothingOrNothingIsRound) {
-  for (const int corners : {24, 48, 97}) EXPECT_TRUE(turning_axes(rod(corners, 2, 3), 3).empty());
-  EXPECT_TRUE(turning_axes(fake::boxes({{{0, 0, 0}, {1, 2, 3}}, {{4, 0, 0}, {5, 1, 1}}}), 3).empty());
+  for (const int corners : {24, 48, 97}) EXPECT_TRUE(rotation_axes(rod(corners, 2, 3), 3).empty());
+  EXPECT_TRUE(rotation_axes(fake::boxes({{{0, 0, 0}, {1, 2, 3}}, {{4, 0, 0}, {5, 1, 1}}}), 3).empty());
 }
 
 }  // namespace

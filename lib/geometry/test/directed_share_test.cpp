@@ -5,11 +5,11 @@
 #include <map>
 #include <numbers>
 
-#include "directed_check.h"
+#include "dismantle/geometry/directed_check.h"
 #include "dismantle/executor.h"
 #include "dismantle/testing/shapes.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 using shapes::Vec3;
@@ -94,4 +94,4 @@ TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
 }
 
 }  // namespace
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

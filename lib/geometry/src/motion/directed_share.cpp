@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "directed_check.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/directed_check.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 /// Patches that are worth a thread's coming; a list is cut into so many pieces at most, of so many patches at least.
@@ -126,4 +126,4 @@ std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& ot
   return seen;
 }
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -16,9 +16,8 @@
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/sweep.h"
-#include "geometry_names.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 
 /// Instants between which the motion is one and the same screw motion, in the frame of B.
 struct Winding {
@@ -91,4 +90,4 @@ class UnrolledMesh {
   std::vector<Bits> in_row_;   // of all columns together
 };
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -1,13 +1,15 @@
-#include "pair_check.h"
+#include "dismantle/geometry/pair_check.h"
 
 #include <optional>
 
 #include "dismantle/executor.h"
-#include "starts_off.h"
+#include "dismantle/geometry/motion_samples.h"
+#include "dismantle/geometry/starts_off.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
+constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;  // per pair of solids, for passes()
 constexpr std::size_t kMany = 1000;  // triangles of both, for the work to be worth a thread's coming
 
 Finding second_of_pair(Finding f) {
@@ -74,4 +76,26 @@ Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward
   return swap ? two : second_of_pair(two);
 }
 
-}  // namespace dismantle::verify
+bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
+            const Pose& pose_b, const Limits& limits) {
+  for (const Solid& x : a)
+    for (const Solid& y : b) {
+      std::vector<Pose> path;
+      for (const Pose& p : poses_a) path.push_back(p * x.frame);
+      const std::vector<Pose> rest{pose_b * y.frame};
+      Aabb grown = x.box;
+      grown.inflate(limits.most());
+      const RelativeMotion forward(path, rest, grown);
+      if (!forward.swept_box().overlaps(y.box)) continue;
+      grown = y.box;
+      grown.inflate(limits.most());
+      const RelativeMotion backward(rest, path, grown);
+      // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
+      if (sample_beyond(x, y, forward, backward, limits)) return false;
+      Budget budget{kQuickTests, kQuickPatches};
+      if (check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
+    }
+  return true;
+}
+
+}  // namespace dismantle::geometry

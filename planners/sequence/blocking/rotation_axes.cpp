@@ -1,4 +1,4 @@
-#include "blocking/turns.h"
+#include "blocking/rotation_axes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -94,11 +94,11 @@ Facets facets_of(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most) {
+std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most) {
   const Facets facets = facets_of(mesh);
   double total = 0;
   for (const Facet& f : facets.all) total += f.area;
-  std::vector<TurningAxis> found;
+  std::vector<RotationAxis> found;
   for (const Vec3& d : axes_of(mesh, kDirections)) {
     const auto middle = [&](const Facet& f) {  // of the chord as which the facet is seen along d
       const Vec3 along = d.cross(f.normal);
@@ -109,7 +109,7 @@ std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most) {
       }
       return Vec3(0.5 * (lo + hi) * along + f.normal.dot(mesh.vertices[f.corners.front()]) * f.normal);
     };
-    std::vector<TurningAxis> here;
+    std::vector<RotationAxis> here;
     for (const auto& [i, j] : facets.neighbours) {
       const Facet &a = facets.all[i], &b = facets.all[j];
       if (std::abs(a.normal.dot(d)) > kAcross || std::abs(b.normal.dot(d)) > kAcross) continue;
@@ -122,7 +122,7 @@ std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most) {
       const Vec3 point = on_axis - on_axis.dot(d) * d;
       const double area = a.area + b.area;
       const auto same = std::find_if(here.begin(), here.end(),
-                                     [&](const TurningAxis& k) { return (k.point - point).norm() < kSamePlace; });
+                                     [&](const RotationAxis& k) { return (k.point - point).norm() < kSamePlace; });
       if (same == here.end()) {
         here.push_back({point, d, area});
       } else {
@@ -132,10 +132,10 @@ std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most) {
     }
     found.insert(found.end(), here.begin(), here.end());
   }
-  std::erase_if(found, [&](const TurningAxis& a) { return a.area < kLeastRound * total; });
+  std::erase_if(found, [&](const RotationAxis& a) { return a.area < kLeastRound * total; });
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
-  std::vector<TurningAxis> axes;
-  for (const TurningAxis& a : found) {
+  std::vector<RotationAxis> axes;
+  for (const RotationAxis& a : found) {
     if (axes.size() == most) break;
     if (share_round(mesh, a.point, a.direction) < kAllRound) axes.push_back(a);
   }

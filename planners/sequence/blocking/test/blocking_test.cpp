@@ -1,8 +1,21 @@
 // The planner on boxes whose truth is plain, with a path planner that never finds anything.
-#include "blocking/take_apart.h"
+#include "blocking/blocking.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/barred_shaft.h"
+#include "run_blocking.h"
 
 namespace dismantle {
 namespace {
+
+using fake::helpless;
+using fake::take_apart;
 
 /// Two combs that hold each other, in a tube that is open at the top: only together do they come out of it.
 Assembly combs_in_tube() {
@@ -84,72 +97,8 @@ TEST(Blocking, TakesOutAGroupAndThenTakesItApart) {
   EXPECT_EQ(r.plan.disassembly.back().separates[0].size(), 1u);
 }
 
-/// Pairs that hold each other, side by side.
-Assembly cased_pairs(int count) {
-  const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
-  std::vector<Mesh> parts;
-  for (int k = 0; k < count; ++k) {
-    const Pose there = shapes::shift({3.0 * k, 0, 0});
-    parts.push_back(shapes::moved(held.around(), there));
-    parts.push_back(shapes::moved(held.block(), there));
-  }
-  return shapes::assembly_of(parts);
-}
-
-TEST(Blocking, EachOfSeveralPairsIsProvedToHoldEachOther) {
-  RunResult r = take_apart(cased_pairs(3), 2);
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
-  EXPECT_EQ(r.sequence_counts["held"], 3);
-  EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
-  ASSERT_EQ(r.plan.unsolved.size(), 6u);
-  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
-}
-
-/// Whatever was begun before, and however much of it was dropped.
-TEST(ProofsAhead, TellWhatTheJudgeDoes) {
-  using Question = blocking::HoldQuestion;
-  const Assembly assembly = cased_pairs(2);
-  Ingredients ingredients = fake::ingredients(helpless);
-  ingredients.provers = fake::built_in_provers();
-  fake::Rig rig(assembly, ingredients);
-  std::vector<Question> all;
-  std::map<Question, const Certificate*> truth;
-  std::map<Question::Kind, std::size_t> held;
-  for (const auto& [a, b] : {std::pair<PartId, PartId>{0, 1}, {2, 3}, {1, 2}})
-    for (const Question::Kind kind : {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_for_sure,
-                                      Question::Kind::confined_at_last}) {
-      all.push_back(Question::of_pair(kind, a, b));
-      truth[all.back()] = blocking::ProofsAhead(*rig.oracle, nullptr).answer(all.back(), {}, {});
-      held[kind] += truth[all.back()] != nullptr;
-    }
-  EXPECT_EQ(held[Question::Kind::confined_at_last], 2u);
-  EXPECT_EQ(held[Question::Kind::confined_for_sure], 2u);
-  Rng rng(4);
-  for (int trial = 0; trial < 4; ++trial) {
-    RunContext context;
-    context.threads = 1 + static_cast<unsigned>(trial % 3);
-    if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
-    fake::Rig fresh(assembly, ingredients);  // which has proved nothing yet
-    blocking::ProofsAhead ahead(*fresh.oracle, context.executor);
-    for (int k = 0; k < 8; ++k) {
-      std::vector<Question> wanted;
-      for (const Question& q : all)
-        if (rng.uniform() < 0.5) wanted.push_back(q);
-      ahead.begin(wanted, context);
-      if (rng.uniform() < 0.5) continue;
-      const Question& q = all[rng.below(all.size())];
-      const Certificate* proof = ahead.answer(q, wanted, context);
-      ASSERT_EQ(proof != nullptr, truth[q] != nullptr);
-      if (proof != nullptr) {
-        ASSERT_EQ(proof->text, truth[q]->text);
-      }
-    }
-  }
-}
-
 TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
-  for (const Assembly& assembly :
-       {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube(), cased_pairs(3)}) {
+  for (const Assembly& assembly : {fake::tube_with_blocks(6), fake::row(7), barred_shaft(), combs_in_tube()}) {
     std::set<std::string> plans;
     std::set<double> relations;
     for (const unsigned threads : {1U, 2U, 3U}) {
@@ -160,21 +109,8 @@ TEST(Blocking, SamePlanOnAnyNumberOfThreads) {
       relations.insert(r.sequence_counts.at("relations"));
     }
     EXPECT_EQ(plans.size(), 1u);
-    EXPECT_EQ(relations.size(), 1u) << "what was looked at ahead is not counted";
+    EXPECT_EQ(relations.size(), 1u) << "what was computed ahead is not counted";
   }
-}
-
-/// Where searches go on for some depth, proofs are begun long before they are asked for.
-TEST(Blocking, ProofsAheadChangeNothing) {
-  std::set<std::string> plans;
-  for (const unsigned threads : {1U, 2U, 3U}) {
-    RunResult r = take_apart(cased_pairs(2), threads, {}, &shallow);
-    EXPECT_EQ(r.sequence_counts["held"], 2);
-    for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
-    for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
-    plans.insert(to_json(r.plan));
-  }
-  EXPECT_EQ(plans.size(), 1u);
 }
 
 /// Two rails side by side in a channel that is open at one end. Before it stands a latch, whose round shaft turns in a

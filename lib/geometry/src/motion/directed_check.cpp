@@ -1,11 +1,11 @@
-#include "directed_check.h"
+#include "dismantle/geometry/directed_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -317,4 +317,4 @@ bool DirectedCheck::sides() {
   return true;
 }
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "dismantle/testing/barred_shaft.h"
@@ -12,9 +13,22 @@
 namespace dismantle::blocking {
 namespace {
 
+/// Only says what the verifier tolerates.
+class TolerantOracle final : public PathOracle {
+ public:
+  const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
+  void prefetch(std::span<const Attempt>, RunContext&) override {}
+  const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
+    throw std::logic_error("not to be asked");
+  }
+  OracleCounts counts() const override { return {}; }
+  double tolerance() const override { return 0.01; }
+};
+
 TEST(Relations, AreTheSameWhoeverHelps) {
   for (const Assembly& assembly : {fake::tube_with_blocks(4), barred_shaft()}) {
-    const Verifier judge(assembly, {});
+    TolerantOracle oracle;
+    const PairSweep sweep(assembly, oracle);
     const Directions directions = directions_of(assembly);
     std::vector<Pair> pairs;
     for (PartId a = 0; a < assembly.parts.size(); ++a)
@@ -22,7 +36,7 @@ TEST(Relations, AreTheSameWhoeverHelps) {
         for (std::size_t d = 0; a != b && d < directions.all.size(); ++d)
           pairs.push_back({a, b, d, Eigen::Vector3d::Zero(), 0, 0});
     const Orientations orientations;
-    Relations alone(judge, directions, orientations, nullptr);
+    Relations alone(sweep, directions, orientations, nullptr);
     EXPECT_FALSE(alone.works_ahead());
     std::size_t blocked = 0;
     for (const Pair& p : pairs) blocked += alone.blocks(p);
@@ -32,7 +46,7 @@ TEST(Relations, AreTheSameWhoeverHelps) {
     for (const unsigned threads : {1U, 2U, 4U})
       for (int trial = 0; trial < 5; ++trial) {
         const auto executor = std::make_shared<Executor>(threads);
-        Relations helped(judge, directions, orientations, executor);
+        Relations helped(sweep, directions, orientations, executor);
         EXPECT_EQ(helped.works_ahead(), threads > 1);
         for (int round = 0; round < 10; ++round) {
           std::vector<std::vector<Pair>> lines(rng.below(6));

@@ -1,11 +1,11 @@
-#include "winding.h"
+#include "dismantle/geometry/winding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
@@ -357,4 +357,4 @@ bool UnrolledMesh::clear_of(const Corners& moved, std::size_t from, std::size_t 
   return free(moved, winding_.turned_at(from), winding_.turned_at(to), kDepth, cells);
 }
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

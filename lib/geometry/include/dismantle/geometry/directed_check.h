@@ -12,10 +12,9 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/solid.h"
-#include "geometry_names.h"
-#include "winding.h"
+#include "dismantle/geometry/winding.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 
 /// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
 struct Limits {
@@ -135,4 +134,4 @@ class DirectedCheck {
   Finding finding_;
 };
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

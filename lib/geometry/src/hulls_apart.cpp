@@ -1,4 +1,4 @@
-#include "hulls_apart.h"
+#include "dismantle/geometry/hulls_apart.h"
 
 #include <algorithm>
 #include <limits>
@@ -6,7 +6,7 @@
 
 #include "dismantle/geometry/hull.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
@@ -82,4 +82,13 @@ bool HullsApart::after(const Vec3& shift) {
   return found && -rest_.top(-found->normal) > group_.top(found->normal);
 }
 
-}  // namespace dismantle::verify
+double HullsApart::distance(const Vec3& direction, double most, int bisections) {
+  double within = 0, apart = most;
+  for (int k = 0; k < bisections; ++k) {
+    const double middle = 0.5 * (within + apart);
+    (after(middle * direction) ? apart : within) = middle;
+  }
+  return apart;
+}
+
+}  // namespace dismantle::geometry

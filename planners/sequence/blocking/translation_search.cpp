@@ -1,4 +1,4 @@
-#include "blocking/slides.h"
+#include "blocking/translation_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,14 +14,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kInset = 0.003;      // assembly units: less than half of what the judge allows for each of two parts
-constexpr double kTolerance = 0.001;  // below the inset
-constexpr double kGrid = 1e-4;        // places that differ by less are the same
-constexpr double kLeastStep = 0.05;   // of a slide
-constexpr double kStandOff = 0.002;   // from what a part meets
-constexpr double kPlay = 0.25;        // slides up to contact that are shorter only use up the play between parts
-constexpr std::size_t kMostAxes = 9;
-constexpr std::size_t kMostParts = 64;
+// Tolerances: what counts as meeting (below the inset), and how far from a part that it meets another stops.
+constexpr double kMeets = 0.1, kStandOff = 0.2;
+constexpr double kGrid = 1e-4;          // assembly units: places that differ by less are the same
+constexpr std::size_t kMostParts = 64;  // bits of a Set
 
 std::int64_t grid(double x) { return std::llround(x / kGrid); }
 
@@ -33,7 +29,7 @@ struct Node {
   std::int64_t parent = -1;
   Set moved = 0;
   std::size_t direction = 0;
-  double way = 0;
+  double length = 0;
 };
 
 struct PlacesHash {
@@ -53,19 +49,20 @@ std::vector<std::int64_t> key_of_places(const std::vector<Vec3>& at) {
 
 }  // namespace
 
-std::size_t SlideSearch::Hash::operator()(const Key& k) const {
+std::size_t TranslationSearch::Hash::operator()(const Key& k) const {
   std::uint64_t h = k.pair;
   for (const std::int64_t v : {k.x, k.y, k.z})
     h = (h ^ static_cast<std::uint64_t>(v)) * 0xbf58476d1ce4e5b9ULL, h ^= h >> 31;
   return static_cast<std::size_t>(h);
 }
 
-SlideSearch::SlideSearch(const Assembly& assembly) : assembly_(assembly) {}
+TranslationSearch::TranslationSearch(const Assembly& assembly, double tolerance, const PartialTranslationParams& params)
+    : assembly_(assembly), tolerance_(tolerance), params_(params) {}
 
-const SlideSearch::Shape& SlideSearch::shape(PartId part) { return shapes_.at(part); }
+const TranslationSearch::Shape& TranslationSearch::shape(PartId part) { return shapes_.at(part); }
 
 /// Shapes and directions for a group. False when it is not for this search.
-bool SlideSearch::prepare(const Places& places) {
+bool TranslationSearch::prepare(const Places& places) {
   if (places.size() > kMostParts) return false;
   for (const auto& [part, at] : places) {
     const auto known = shapes_.find(part);
@@ -75,7 +72,7 @@ bool SlideSearch::prepare(const Places& places) {
     }
     const Mesh& mesh = *assembly_.parts[part].mesh;
     if (mesh.triangles.size() > 200 * Polyhedron::kMostEdges) return false;
-    const auto [entry, is_new] = shapes_.emplace(part, Shape{Polyhedron(mesh, kInset), {}});
+    const auto [entry, is_new] = shapes_.emplace(part, Shape{Polyhedron(mesh, params_.slide_inset * tolerance_), {}});
     if (!entry->second.body.simple()) return false;
   }
   if (directions_.empty()) {
@@ -94,7 +91,7 @@ bool SlideSearch::prepare(const Places& places) {
       }
     }
     std::stable_sort(axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-    if (axes.size() > kMostAxes) axes.resize(kMostAxes);
+    if (axes.size() > params_.slide_axes) axes.resize(params_.slide_axes);
     for (const auto& [axis, weight] : axes) {
       directions_.push_back(axis);
       directions_.push_back(-axis);
@@ -114,36 +111,36 @@ bool SlideSearch::prepare(const Places& places) {
   return true;
 }
 
-SlideSearch::Key SlideSearch::key_of(PartId moving, PartId still, const Vec3& offset, std::size_t direction,
-                                     double& sign) const {
-  sign = moving < still ? 1 : -1;
-  const std::uint64_t a = std::min(moving, still), b = std::max(moving, still);
-  const std::size_t d = moving < still ? direction : Directions::opposite(direction);
+TranslationSearch::Key TranslationSearch::key_of(PartId moving, PartId fixed, const Vec3& offset, std::size_t direction,
+                                                 double& sign) const {
+  sign = moving < fixed ? 1 : -1;
+  const std::uint64_t a = std::min(moving, fixed), b = std::max(moving, fixed);
+  const std::size_t d = moving < fixed ? direction : Directions::opposite(direction);
   return {(a << 40) ^ (b << 16) ^ d, grid(sign * offset.x()), grid(sign * offset.y()), grid(sign * offset.z())};
 }
 
-double SlideSearch::way_free(PartId moving, PartId still, const Vec3& offset, std::size_t direction) {
+double TranslationSearch::free_distance(PartId moving, PartId fixed, const Vec3& offset, std::size_t direction) {
   double sign = 1;
-  const Key key = key_of(moving, still, offset, direction, sign);
+  const Key key = key_of(moving, fixed, offset, direction, sign);
   const auto known = free_.find(key);
   if (known != free_.end()) return known->second;
   work_ +=
-      static_cast<double>(shape(moving).body.edges().size()) * static_cast<double>(shape(still).body.edges().size());
-  const double way =
-      way_until_contact(shape(moving).body, shape(still).body, offset, directions_[direction], kTolerance);
-  return free_.emplace(key, way).first->second;
+      static_cast<double>(shape(moving).body.edges().size()) * static_cast<double>(shape(fixed).body.edges().size());
+  const double length = distance_until_contact(shape(moving).body, shape(fixed).body, offset, directions_[direction],
+                                               kMeets * tolerance_);
+  return free_.emplace(key, length).first->second;
 }
 
-void SlideSearch::forbid(PartId moving, PartId still, const Vec3& offset, const Vec3& direction) {
+void TranslationSearch::forbid(PartId moving, PartId fixed, const Vec3& offset, const Vec3& direction) {
   for (std::size_t d = 0; d < directions_.size(); ++d) {
     if (directions_[d].dot(direction) < 1 - 1e-9) continue;
     double sign = 1;
-    free_[key_of(moving, still, offset, d, sign)] = 0;
+    free_[key_of(moving, fixed, offset, d, sign)] = 0;
   }
 }
 
-SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, double most_work,
-                                        const RunContext& context) {
+TranslationSearch::Answer TranslationSearch::search(const Places& places, std::size_t most_states, double most_work,
+                                                    const RunContext& context) {
   if (!prepare(places)) return {};
   work_ = 0;
   most_work_ = most_work;
@@ -155,8 +152,8 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
   return both;
 }
 
-SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_states, bool to_contact,
-                                        const RunContext& context) {
+TranslationSearch::Answer TranslationSearch::search(const Places& places, std::size_t most_states, bool to_contact,
+                                                    const RunContext& context) {
   Answer answer;
   const std::size_t n = places.size();
   std::vector<PartId> id;
@@ -167,6 +164,7 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
   }
   const Set everyone = n == 64 ? ~Set{0} : (Set{1} << n) - 1;
 
+  const double stand_off = kStandOff * tolerance_;
   std::vector<Node> nodes{first};
   std::unordered_set<std::vector<std::int64_t>, PlacesHash> seen{key_of_places(first.at)};
   std::vector<double> free(n * n);
@@ -177,19 +175,19 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
         if (set >> i & 1) parts.push_back(id[i]);
       return parts;
     };
-    answer.slides.push_back({parts_of(leaving), directions_[direction], kInfinity});
+    answer.translations.push_back({parts_of(leaving), directions_[direction], kInfinity});
     for (std::int64_t k = static_cast<std::int64_t>(node); nodes[static_cast<std::size_t>(k)].parent >= 0;
          k = nodes[static_cast<std::size_t>(k)].parent) {
       const Node& step = nodes[static_cast<std::size_t>(k)];
-      answer.slides.push_back({parts_of(step.moved), directions_[step.direction], step.way});
+      answer.translations.push_back({parts_of(step.moved), directions_[step.direction], step.length});
     }
-    std::reverse(answer.slides.begin(), answer.slides.end());
+    std::reverse(answer.translations.begin(), answer.translations.end());
     // Slides of the same parts along the same direction are one.
-    for (std::size_t k = 0; k + 1 < answer.slides.size();) {
-      Slide &a = answer.slides[k], &b = answer.slides[k + 1];
+    for (std::size_t k = 0; k + 1 < answer.translations.size();) {
+      Translation &a = answer.translations[k], &b = answer.translations[k + 1];
       if (a.parts == b.parts && a.direction == b.direction) {
-        a.way += b.way;
-        answer.slides.erase(answer.slides.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        a.length += b.length;
+        answer.translations.erase(answer.translations.begin() + static_cast<std::ptrdiff_t>(k) + 1);
       } else {
         ++k;
       }
@@ -215,16 +213,16 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
     for (std::size_t d = 0; d < directions_.size(); ++d) {
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
-          free[i * n + j] = i == j ? kInfinity : way_free(id[i], id[j], at[i] - at[j], d);
-      /// All that moves when part i does, by `way`: whom it runs into it takes along.
-      const auto taken_along = [&](std::size_t i, double way) {
+          free[i * n + j] = i == j ? kInfinity : free_distance(id[i], id[j], at[i] - at[j], d);
+      /// All that moves when part i does, by `length`: parts that it runs into are taken along.
+      const auto taken_along = [&](std::size_t i, double length) {
         Set set = Set{1} << i;
         std::vector<std::size_t> open{i};
         while (!open.empty()) {
           const std::size_t g = open.back();
           open.pop_back();
           for (std::size_t j = 0; j < n; ++j)
-            if ((set >> j & 1) == 0 && free[g * n + j] < way) {
+            if ((set >> j & 1) == 0 && free[g * n + j] < length) {
               set |= Set{1} << j;
               open.push_back(j);
             }
@@ -243,7 +241,7 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
       }
       std::set<std::pair<Set, std::int64_t>> tried;
       for (std::size_t i = 0; i < n; ++i) {
-        // The next place where a face of part i is flush with one of another part that looks the same way.
+        // The next place where a face of part i is flush with one of another part that looks the same length.
         double next = kInfinity, meets = kInfinity;
         for (std::size_t j = 0; j < n; ++j) {
           if (j == i) continue;
@@ -253,27 +251,27 @@ SlideSearch::Answer SlideSearch::search(const Places& places, std::size_t most_s
             const double sign = side == d ? 1 : -1;
             for (const double a : shape(id[i]).planes[side])
               for (const double b : shape(id[j]).planes[side]) {
-                const double way = sign * (b - a) + along;
-                if (way > kLeastStep && way < next) next = way;
+                const double length = sign * (b - a) + along;
+                if (length > params_.slide_least_step && length < next) next = length;
               }
           }
         }
-        std::vector<double> ways;
-        if (next < kInfinity) ways.push_back(next);
-        if (to_contact && meets < next && meets - kStandOff > kPlay && next - meets > kPlay)
-          ways.push_back(meets - kStandOff);
-        for (const double way : ways) {
-          const Set set = taken_along(i, way);
-          if (set == everyone || !tried.insert({set, grid(way)}).second) continue;
+        std::vector<double> lengths;
+        if (next < kInfinity) lengths.push_back(next);
+        if (to_contact && meets < next && meets - stand_off > params_.slide_play && next - meets > params_.slide_play)
+          lengths.push_back(meets - stand_off);
+        for (const double length : lengths) {
+          const Set set = taken_along(i, length);
+          if (set == everyone || !tried.insert({set, grid(length)}).second) continue;
           Node node;
           node.at = at;
           for (std::size_t k = 0; k < n; ++k)
-            if (set >> k & 1) node.at[k] += way * directions_[d];
+            if (set >> k & 1) node.at[k] += length * directions_[d];
           if (!seen.insert(key_of_places(node.at)).second) continue;
           node.parent = static_cast<std::int64_t>(current);
           node.moved = set;
           node.direction = d;
-          node.way = way;
+          node.length = length;
           nodes.push_back(std::move(node));
         }
       }

@@ -1,46 +1,45 @@
-// Parts that are proved to hold each other: they leave as one, and the plan says why.
-#include "blocking/take_apart.h"
+// The planner with the provers of this project, on parts that are known to be inseparable.
+#include "dismantle/testing/built_in_provers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/testing/held_shapes.h"
+#include "run_blocking.h"
 
 namespace dismantle {
 namespace {
 
-TEST(Blocking, PartsThatOverlapForGoodAreToldAndHinderNobodyElse) {
-  Rng rng(3);
-  for (int round = 0; round < 6; ++round) {
-    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
-    std::set<std::string> locked;
-    for (unsigned k = 0; k < 5; ++k) {
-      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
-      const std::string name = "block" + std::to_string(k);
-      parts.push_back({name, {box}});
-      if (rng.uniform() < 0.5) continue;
-      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
-      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
-      locked.insert(name);
-      locked.insert(name + "_twin");
-    }
-    Assembly assembly = fake::assembly_of(parts);
-    for (PartId a = 0; a < assembly.parts.size(); ++a)
-      for (PartId b = a + 1; b < assembly.parts.size(); ++b)
-        if (const double depth =
-                penetration_depth(*assembly.parts[a].mesh, Pose{}, *assembly.parts[b].mesh, Pose{}, 1e-4);
-            depth > 0)
-          assembly.overlaps.push_back({a, b, depth});
-    const RunResult r = take_apart(assembly);
-    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::infeasible);
-    std::set<std::string> told;
-    for (const auto& u : r.plan.unsolved) {
-      told.insert(u.part);
-      ASSERT_EQ(u.blocked_by.size(), 1u);
-      EXPECT_TRUE(u.message.find("locked") != std::string::npos) << u.message;
-      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
-    }
-    EXPECT_EQ(told, locked);
-    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
-  }
+RunResult take_apart(const Assembly& assembly, unsigned threads = 1, const RunOptions& options = {}) {
+  return fake::take_apart(assembly, threads, options, &fake::helpless, fake::built_in_provers());
 }
 
-TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
+/// Blocks in casings, side by side.
+Assembly cased_pairs(int count) {
+  const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
+  std::vector<Mesh> parts;
+  for (int k = 0; k < count; ++k) {
+    const Pose there = shapes::shift({3.0 * k, 0, 0});
+    parts.push_back(shapes::moved(held.around(), there));
+    parts.push_back(shapes::moved(held.block(), there));
+  }
+  return shapes::assembly_of(parts);
+}
+
+TEST(BlockingWithProvers, EachOfSeveralPairsIsProvedInseparable) {
+  RunResult r = take_apart(cased_pairs(3), 2);
+  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.sequence_counts["held"], 3);
+  EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves part";
+  ASSERT_EQ(r.plan.unsolved.size(), 6u);
+  for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("as rigid bodies"), std::string::npos) << u.message;
+}
+
+TEST(BlockingWithProvers, InseparablePartsLeaveAsOneAndAreReported) {
   using shapes::box;
   Mesh tray = box({-3, -3, -2}, {3, 3, -1});
   for (const double s : {-1.0, 1.0}) {
@@ -72,12 +71,12 @@ TEST(Blocking, WhatHoldsEachOtherWithoutOverlapLeavesAsOneAndIsTold) {
     without.cages = false;
     RunContext context;
     const RunResult searched =
-        run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(without)), options, context);
+        run(assembly, fake::ingredients(fake::helpless, std::make_shared<Blocking>(without)), options, context);
     EXPECT_GT(searched.counts.attempts, r.counts.attempts) << "searched instead";
   }
 }
 
-TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) {
+TEST(BlockingWithProvers, AfterAllSearchesTwoOfNoKnownShapeAreProvedInseparable) {
   for (const double rim : {0.1, -0.01}) {
     const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, rim, 0.15};
     const Assembly assembly =
@@ -99,7 +98,7 @@ TEST(Blocking, AfterAllSearchesTwoThatAreOfNoKnownKindAreProvedToHoldEachOther) 
   }
 }
 
-TEST(Blocking, AfterASearchInVainAFlatPieceInAChamberIsProvedToBeHeld) {
+TEST(BlockingWithProvers, AfterAnUnsuccessfulSearchAFlatPieceIsProvedToStayInItsChamber) {
   const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
   RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
   EXPECT_EQ(r.outcome, Outcome::exhausted);
@@ -110,7 +109,7 @@ TEST(Blocking, AfterASearchInVainAFlatPieceInAChamberIsProvedToBeHeld) {
   for (const auto& u : r.plan.unsolved) EXPECT_NE(u.message.find("flat disc"), std::string::npos) << u.message;
 }
 
-TEST(Blocking, AfterAllSearchesThreeOfWhichNoTwoWouldDoAreProvedToHoldEachOther) {
+TEST(BlockingWithProvers, AfterAllSearchesThreeAreProvedInseparableTogether) {
   const shapes::Keyed keyed{.play = 0.003};
   RunResult r = take_apart(shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()}));
   EXPECT_EQ(r.outcome, Outcome::exhausted);

@@ -1,9 +1,9 @@
 /// A quick look for penetrations, which proves nothing but spares proofs that must fail.
 #pragma once
 
-#include "directed_check.h"
+#include "dismantle/geometry/directed_check.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 
 /// The deepest of some vertices of both solids at some times: `violated`, with its depth (0: none lies inside).
 Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward);
@@ -12,4 +12,4 @@ Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& for
 bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits);
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -8,7 +8,7 @@
 
 namespace dismantle::blocking {
 
-struct TurningAxis {
+struct RotationAxis {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();       ///< frame of the mesh
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit
   double area = 0;                                       ///< of the surface that is round about it
@@ -17,6 +17,6 @@ struct TurningAxis {
 /// Axes of cylinders in the surface, those of most area first. None about which all of the surface is round: turning
 /// about it changes nothing. Neighbouring facets of a cylinder are chords of one circle, so the lines that halve them
 /// meet on the axis.
-std::vector<TurningAxis> turning_axes(const Mesh& mesh, std::size_t most);
+std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most);
 
 }  // namespace dismantle::blocking

@@ -3,9 +3,9 @@
 
 #include <set>
 
-#include "dismantle/testing/barred_shaft.h"
 #include "blocking/blocking.h"
 #include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/barred_shaft.h"
 #include "dismantle/verification/check_plan.h"
 
 namespace dismantle {

@@ -1,12 +1,12 @@
 // Samples that show that a motion cuts in.
-#include "sampling.h"
+#include "dismantle/geometry/motion_samples.h"
 
 #include <gtest/gtest.h>
 
 #include "dismantle/testing/shapes.h"
-#include "pair_check.h"
+#include "dismantle/geometry/pair_check.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 using shapes::Vec3;
@@ -42,4 +42,4 @@ TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
 }
 
 }  // namespace
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -8,7 +8,7 @@
 #include "dismantle/mesh.h"
 #include "dismantle/pose.h"
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 
 /// A part where it stands. What is pointed to must outlive who uses it.
 struct PlacedHull {
@@ -24,6 +24,9 @@ class HullsApart {
   HullsApart(std::vector<PlacedHull> group, std::vector<PlacedHull> rest);
   /// With all of the group moved by `shift`. True is certain on all vertices. True when there is nothing to be apart.
   bool after(const Eigen::Vector3d& shift);
+  /// Distance along the unit vector `direction`, at most `most` (where it is taken for granted), by which the group has
+  /// to be moved until it is so; by that number of bisections.
+  double distance(const Eigen::Vector3d& direction, double most, int bisections);
 
  private:
   using Vec3 = Eigen::Vector3d;
@@ -42,4 +45,4 @@ class HullsApart {
   Aabb theirs_;  // around the corners of rest_
 };
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -1,10 +1,10 @@
-#include "sampling.h"
+#include "dismantle/geometry/motion_samples.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 namespace {
 
 constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
@@ -61,4 +61,4 @@ bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward
   return sample(a, b, forward, backward, false, beyond) || sample(b, a, backward, forward, true, beyond);
 }
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -1,8 +1,8 @@
-#include "starts_off.h"
+#include "dismantle/geometry/starts_off.h"
 
 #include <algorithm>
 
-namespace dismantle::verify {
+namespace dismantle::geometry {
 
 bool starts_off(const Solid& b, const Solid& a, const Placement& to_a, double reach) {
   constexpr std::uint32_t kTries = 64;
@@ -20,4 +20,4 @@ bool starts_off(const Solid& b, const Solid& a, const Placement& to_a, double re
   return true;
 }
 
-}  // namespace dismantle::verify
+}  // namespace dismantle::geometry

@@ -1,0 +1,57 @@
+#include "blocking/pair_sweep.h"
+
+#include <optional>
+
+#include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/pair_check.h"
+
+namespace dismantle::blocking {
+namespace {
+
+constexpr double kReach = 4;  // tolerances: thinner than that, parts may be penetrated by less
+
+}  // namespace
+
+PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
+    : assembly_(assembly),
+      tolerance_(oracle.tolerance()),
+      own_(oracle.memo() == nullptr ? std::make_unique<PartMemo>() : nullptr),
+      memo_(own_ ? *own_ : *oracle.memo()) {
+  for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
+}
+
+const std::vector<geometry::Solid>& PairSweep::solids(PartId part) const {
+  return *memo_.get<std::vector<geometry::Solid>>("solids", part, RunContext{}, [&] {
+    std::vector<geometry::Solid> solids = geometry::split_into_solids(*assembly_.parts.at(part).mesh);
+    for (geometry::Solid& solid : solids) solid.measure_thickness(kReach * tolerance_);
+    return std::optional(std::move(solids));
+  });
+}
+
+const std::vector<Eigen::Vector3d>& PairSweep::hull(PartId part) const {
+  return *memo_.get<std::vector<Eigen::Vector3d>>(
+      "hull", part, RunContext{}, [&] { return std::optional(hull_corners(assembly_.parts.at(part).mesh->vertices)); });
+}
+
+bool PairSweep::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
+  const auto swept = [](const Aabb& box, const std::vector<Pose>& poses) {
+    return geometry::RelativeMotion(poses, {Pose{}}, box).swept_box();
+  };
+  if (!swept(boxes_[moving], path).overlaps(swept(boxes_[fixed], {fixed_at}))) return true;
+  const geometry::Limits limits{assembly_.initial_overlap(moving, fixed), tolerance_};
+  return geometry::passes(solids(moving), path, solids(fixed), fixed_at, limits);
+}
+
+std::vector<geometry::PlacedHull> PairSweep::hulls(const std::vector<PlacedPart>& parts) const {
+  std::vector<geometry::PlacedHull> placed;
+  for (const PlacedPart& p : parts)
+    placed.push_back({assembly_.parts[p.part].mesh.get(), &boxes_[p.part], &hull(p.part), p.pose});
+  return placed;
+}
+
+double PairSweep::distance_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
+                                 const Eigen::Vector3d& direction, double most, int bisections) const {
+  return geometry::HullsApart(hulls(group), hulls(rest)).distance(direction, most, bisections);
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,211 @@
+// What the planner does with proofs that parts cannot be separated. The provers here follow a script.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "blocking/proofs_ahead.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/testing/held_shapes.h"
+#include "run_blocking.h"
+
+namespace dismantle {
+namespace {
+
+using fake::shallow;
+using fake::take_apart;
+
+/// Proves what is on its list, with one effort.
+class ListedProver final : public ImmobilityProver {
+ public:
+  ListedProver(ProofEffort effort, std::set<std::vector<PartId>> inseparable, std::size_t parts = 2)
+      : effort_(effort), inseparable_(std::move(inseparable)), parts_(parts) {}
+  ProverTraits traits() const noexcept override {
+    return {.effort = effort_, .min_parts = parts_, .max_parts = parts_};
+  }
+  std::optional<Certificate> prove(const SeparationQuery& query, const RunContext&) const override {
+    Certificate certificate;
+    for (const auto* list : {&query.moving, &query.fixed})
+      for (const PlacedPart& p : *list) certificate.parts.push_back(p.part);
+    std::sort(certificate.parts.begin(), certificate.parts.end());
+    if (!inseparable_.contains(certificate.parts)) return std::nullopt;
+    certificate.text = "listed";
+    return certificate;
+  }
+
+ private:
+  ProofEffort effort_;
+  std::set<std::vector<PartId>> inseparable_;
+  std::size_t parts_;
+};
+
+/// `count` times a block in a casing that it cannot leave along any direction: parts 2 k and 2 k + 1.
+Assembly cased_pairs(PartId count) {
+  const shapes::Cased held{{0.5, 0.4, 0.3}, 0.02, 0.1, 0.15};
+  std::vector<Mesh> parts;
+  for (PartId k = 0; k < count; ++k) {
+    const Pose there = shapes::shift({3.0 * static_cast<double>(k), 0, 0});
+    parts.push_back(shapes::moved(held.around(), there));
+    parts.push_back(shapes::moved(held.block(), there));
+  }
+  return shapes::assembly_of(parts);
+}
+
+TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
+  Rng rng(7);
+  for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
+    for (int trial = 0; trial < 3; ++trial) {
+      std::set<std::vector<PartId>> listed;
+      std::set<std::string> expected;
+      for (PartId k = 0; k < 3; ++k)
+        if (rng.uniform() < 0.6) {
+          listed.insert({2 * k, 2 * k + 1});
+          expected.insert("part" + std::to_string(2 * k));
+          expected.insert("part" + std::to_string(2 * k + 1));
+        }
+      RunResult r =
+          take_apart(cased_pairs(3), 1, {}, &shallow, {{"listed", std::make_shared<ListedProver>(effort, listed)}});
+      EXPECT_NE(r.outcome, Outcome::solved);
+      EXPECT_EQ(r.sequence_counts["held"], static_cast<double>(listed.size()));
+      EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves are apart";
+      std::set<std::string> reported;
+      for (const auto& u : r.plan.unsolved)
+        if (u.message == "listed") {
+          reported.insert(u.part);
+          EXPECT_TRUE(u.certificate.has_value());
+          EXPECT_EQ(u.blocked_by.size(), 1u);
+        }
+      EXPECT_EQ(reported, expected);
+      EXPECT_EQ(r.plan.unsolved.size(), 6u);
+    }
+}
+
+TEST(BlockingProofs, NothingIsMergedWhereThatIsSwitchedOff) {
+  BlockingParams params;
+  params.cages = false;
+  const auto prover =
+      std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{{0, 1}, {2, 3}});
+  RunResult off = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}}, params);
+  EXPECT_EQ(off.sequence_counts["held"], 0);
+  RunResult on = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}});
+  EXPECT_EQ(on.sequence_counts["held"], 2);
+}
+
+TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreMergedTogether) {
+  const shapes::Keyed keyed{.play = 0.003};
+  const Assembly assembly = shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()});
+  RunResult r = take_apart(
+      assembly, 1, {}, &fake::helpless,
+      {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1, 2}}, 3)}});
+  EXPECT_TRUE(r.plan.disassembly.empty());
+  EXPECT_EQ(r.sequence_counts["held"], 2) << "three became one";
+  EXPECT_GT(r.counts.attempts, 0) << "the proof comes after the searches";
+  ASSERT_EQ(r.plan.unsolved.size(), 3u);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_EQ(u.message, "listed");
+    EXPECT_EQ(u.blocked_by.size(), 2u);
+    EXPECT_EQ(std::count(u.blocked_by.begin(), u.blocked_by.end(), u.part), 0);
+  }
+}
+
+TEST(BlockingProofs, PartsLockedByTheirOverlapAreOneFromTheBeginning) {
+  Rng rng(3);
+  for (int round = 0; round < 6; ++round) {
+    std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+    std::set<std::string> locked;
+    std::set<std::vector<PartId>> listed;
+    for (unsigned k = 0; k < 5; ++k) {
+      const fake::Box box{{3.0 * k, 0, 0}, {3.0 * k + 1, 1, 1}};
+      const std::string name = "block" + std::to_string(k);
+      parts.push_back({name, {box}});
+      if (rng.uniform() < 0.5) continue;
+      const Eigen::Vector3d by(rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2), rng.uniform(0.05, 0.2));
+      listed.insert({static_cast<PartId>(parts.size() - 1), static_cast<PartId>(parts.size())});
+      parts.push_back({name + "_twin", {{box.lo + by, box.hi + by}}});
+      locked.insert(name);
+      locked.insert(name + "_twin");
+    }
+    Assembly assembly = fake::assembly_of(parts);
+    for (const auto& pair : listed)
+      assembly.overlaps.push_back(
+          {pair[0], pair[1],
+           penetration_depth(*assembly.parts[pair[0]].mesh, Pose{}, *assembly.parts[pair[1]].mesh, Pose{}, 1e-4)});
+    const RunResult r = take_apart(assembly, 1, {}, &fake::helpless,
+                                   {{"listed", std::make_shared<ListedProver>(ProofEffort::trivial, listed)}});
+    EXPECT_EQ(r.outcome, locked.empty() ? Outcome::solved : Outcome::infeasible);
+    std::set<std::string> reported;
+    for (const auto& u : r.plan.unsolved) {
+      reported.insert(u.part);
+      ASSERT_EQ(u.blocked_by.size(), 1u);
+      EXPECT_EQ(u.message, "listed");
+      EXPECT_EQ(u.part.substr(0, 6), u.blocked_by[0].substr(0, 6)) << "each by its twin";
+    }
+    EXPECT_EQ(reported, locked);
+    EXPECT_EQ(r.plan.disassembly.size(), 4u) << "all that is not locked comes apart";
+  }
+}
+
+/// Where searches go deep, proofs are begun long before they are asked for.
+TEST(BlockingProofs, SamePlanOnAnyNumberOfThreads) {
+  std::set<std::string> plans;
+  for (const unsigned threads : {1U, 2U, 3U}) {
+    RunResult r = take_apart(
+        cased_pairs(2), threads, {}, &shallow,
+        {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1}, {2, 3}})}});
+    EXPECT_EQ(r.sequence_counts["held"], 2);
+    for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
+    for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
+    plans.insert(to_json(r.plan));
+  }
+  EXPECT_EQ(plans.size(), 1u);
+}
+
+/// Proves pairs whose sum is even.
+class EvenOracle final : public PathOracle {
+ public:
+  const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
+  void prefetch(std::span<const Attempt>, RunContext&) override {}
+  const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
+    throw std::logic_error("not to be asked");
+  }
+  OracleCounts counts() const override { return {}; }
+  const Certificate* prove(const SeparationQuestion& question, const RunContext&) override {
+    return (question.parts[0] + question.parts[1]) % 2 == 0 ? &proof : nullptr;
+  }
+  const Certificate proof{};
+};
+
+/// Whatever was begun before, and however much of it was cancelled.
+TEST(ProofsAhead, AnswerAsTheOracleDoes) {
+  using Question = blocking::ImmobilityQuestion;
+  EvenOracle oracle;
+  std::vector<Question> all;
+  for (PartId a = 0; a < 4; ++a)
+    for (PartId b = a + 1; b < 4; ++b)
+      for (const Question::Kind kind :
+           {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_full, Question::Kind::confined_half})
+        all.push_back(Question::of_pair(kind, a, b));
+  Rng rng(4);
+  for (int trial = 0; trial < 30; ++trial) {
+    RunContext context;
+    context.threads = 1 + static_cast<unsigned>(trial % 3);
+    if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
+    blocking::ProofsAhead ahead(oracle, context.executor);
+    for (int k = 0; k < 20; ++k) {
+      std::vector<Question> wanted;
+      for (const Question& q : all)
+        if (rng.uniform() < 0.5) wanted.push_back(q);
+      ahead.begin(wanted, context);
+      if (rng.uniform() < 0.5) continue;
+      const Question& q = all[rng.below(all.size())];
+      ASSERT_EQ(ahead.answer(q, wanted, context), (q.a + q.b) % 2 == 0 ? &oracle.proof : nullptr);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
