@@ -175,7 +175,7 @@ std::optional<std::string> ParamSpec::problem_with(const ParamValue& value) cons
     case ParamType::plugins: {
       const auto* list = std::get_if<std::vector<PluginChoice>>(&value);
       if (list == nullptr) return mistyped();
-      if (list->empty()) return "has to name a plugin";
+      if (list->empty() && !may_be_empty) return "has to name a plugin";
       const bool unnamed = std::any_of(list->begin(), list->end(), [](const auto& c) { return c.type.empty(); });
       if (unnamed) return "has an item that names no plugin";
       return std::nullopt;

@@ -39,7 +39,7 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
       registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   ingredients.path_planner_id = planner;
   for (const PluginChoice& choice : config.provers)
-    ingredients.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.params)});
+    ingredients.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   RunOptions options;
   options.path_timeout = 0;
   options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);

@@ -44,6 +44,8 @@ class Oracle final : public PathOracle {
 
   /// Null when `result` is not an answer of this oracle that was planned, remembered, or accepted as proposed.
   const AttemptKey* key_of(const AttemptResult* result) const;
+  /// What proves that parts are left for good.
+  ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
   double proof_seconds() const { return proofs_.seconds(); }
   /// PathResult::stats by name, summed over the answers that were asked for, in the order of asking; interrupted ones

@@ -159,27 +159,34 @@ const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContex
   return prove({{attempt.moving.front().part, attempt.still.front().part}, ProofEffort::low, 1}, context);
 }
 
+/// `for_half`: also for half of the tolerance, with which more is proved.
+const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool for_half, const RunContext& context) {
+  for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
+    if (const Certificate* found = prove({{a, b}, effort, 1}, context)) return found;
+  return for_half ? prove({{a, b}, ProofEffort::high, kLastShare}, context) : nullptr;
+}
+
+/// Only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at the end, for
+/// most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
-      attempt.moving.size() != 1 || attempt.still.empty() || !as_deep(attempt, kDepthForHigh))
+      attempt.moving.size() != 1 || attempt.still.size() != 1 || !as_deep(attempt, kDepthForHigh))
     return nullptr;
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
+  return prove_pair(attempt.moving.front().part, attempt.still.front().part, last, context);
+}
+
+const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,
+                                          const std::vector<PartId>& left, const RunContext& context) {
+  if (provers_.empty() || left.size() < 2) return nullptr;
   std::optional<PartId> holder;
-  if (attempt.still.size() == 1)
-    holder = attempt.still.front().part;
-  else if (result.blocked_by.size() == 1)
-    holder = result.blocked_by.front();
-  if (holder) {
-    const std::vector<PartId> pair{attempt.moving.front().part, *holder};
-    for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
-      if (const Certificate* found = prove({pair, effort, 1}, context)) return found;
-    if (last)
-      if (const Certificate* found = prove({pair, ProofEffort::high, kLastShare}, context)) return found;
-  }
-  if (!last || attempt.still.size() < 2) return nullptr;
-  std::vector<PartId> all = ids_of(attempt.still);
-  all.push_back(attempt.moving.front().part);
-  return prove({all, ProofEffort::high, kLastShare}, context);
+  if (left.size() == 2)
+    holder = left.front() == part ? left.back() : left.front();
+  else if (blocked_by.size() == 1)
+    holder = blocked_by.front();
+  if (holder && *holder != part)
+    if (const Certificate* found = prove_pair(part, *holder, true, context)) return found;
+  return left.size() > 2 ? prove({left, ProofEffort::high, kLastShare}, context) : nullptr;
 }
 
 }  // namespace dismantle

@@ -13,20 +13,19 @@
 #include "dismantle/computed_once.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/immobility_prover.h"
-#include "dismantle/path_oracle.h"
 #include "dismantle/part_memo.h"
+#include "dismantle/path_oracle.h"
 
 namespace dismantle {
 
 /// Asks provers and remembers what they say. An answer depends on nothing but the question, so it does not matter which
 /// thread finds it, and when. Safe to use from several threads. Certificates live as long as the schedule.
 ///
-///   effort   when                                                    about
-///   trivial  when the schedule is made                               all pairs that overlap when assembled
-///   low      before attempts of depth >= kDepthForLow or unlimited   moving against fixed parts; of pairs, the pair
-///   medium   after such attempts, of depth >= kDepthForHigh,         the pair, or the moving part and the only part
-///   that high     that found nothing                                      it touched; for all of the tolerance high
-///   after attempts that more depth would not help           the same for half of the tolerance; several parts
+/// - Trivial: when the schedule is made, about all pairs that overlap when assembled.
+/// - Low: before attempts of some depth or without limit, about the moving against the fixed parts.
+/// - Medium and high: after such attempts of one part against one other that found nothing; for all of the tolerance,
+///   and where more depth would not help for half of it, with which more is proved.
+/// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -40,6 +39,9 @@ class ProofSchedule {
   const Certificate* before(const Attempt& attempt, const RunContext& context);
   /// What is proved because a search found nothing.
   const Certificate* after(const Attempt& attempt, const PathResult& result, const RunContext& context);
+  /// At the end of a run: why `part` is left, together with the others of `left`, if that can be proved.
+  const Certificate* at_last(PartId part, const std::vector<PartId>& blocked_by, const std::vector<PartId>& left,
+                             const RunContext& context);
   /// As PathOracle::prove.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
 
@@ -57,6 +59,7 @@ class ProofSchedule {
   bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
+  const Certificate* prove_pair(PartId a, PartId b, bool for_half, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
 
   const Assembly& assembly_;

@@ -145,6 +145,25 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
   return result;
 }
 
+constexpr std::size_t kLastProofs = 8;  // parts that proofs are sought for at the end; up to a minute each
+
+/// Proofs for parts that are left and have none, the same whichever planners were used.
+void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left, Oracle& oracle,
+                const RunContext& context) {
+  std::size_t asked = 0;
+  for (Unsolved& u : unsolved) {
+    if (u.certificate != nullptr || context.should_stop()) continue;
+    if (u.outcome != Outcome::depth_limit && u.outcome != Outcome::exhausted && u.outcome != Outcome::timeout) continue;
+    if (asked++ == kLastProofs) return;
+    u.certificate = oracle.proofs().at_last(u.part, u.blocked_by, left, context);
+    if (u.certificate == nullptr || !u.certificate->full_tolerance) continue;
+    u.outcome = Outcome::infeasible;
+    u.message = u.certificate->text;
+    u.blocked_by = u.certificate->parts;
+    std::erase(u.blocked_by, u.part);
+  }
+}
+
 /// What the sequence planner says of the parts that are left, completed and without what cannot be.
 std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
   const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
@@ -221,7 +240,9 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
       own.log(LogLevel::error,
               fmt::format("the sequence planner reports success with {} parts still together", ledger.left().size()));
     }
-    ledger.set_unsolved(reasons(sequence, ledger.left()));
+    std::vector<Unsolved> unsolved = reasons(sequence, ledger.left());
+    prove_left(unsolved, ledger.left(), oracle, own);
+    ledger.set_unsolved(unsolved);
   }
   AssemblyPlan back;
   const bool puts_together =

@@ -9,6 +9,7 @@
 
 #include "dismantle/testing/fake_prover.h"
 #include "dismantle/testing/oracle_rig.h"
+#include "dismantle/testing/run_rig.h"
 
 namespace dismantle {
 namespace {
@@ -95,52 +96,87 @@ TEST(ProofSchedule, LowEffortComesBeforeSearchesOfSomeDepth) {
 
 TEST(ProofSchedule, HighEffortComesAfterDeepSearchesThatFoundNothing) {
   for (const ProverTraits& traits : {kMedium, kHigh}) {
-    Asked dear;
+    Asked costly;
     int searches = 0;
-    Rig s(row(3), with(fake::ingredients(touching({2}, searches)), {dear.prover("dear", traits)}));
+    Rig s(row(2), with(fake::ingredients(touching({1}, searches)), {costly.prover("costly", traits)}));
     EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
-    EXPECT_EQ(dear.parts.size(), 0U);
+    EXPECT_EQ(costly.parts.size(), 0U);
     const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
-    EXPECT_EQ(r.result.outcome(), Outcome::infeasible) << "by the only part that it touched";
-    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{2});
+    EXPECT_EQ(r.result.outcome(), Outcome::infeasible);
+    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1});
     EXPECT_EQ(searches, 2);
-    EXPECT_EQ(dear.parts, (std::vector<std::vector<PartId>>{{0, 2}}));
-    EXPECT_EQ(dear.shares, std::vector<double>{1});
+    EXPECT_EQ(costly.parts, (std::vector<std::vector<PartId>>{{0, 1}}));
+    EXPECT_EQ(costly.shares, std::vector<double>{1});
   }
 }
 
 TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
-  Asked dear;
+  Asked costly;
   int searches = 0;
   const NamedProver half = fake::prover("half", kHigh, [&](const SeparationQuery& q, const RunContext&) {
-    dear.shares.push_back(q.share);
+    costly.shares.push_back(q.share);
     return q.share < 1 ? std::optional(claim(q)) : std::nullopt;
   });
   Rig s(row(2), with(fake::ingredients(touching({1}, searches, Outcome::exhausted)), {half}));
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 5));
   EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
-  EXPECT_EQ(dear.shares, (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(costly.shares, (std::vector<double>{1, 0.5}));
   ASSERT_NE(r.certificate, nullptr);
   EXPECT_FALSE(r.certificate->full_tolerance);
   EXPECT_LT(r.certificate->margin, s.options.verify.max_penetration);
 }
 
-TEST(ProofSchedule, SeveralPartsAreAskedAboutWhereMoreDepthWouldNotHelp) {
-  Asked groups;
+TEST(ProofSchedule, HowOneOfManyIsHeldIsNotAskedAfterEachSearch) {
+  Asked pairs, groups;
   int searches = 0;
-  Rig s(row(3), with(fake::ingredients(touching({1, 2}, searches, Outcome::exhausted)), {groups.prover("g", kGroups)}));
-  s.ask(leave(s.assembly, 0, 3));
-  EXPECT_EQ(groups.parts.size(), 0U);
+  Rig s(row(3), with(fake::ingredients(touching({2}, searches, Outcome::exhausted)),
+                     {pairs.prover("p", kHigh), groups.prover("g", kGroups)}));
   s.ask(leave(s.assembly, 0, 4));
   s.ask(leave(s.assembly, 1));
+  EXPECT_TRUE(pairs.parts.empty());
+  EXPECT_TRUE(groups.parts.empty());
+}
+
+/// A whole run, with a sequence planner that tries every part once, in vain.
+RunResult end_of_run(const std::vector<PartId>& blocked_by, std::vector<NamedProver> provers) {
+  int searches = 0;
+  RunContext context;
+  return run(
+      row(3),
+      with(fake::ingredients(touching(blocked_by, searches), std::make_shared<fake::InTurn>()), std::move(provers)),
+      RunOptions{}, context);
+}
+
+TEST(ProofSchedule, PartsThatAreLeftAreProvedToBeHeldAtTheEnd) {
+  Asked pairs;
+  const RunResult r = end_of_run({2}, {pairs.prover("p", kHigh)});
+  EXPECT_EQ(pairs.parts, (std::vector<std::vector<PartId>>{{0, 2}, {1, 2}})) << "each and the only one that it touched";
+  ASSERT_EQ(r.plan.unsolved.size(), 3U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(r.plan.unsolved[i].outcome, Outcome::infeasible);
+    ASSERT_TRUE(r.plan.unsolved[i].certificate);
+    EXPECT_EQ(r.plan.certificates.at(*r.plan.unsolved[i].certificate).kind, "p");
+  }
+  EXPECT_EQ(r.plan.unsolved[2].outcome, Outcome::depth_limit) << "it touched nothing";
+  EXPECT_FALSE(r.plan.unsolved[2].certificate);
+}
+
+TEST(ProofSchedule, SeveralPartsThatAreLeftAreAskedAboutTogether) {
+  Asked groups;
+  const RunResult r = end_of_run({}, {groups.prover("g", kGroups)});
   EXPECT_EQ(groups.parts, (std::vector<std::vector<PartId>>{{0, 1, 2}})) << "once";
+  EXPECT_EQ(r.plan.certificates.size(), 1U);
+  for (const auto& u : r.plan.unsolved) {
+    EXPECT_EQ(u.outcome, Outcome::depth_limit) << "half of the tolerance proves nothing of paths";
+    EXPECT_EQ(u.certificate, std::optional<std::size_t>(0));
+  }
 }
 
 TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
-  Asked dear;
-  Rig s(row(2), with(fake::ingredients(fake::push), {dear.prover("m", kMedium), dear.prover("h", kHigh)}));
+  Asked costly;
+  Rig s(row(2), with(fake::ingredients(fake::push), {costly.prover("m", kMedium), costly.prover("h", kHigh)}));
   EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::solved);
-  EXPECT_EQ(dear.parts.size(), 0U);
+  EXPECT_EQ(costly.parts.size(), 0U);
 }
 
 TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {

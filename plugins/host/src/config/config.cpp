@@ -65,10 +65,10 @@ class Loader {
   /// Each is asked once.
   void check_provers() {
     std::set<std::string> seen;
-    for (const PluginChoice& choice : config_.provers)
-      if (!seen.insert(choice.type).second)
-        problems_.push_back({config_.origins["immobility.provers"], 0, 0,
-                             fmt::format("immobility.provers lists '{}' twice", choice.type)});
+    for (std::size_t k = 0; k < config_.provers.size(); ++k)
+      if (const std::string& type = config_.provers[k].type; !seen.insert(type).second)
+        problems_.push_back({config_.origins[fmt::format("immobility.provers.{}.type", k)], 0, 0,
+                             fmt::format("immobility.provers lists '{}' twice", type)});
   }
 
   void check_top_level() {

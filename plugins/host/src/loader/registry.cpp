@@ -30,6 +30,11 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+std::string with_article(PluginKind kind) {
+  const std::string_view name = to_string(kind);
+  return fmt::format("{} {}", name.front() == 'i' ? "an" : "a", name);
+}
+
 }  // namespace
 
 std::string_view to_string(PluginKind kind) {
@@ -230,7 +235,7 @@ std::string Registry::missing_text(std::string_view what, const std::string& id,
 std::string Registry::why_missing(PluginKind kind, const std::string& id) const {
   const auto* other = lookup(id);
   if (other != nullptr && other->type.kind != kind)
-    return fmt::format("'{}' is a {}, not a {}", id, to_string(other->type.kind), to_string(kind));
+    return fmt::format("'{}' is {}, not {}", id, with_article(other->type.kind), with_article(kind));
   std::vector<std::string> known;
   for (const auto* type : types(kind)) known.push_back(type->type.id);
   return missing_text(to_string(kind), id, known);
