@@ -8,6 +8,7 @@
 #include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/path_oracle.h"
+#include "dismantle/part_memo.h"
 
 namespace dismantle::blocking {
 

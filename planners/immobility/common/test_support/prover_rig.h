@@ -13,6 +13,7 @@
 #include "dismantle/immobility_prover.h"
 #include "dismantle/testing/held_shapes.h"
 #include "dismantle/verification/verifier.h"
+#include "dismantle/part_memo.h"
 
 namespace dismantle::immobility {
 
