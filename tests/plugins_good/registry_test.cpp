@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "dismantle/testing/path_checking.h"
 #include "scratch.h"
 
 namespace dismantle {

@@ -196,7 +196,7 @@ TEST(Resume, LessonsAreKept) {
     Maze leaky = m.maze;
     leaky.free.push_back(tunnel(Vector3d::Zero(), -12 * Vector3d::UnitX()));
     leaky.free_after_learning = m.maze.free;
-    const Judge refuse_the_leak = [about_gate](const Path& path) {
+    const Rule refuse_the_leak = [about_gate](const Path& path) {
       Ruling v;
       v.accept = path.back()[0].t.x() > 0;
       if (!v.accept) v.has_witness = true, v.part = 0, v.other = about_gate ? kFar : 9;

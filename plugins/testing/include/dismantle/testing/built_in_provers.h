@@ -25,9 +25,9 @@ inline const Registry& plugin_registry() {
 inline const std::vector<NamedProver>& built_in_provers() {
   static const std::vector<NamedProver> all = [] {
     std::vector<NamedProver> provers;
-    for (const char* id : default_provers())
-      if (plugin_registry().lookup(PluginKind::immobility_prover, id) != nullptr)
-        provers.push_back({id, plugin_registry().create<ImmobilityProver>(id)});
+    const ParamSpec list = provers_parameter(plugin_registry());
+    for (const PluginChoice& choice : std::get<std::vector<PluginChoice>>(list.fallback))
+      provers.push_back({choice.type, plugin_registry().create<ImmobilityProver>(choice.type)});
     return provers;
   }();
   return all;
