@@ -199,7 +199,7 @@ void add_plan(CLI::App& app, Action& action) {
       "resolved.yaml. Ctrl-C once stops soon and saves.\n"
       "Examples:\n"
       "  dismantle plan gearbox/\n"
-      "  dismantle plan gearbox/ --part shaft --set path_planner.motion=rotation -o shaft\n"
+      "  dismantle plan gearbox/ --part shaft --set path_planner.of.contact_search.motion=rotation -o shaft\n"
       "  dismantle plan gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return plan(*options); }; });
 }

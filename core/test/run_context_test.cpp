@@ -111,7 +111,7 @@ TEST(Outcome, NamesGoThereAndBack) {
     EXPECT_EQ(outcome_from_string(to_string(o)), o);
     names.insert(to_string(o));
   }
-  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(names.size(), 10u);
   EXPECT_FALSE(outcome_from_string("Solved").has_value());
   EXPECT_FALSE(outcome_from_string("").has_value());
 }

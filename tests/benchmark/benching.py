@@ -25,7 +25,6 @@ class BenchTest(unittest.TestCase):
 
     def write_evil(self):
         self.write("evil.yaml", f"schema: 1\nplugins: {{search_paths: [{EVIL}]}}\nsimulator: {{type: fcl}}\n"
-                                "sequence_planner: {type: progressive}\n"  # asks the path planner for every way
                                 "path_planner: {type: evil.none}\nsequence_planner: {type: progressive}\n")
 
     def path(self, *names):

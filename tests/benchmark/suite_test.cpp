@@ -49,7 +49,7 @@ assemblies:
   - {sample: machine, set: {parts: 5}, name: small}
 planners:
   one: {}
-  two: {set: {path_planner.motion: rotation}}
+  two: {set: {path_planner.turn: 20000}}
 variants:
   plain: {}
   turned: {rotate: random, planners: [two], part: slider}
@@ -90,7 +90,7 @@ assemblies:
   - {sample: machine, set: {partz: 5}}
   - {path: nowhere, glob: x}
 planners:
-  one: {set: {path_planner.motoin: rotation}}
+  one: {set: {path_planner.trun: 20000}}
   two: {confg: x.yaml}
 variants:
   turned: {rotate: randm, planners: [tow]}
@@ -100,7 +100,7 @@ sedes: 2
 )");
   const std::vector<std::pair<std::string, std::string>> wanted = {
       {"3: ", "did you mean 'l_slot'?"}, {"4: ", "did you mean 'parts'?"},  {"5: ", "exactly one of glob, path"},
-      {"7: ", "did you mean 'motion'?"}, {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
+      {"7: ", "did you mean 'turn'?"}, {"8: ", "did you mean 'config'?"}, {"10: ", "did you mean 'random'?"},
       {"10: ", "did you mean 'two'?"},   {"11: ", "seeds must be whole"},   {"12: ", "did you mean 'timeout'?"},
       {"13: ", "did you mean 'seeds'?"}};
   for (const auto& [line, text] : wanted) {

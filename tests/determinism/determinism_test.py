@@ -54,7 +54,7 @@ class Samples(Determinism):
         self.sample("l_slot")
 
     def test_turning(self):
-        self.sample("peg_in_hole", "--set", "path_planner.motion=rotation")
+        self.sample("peg_in_hole", "--set", "path_planner.of.contact_search.motion=rotation")
 
     def test_random_order(self):
         self.sample("machine", "--sequence-planner", "random", *SHORT, parts=4)

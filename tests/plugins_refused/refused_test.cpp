@@ -48,9 +48,9 @@ TEST_P(Refused, WithItsReason) {
 
 const Case kCases[] = {
     {"wrong_magic", {"magic is 0x12345678 in the plugin, 0x4c504d44 here"}},
-    {"api_major_newer", {"plugin API is 5.0 in the plugin, 4.0 here", "update Dismantle"}},
-    {"api_major_older", {"plugin API is 3.0 in the plugin, 4.0 here", "rebuild"}},
-    {"api_minor_newer", {"plugin API is 4.1 in the plugin, 4.0 here", "update Dismantle"}},
+    {"api_major_newer", {"plugin API is 6.0 in the plugin, 5.0 here", "update Dismantle"}},
+    {"api_major_older", {"plugin API is 4.0 in the plugin, 5.0 here", "rebuild"}},
+    {"api_minor_newer", {"plugin API is 5.1 in the plugin, 5.0 here", "update Dismantle"}},
     {"header_too_small", {"header size is 64 in the plugin", "rebuild"}},
     {"tiny_header", {"plugin header has 4 bytes"}},
     {"unterminated_id", {"a text in it does not end"}},

@@ -20,7 +20,8 @@ using fake::Steps;
 
 TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
   AttemptResult forged;
-  forged.result = fake::outcome(Outcome::solved);
+  const fake::RuleChecker accepts = fake::accept_all();
+  forged.result.solve(*accepts.check({{Pose{}}, {Pose{}}}).verified, 1);
   const std::vector<std::pair<std::string, Steps>> cheats{
       {"own answer",
        [&](const Assembly&, PathOracle&, SequenceObserver& observer, RunContext&) {

@@ -14,7 +14,8 @@ class Never : public dismantle::FunctionPathPlanner {
  public:
   explicit Never(const NeverParams&) {}
   dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
-  dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext&) override {
+  dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext& context) override {
+    if (context.should_stop()) return dismantle::PathResult::failure(dismantle::Outcome::cancelled);
     return dismantle::PathResult::failure(dismantle::Outcome::exhausted);
   }
 };

@@ -316,8 +316,10 @@ PlanCertificate read_certificate(const Place& place, const Names& parts) {
   }
   c.full_tolerance = place.at("full_tolerance").truth();
   c.margin = place.at("margin").positive();
-  for (const auto& [name, values] : place.at("numbers").members())
-    for (const Place& value : values.items()) c.numbers[name].push_back(value.number());
+  for (const auto& [name, values] : place.at("numbers").members()) {
+    std::vector<double>& list = c.numbers[name];  // which may be empty
+    for (const Place& value : values.items()) list.push_back(value.number());
+  }
   c.text = place.at("text").text();
   return c;
 }

@@ -76,7 +76,7 @@ TEST(PairRows, HoldWhateverThePinsAllow) {
       cut_off += poses.held(corner) ? 0 : 1;
     }
   }
-  EXPECT_GT(cut_off, 900);
+  EXPECT_GT(cut_off, 75 * testing_support::trials(3, 12)) << "a quarter, so that the rows say something";
 }
 
 /// A small block in front of a large face: only points of the block matter, whichever of the two moves. They touch

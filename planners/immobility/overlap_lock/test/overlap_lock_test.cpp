@@ -29,12 +29,16 @@ Assembly pinned(double overlap, const Pose& at) {
 TEST(OverlapLock, APinThroughAPlateWhoseOverlapIsCalledSmall) {
   Rng rng(1);
   for (int i = 0; i < 20; ++i) {
-    // The pin's middle is 0.3 deep in it. If that were the overlap, every motion that far would be allowed.
+    // No point of both is more than 0.5 below the surface of the plate: with a larger allowance the pin could leave. The
+    // prover samples, and need not find the deepest tenth.
     const double overlap = rng.uniform(0.01, 0.6);
     const ProverRig rig(pinned(overlap, random_pose(rng, 2)), kAllowed);
     const auto found = rig.prove(OverlapLock{}, {1}, {0});
-    ASSERT_EQ(found.has_value(), overlap + kAllowed < 0.45) << overlap;
-    if (!found) continue;
+    if (!found) {
+      EXPECT_GT(overlap + kAllowed, 0.4);
+      continue;
+    }
+    ASSERT_LT(overlap + kAllowed, 0.5);
     EXPECT_GT(found->numbers.at("depth").front(), overlap + kAllowed);
     EXPECT_EQ(rig.objection(OverlapLock{}, *found), "");
     for (const Vec3& by : {Vec3(5, 0, 0), Vec3(0.6, 0.6, 0)}) {

@@ -58,7 +58,7 @@ TEST(BlockingWithProvers, InseparablePartsLeaveAsOneAndAreReported) {
       EXPECT_EQ(r.sequence_counts["held"], 0);
       continue;
     }
-    EXPECT_EQ(r.outcome, Outcome::exhausted);
+    EXPECT_EQ(r.outcome, Outcome::infeasible);
     EXPECT_EQ(r.sequence_counts["held"], 1);
     ASSERT_EQ(r.plan.disassembly.size(), 2u);
     EXPECT_EQ(r.plan.disassembly[1].separates[0].size(), 2u);
@@ -101,7 +101,7 @@ TEST(BlockingWithProvers, AfterAllSearchesTwoOfNoKnownShapeAreProvedInseparable)
 TEST(BlockingWithProvers, AfterAnUnsuccessfulSearchAFlatPieceIsProvedToStayInItsChamber) {
   const Mesh can = shapes::can_with_window(1, 0.6, 0.3, 0.3, 6), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
   RunResult r = take_apart(shapes::assembly_of({can, disc, shapes::box({-0.1, -0.1, 0.61}, {0.1, 0.1, 0.9})}));
-  EXPECT_EQ(r.outcome, Outcome::exhausted);
+  EXPECT_EQ(r.outcome, Outcome::infeasible);
   EXPECT_EQ(r.plan.disassembly.size(), 1u) << "the loose one leaves";
   EXPECT_EQ(r.sequence_counts["held"], 1);
   EXPECT_GT(r.counts.attempts, 0);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -12,11 +14,11 @@ namespace dismantle::path {
 
 /// The whole work that a depth limit allows where each level doubles it:
 /// `first` at depth 1; unlimited at depth 0.
-inline std::uint64_t doubled_per_level(std::int64_t first, unsigned depth) {
+inline std::uint64_t doubled_per_level(double first, unsigned depth) {
   constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
   if (depth == 0) return kUnlimited;
-  const auto most = static_cast<std::uint64_t>(first);
-  return depth > 60 || most > (kUnlimited >> depth) ? kUnlimited : most << (depth - 1);
+  const double most = std::ldexp(first, static_cast<int>(std::min(depth, 64U)) - 1);
+  return most < 1e18 ? static_cast<std::uint64_t>(most) : kUnlimited;
 }
 
 /// Where a portion of work ends: after `portion` more (0: no limit), at `most`
