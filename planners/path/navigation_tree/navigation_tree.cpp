@@ -61,6 +61,10 @@ class Search final : public PathSearch {
       thin_ = free_space::overlaps_through(query_);
       begin(thin_ ? Overlap::near_start : Overlap::everywhere);
     }
+    if (tree_->starts_out()) {
+      last_.start_is_goal();
+      return SearchStatus::solved;
+    }
     const std::uint64_t begun_at = used();
     while (true) {
       if (tree_->leads_out() && left_of_budget() > 0) {
@@ -73,6 +77,7 @@ class Search final : public PathSearch {
         (near_start_ ? near_start_state_ : tree_state_) = last_.state;
         if (status == SearchStatus::paused) return status;
       }
+      if (unsuccessful(last_) && context_.cancel.cancelled()) last_.fail(Outcome::cancelled);
       if (unsuccessful(last_) && left_of_budget() == 0) last_.fail(Outcome::timeout);
       if (!near_start_ || !unsuccessful(last_) || !tree_->held()) return status_of(last_.outcome());
       before_ += tree_->looks();

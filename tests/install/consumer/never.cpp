@@ -14,8 +14,7 @@ class Never : public dismantle::FunctionPathPlanner {
  public:
   explicit Never(const NeverParams&) {}
   dismantle::PathPlannerTraits traits() const noexcept override { return {}; }
-  dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext& context) override {
-    if (context.should_stop()) return dismantle::PathResult::failure(dismantle::Outcome::cancelled);
+  dismantle::PathResult plan(const dismantle::PathQuery&, dismantle::RunContext&) override {
     return dismantle::PathResult::failure(dismantle::Outcome::exhausted);
   }
 };

@@ -42,6 +42,8 @@ class LedWalk final : public PathSearch {
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
   bool leads_out() const { return leads_out_; }
+  /// Is there nothing to do, because the body is separated where it starts?
+  bool starts_out() { return tree_.separated(Pose{}); }
   /// Outcomes as of tolerant_walk::Walk. Resumes from PathQuery::resume_from
   /// where that is of such a walk.
   SearchStatus run(const Budget& portion) override;
