@@ -5,12 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "dismantle/geometry/slippage.h"
 #include "dismantle/path/growing_turns.h"
 
 namespace dismantle::free_space {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using geometry::Twist;
 
 constexpr std::size_t kPoints = 24;               // of all bodies together
 constexpr std::size_t kCorners = 3;               // of these tell where a body is and how it is turned
@@ -91,8 +93,9 @@ LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& q
       effort_(effort) {
   if (query.cast.moving.size() == 1) {
     const PlacedPart& m = query.cast.moving.front();
-    for (const Twist& slip : slips(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
-      slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
+    for (const Twist& slip :
+         geometry::slippable_motions(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
+      slips_.push_back({m.pose.q * slip.linear, m.pose.q * slip.angular});
   }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
   if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
@@ -219,9 +222,9 @@ LedWalk::PoseTree::Step LedWalk::downhill(std::uint32_t node, const std::vector<
     at.push_back(tree_[node].pose * p.center);
     wishes.push_back((ways_.ahead(at.back()) - at.back()).normalized());
   }
-  const Twist twist = closest_twist(at, wishes, weights, tree_[node].center);
-  const double size = std::max(twist.way.norm() + tree_.radius() * twist.turn.norm(), 1e-12);
-  return {twist.way / size, twist.turn / size};
+  const Twist twist = geometry::fitted_twist(at, wishes, weights, tree_[node].center);
+  const double size = std::max(twist.linear.norm() + tree_.radius() * twist.angular.norm(), 1e-12);
+  return {twist.linear / size, twist.angular / size};
 }
 
 /// Thin, and no more where it starts.
@@ -246,7 +249,7 @@ bool LedWalk::arrived(std::uint32_t node, const Left& left) {
 /// A motion of the body along itself, from a node. Points move by about 1.
 LedWalk::PoseTree::Step LedWalk::along(std::uint32_t node, const Twist& slip) const {
   const Eigen::Quaterniond& q = tree_[node].pose.q;
-  return {q * slip.way, q * slip.turn};
+  return {q * slip.linear, q * slip.angular};
 }
 
 /// Steps downhill and a little aside, always the same; or only aside; or along

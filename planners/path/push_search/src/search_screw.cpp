@@ -4,7 +4,9 @@
 #include <limits>
 #include <tuple>
 
+#include "dismantle/geometry/slippage.h"
 #include "dismantle/push/search.h"
+#include "dismantle/push/touching_surfaces.h"
 
 namespace dismantle::push {
 namespace {
@@ -82,7 +84,7 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   State there = from;
   for (double way = kGlideStep; way < most; way *= kWayOutFactor) {
     for (std::size_t i = 0; i < there.bodies.size(); ++i)
-      there.bodies[i].pose = moved(from.bodies[i].pose, twist, center, way);
+      there.bodies[i].pose = geometry::moved_along(from.bodies[i].pose, twist, center, way);
     if (world_->separated(there)) return way;
   }
   return std::numeric_limits<double>::infinity();
@@ -123,10 +125,10 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   const double arm = world_->torque_arm(0);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  std::vector<Twist> slips = slipping(contacts, query_.cast.moving, center, arm);
+  std::vector<Twist> slips = geometry::slippable_motions(touching_surfaces(contacts, query_.cast.moving), center, arm);
   if (slips.empty()) {
     feel(node.state, contacts);
-    slips = slipping(contacts, query_.cast.moving, center, arm);
+    slips = geometry::slippable_motions(touching_surfaces(contacts, query_.cast.moving), center, arm);
   }
   std::vector<std::pair<double, Twist>> by_way;
   for (const Twist& t : slips)
@@ -151,7 +153,7 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
   bool left_start = false;
   const auto at = [&](double along) {
     State there = start;
-    for (auto& b : there.bodies) b.pose = moved(b.pose, twist, center, along);
+    for (auto& b : there.bodies) b.pose = geometry::moved_along(b.pose, twist, center, along);
     return there;
   };
   while (true) {
