@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
 #include "flat_faces.h"
 
@@ -18,7 +19,7 @@ constexpr double kFlat = 1e-7;
 constexpr double kWorthMerging = 0.7;
 
 Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
-  return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
+  return geometry::area_vector(mesh, t).stableNormalized();
 }
 
 /// Root of each vertex among those joined by triangles.

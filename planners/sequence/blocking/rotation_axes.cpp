@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "blocking/directions.h"
+#include "dismantle/geometry/face_axes.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -56,7 +57,7 @@ Facets facets_of(const Mesh& mesh) {
   std::vector<Vec3> twice(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
-    twice[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+    twice[t] = geometry::area_vector(mesh, t);
   }
   std::vector<std::uint32_t> root(count);
   std::iota(root.begin(), root.end(), 0U);

@@ -20,23 +20,19 @@ void sort_by_area(std::vector<FaceAxis>& axes, std::size_t most) {
   if (axes.size() > most) axes.resize(most);
 }
 
-std::vector<FaceAxis> rounded_face_axes(const Mesh& mesh) {
+std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces) {
   constexpr double kDecimals = 1000;
   using Key = std::array<int, 3>;
   std::map<Key, FaceAxis> by_direction;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Eigen::Vector3d n = area_vector(mesh, t);
-    const double twice = n.norm();
-    if (!(twice > 0)) continue;
-    n /= twice;
+  for (FaceAxis face : faces) {
     Key key{};
     for (std::size_t k = 0; k < 3; ++k)
-      key[k] = static_cast<int>(std::lround(n[static_cast<Eigen::Index>(k)] * kDecimals));
+      key[k] = static_cast<int>(std::lround(face.axis[static_cast<Eigen::Index>(k)] * kDecimals));
     if (key < Key{}) {
-      n = -n;
+      face.axis = -face.axis;
       for (int& k : key) k = -k;
     }
-    by_direction.try_emplace(key, FaceAxis{n, 0}).first->second.area += 0.5 * twice;
+    by_direction.try_emplace(key, FaceAxis{face.axis, 0}).first->second.area += face.area;
   }
   std::vector<FaceAxis> axes;
   for (const auto& [key, axis] : by_direction) axes.push_back(axis);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/geometry/face_axes.h"
+
 namespace dismantle::free_space {
 namespace {
 
@@ -121,7 +123,7 @@ bool WaysOut::close_narrowest(const Vec3& p, double reach) {
 void WaysOut::mark(const std::array<Vec3, 3>& corners) {
   std::array<Vec3, 3> c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = (corners[k] - box_.lo) / cell_;
-  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  const Vec3 normal = geometry::area_vector(c);
   int up = 0;
   normal.cwiseAbs().maxCoeff(&up);
   const int u = (up + 1) % 3, v = (up + 2) % 3;

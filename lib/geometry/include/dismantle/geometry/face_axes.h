@@ -37,8 +37,8 @@ DISMANTLE_API void add_face(std::vector<FaceAxis>& axes, const FaceAxis& face, d
 DISMANTLE_API void sort_by_area(std::vector<FaceAxis>& axes,
                                 std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// The axes of all triangles, in one pass: normals that agree to three decimals, up to their sign, are one axis, for
-/// which the first of them stands. Ordered by direction, areas are of the surface.
-DISMANTLE_API std::vector<FaceAxis> rounded_face_axes(const Mesh& mesh);
+/// Joins faces whose normals agree to three decimals, up to their sign; the first of them stands for the axis. Faster
+/// than add_face() where there are thousands, and which axes come out depends less on the order. Ordered by direction.
+DISMANTLE_API std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces);
 
 }  // namespace dismantle::geometry
