@@ -1,7 +1,11 @@
 #include "random_tree.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "dismantle/path/candidates.h"
+#include "dismantle/path/touched.h"
 #include "dismantle/sampling/scene.h"
 
 namespace dismantle::bk_rrt {
@@ -80,12 +84,7 @@ void RandomTree::note_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  for (const auto& c : contacts)
-    if (c.depth > -1e-3) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  for (const PartId p : parts) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.cast.moving)) ++touched_[p];
 }
 
 Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const {
@@ -105,20 +104,21 @@ bool RandomTree::verified(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
   const Path path = path::thin(full, bodies_, parameters_.thinning);
-  PathCheck check = query_.checker.check(path);
-  if (check.accepted()) {
-    result.solve(std::move(*check.verified), nodes_[node].depth);
-    return true;
-  }
-  ++refused_;
-  result.message = check.reason;
-  if (!check.has_witness) {
+  const path::Shown shown = path::show_forms(
+      query_.checker, refused_, [&](std::size_t k) { return k == 0 ? std::optional(path) : std::nullopt; },
+      [&](const PathCheck& check, const Path&) {
+        result.message = check.reason;
+        if (check.has_witness) world_->learn(check.part, check.other, check.point);
+        return true;
+      },
+      [&](VerifiedPath verified) { result.solve(std::move(verified), nodes_[node].depth); });
+  if (shown.accepted) return true;
+  if (!shown.last.has_witness) {
     discard(node);
     return false;
   }
-  world_->learn(check.part, check.other, check.point);
   // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
-  const auto& after = path[std::min(check.instant + 1, path.size() - 1)];
+  const auto& after = path[std::min(shown.last.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;
   discard(node_of[k]);

@@ -14,4 +14,16 @@ std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched,
   return parts;
 }
 
+std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving) {
+  constexpr double kTouching = -1e-3;  // assembly units
+  std::vector<PartId> parts;
+  for (const Contact& c : contacts)
+    if (c.depth > kTouching &&
+        std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == c.other; }))
+      parts.push_back(c.other);
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
+}
+
 }  // namespace dismantle::path

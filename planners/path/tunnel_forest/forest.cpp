@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/path/touched.h"
+
 namespace dismantle::tunnel_forest {
 namespace {
 
@@ -163,15 +165,9 @@ Forest::Index Forest::choose_node(Index tree) {
 
 void Forest::note_contacts(const State& state) {
   if (!sees_contacts_) return;
-  constexpr double kTouching = -1e-3;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  for (const auto& c : contacts)
-    if (c.depth > kTouching) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  for (const PartId p : parts) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.cast.moving)) ++touched_[p];
 }
 
 Forest::Index Forest::keep(Index from, const Guide::Trip& trip) {

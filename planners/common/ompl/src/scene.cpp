@@ -8,6 +8,7 @@
 
 #include "dismantle/geometry/hull.h"
 #include "dismantle/path/shortcuts.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -33,10 +34,7 @@ void silence_ompl() {
 }  // namespace
 
 CheckBudget::CheckBudget(const PathQuery& query, const RunContext& run)
-    : max_checks(query.budget.max_steps),
-      context(run),
-      deadline(query.budget.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                        : run.deadline) {}
+    : max_checks(query.budget.max_steps), context(run), deadline(path::deadline_of(query, run)) {}
 
 bool CheckBudget::spent() const {
   return (max_checks > 0 && checks >= max_checks) || context.cancel.cancelled() || deadline.passed();

@@ -1,8 +1,10 @@
 #include "dismantle/push/search.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "dismantle/path/candidates.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::push {
@@ -129,15 +131,7 @@ Path Search::path_to(std::int32_t node) const {
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  const auto moves = [&](PartId part) {
-    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
-                       [part](const PlacedPart& m) { return m.part == part; });
-  };
-  for (const auto& c : contacts)
-    if (c.depth > -1e-3 && !moves(c.other)) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  std::vector<PartId> parts = path::touched_parts(contacts, query_.cast.moving);
   for (PartId p : parts) ++touched_[p];
   return parts;
 }
@@ -159,20 +153,27 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the checker said of it could not be learned
-  PathCheck check = query_.checker.check(path);
-  if (!check.accepted() && !query_.goal.any_of.empty())
-    if (PathCheck again = query_.checker.check(with_room(path)); again.accepted()) check = std::move(again);
-  if (check.accepted()) {
+  std::uint64_t refused_forms = 0;
+  PathCheck first;
+  const auto form = [&](std::size_t k) -> std::optional<Path> {
+    if (k == 0) return path;
+    return k == 1 && !query_.goal.any_of.empty() ? std::optional(with_room(path)) : std::nullopt;
+  };
+  const auto learn = [&](const PathCheck& check, const Path&) {
+    if (refused_forms == 1) first = check;  // with room it is not the path of these states any more
+    return true;
+  };
+  const auto accept = [&](VerifiedPath verified) {
     note_contacts(start);
-    result.solve(std::move(*check.verified), nodes_[static_cast<std::size_t>(last)].depth);
-    return RunEnd::solved;
-  }
+    result.solve(std::move(verified), nodes_[static_cast<std::size_t>(last)].depth);
+  };
+  if (path::show_forms(query_.checker, refused_forms, form, learn, accept).accepted) return RunEnd::solved;
   ++refused_;
   refusals_.push_back(std::move(path));
-  result.message = check.reason;
-  if (!check.has_witness) return RunEnd::refused;
-  world_->learn(check.part, check.other, check.point);
-  lessons_.push_back({check.part, check.other, check.point});
+  result.message = first.reason;
+  if (!first.has_witness) return RunEnd::refused;
+  world_->learn(first.part, first.other, first.point);
+  lessons_.push_back({first.part, first.other, first.point});
   return RunEnd::refused_learned;
 }
 
