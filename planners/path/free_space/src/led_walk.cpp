@@ -7,6 +7,7 @@
 
 #include "dismantle/geometry/slippage.h"
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::free_space {
 namespace {
@@ -324,7 +325,7 @@ SearchStatus LedWalk::run(const Budget& portion) {
   if (is_success(result_.outcome())) return SearchStatus::solved;
   const std::uint64_t most = query_.budget.max_steps > 0 ? query_.budget.max_steps : ~std::uint64_t{0};
   const std::uint64_t until = path::end_of_portion(looks(), portion.max_steps, most);
-  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  const Deadline end = path::deadline_of(portion);
   bool solved = false;
   if (!std::exchange(begun_, true)) {
     progress_at_ = work();

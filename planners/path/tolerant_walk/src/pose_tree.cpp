@@ -7,6 +7,7 @@
 
 #include "dismantle/path/candidates.h"
 #include "dismantle/path/shortcuts.h"
+#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tolerant_walk {
@@ -26,14 +27,13 @@ bool stands(const Cast& cast, PartId part) {
 
 }  // namespace
 
-PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
-                   GeometryCache& cache)
+PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
+                   Overlap overlap, GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       context_(context),
       rng_(rng),
-      deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                         : context.deadline),
+      deadline_(path::deadline_of(query, context)),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
       tolerance_(query.assembly, query.cast, parameters.tolerance_share * query.tolerance, overlap, cache) {
   const std::size_t count = query.cast.moving.size();
