@@ -81,7 +81,7 @@ bool overlaps_through(const PathQuery& query) {
   return overlap > 0 && overlap > kThrough * ball_of(points_of(query));
 }
 
-LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
+LedWalk::LedWalk(const tolerant_walk::TreeParameters& parameters, const PathQuery& query, RunContext& context,
                  const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache)
     : parameters_(parameters),
       query_(query),

@@ -27,7 +27,7 @@ bool stands(const Cast& cast, PartId part) {
 
 }  // namespace
 
-PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
+PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
                    Overlap overlap, GeometryCache& cache)
     : parameters_(parameters),
       query_(query),

@@ -37,7 +37,7 @@ class LedWalk final : public PathSearch {
   };
   /// All outlive this. Several moving parts move as one rigid body. Overlaps
   /// near the start only are for what overlaps_through().
-  LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
+  LedWalk(const tolerant_walk::TreeParameters& parameters, const PathQuery& query, RunContext& context,
           const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
@@ -83,7 +83,7 @@ class LedWalk final : public PathSearch {
   bool clearly_off(std::uint32_t node) const;
   bool arrived(std::uint32_t node, const Left& left);
 
-  const tolerant_walk::Parameters parameters_;
+  const tolerant_walk::TreeParameters parameters_;
   const PathQuery& query_;
   Rng rng_;
   PoseTree tree_;
