@@ -5,17 +5,12 @@
 #include <utility>
 
 #include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
 #include "dismantle/sampling/scene.h"
 
 namespace dismantle::bk_rrt {
 namespace {
-
-std::vector<Pose> poses_of(const State& state) {
-  std::vector<Pose> poses;
-  for (const auto& b : state.bodies) poses.push_back(b.pose);
-  return poses;
-}
 
 bool same(const std::vector<Pose>& a, const std::vector<Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -34,14 +29,13 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
   // Several parts that move at once are told apart by the first of them: where it is draws the tree.
   const sampling::Mover first{query.cast.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
-  for (std::size_t i = 0; i < query.cast.moving.size(); ++i)
-    bodies_.push_back({world_->center(i), motion == MotionSpace::translation ? 0.0 : world_->radius(i)});
+  bodies_ = path::balls_of(*world_);
   add(world_->initial_state(), 0, {});
 }
 
 bool RandomTree::starts_out() { return world_->separated(nodes_[0].state); }
 
-std::vector<Pose> RandomTree::farthest() const { return poses_of(nodes_[farthest_].state); }
+std::vector<Pose> RandomTree::farthest() const { return path::poses_of(nodes_[farthest_].state); }
 
 RandomTree::StateType RandomTree::place(const State& state) const {
   StateType s;
@@ -91,7 +85,7 @@ Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of
   std::vector<std::uint32_t> chain;
   for (std::uint32_t n = node; n != 0; n = nodes_[n].parent) chain.push_back(n);
   std::reverse(chain.begin(), chain.end());
-  Path path{poses_of(nodes_[0].state)};
+  Path path{path::poses_of(nodes_[0].state)};
   node_of_instant = {0};
   for (const auto n : chain) {
     path.insert(path.end(), nodes_[n].way.begin(), nodes_[n].way.end());

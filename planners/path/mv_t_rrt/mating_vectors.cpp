@@ -5,19 +5,13 @@
 #include <map>
 #include <tuple>
 
-#include "dismantle/aabb.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/path/placed_parts.h"
 
 namespace dismantle::mv_t_rrt {
 namespace {
 
 using geometry::FaceAxis;
-
-Aabb world_box(const Assembly& assembly, const PlacedPart& part) {
-  Aabb box;
-  for (const auto& v : assembly.parts[part.part].mesh->vertices) box.extend(part.pose * v);
-  return box;
-}
 
 /// Sums of area by direction, opposite directions together. Exactly equal normals first: a finely cut flat face is one.
 void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAxis>& faces) {
@@ -42,14 +36,12 @@ void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAx
 std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle,
                                             std::size_t most) {
   std::vector<FaceAxis> faces;
-  Aabb near;
-  for (const auto& m : query.cast.moving) {
-    near.extend(world_box(query.assembly, m));
-    add_faces(*query.assembly.parts[m.part].mesh, m.pose.q, faces);
-  }
+  for (const auto& m : query.cast.moving) add_faces(*query.assembly.parts[m.part].mesh, m.pose.q, faces);
+  Aabb near = path::box_of(query.assembly, query.cast.moving);
   near.inflate(reach);
   for (const auto& s : query.cast.still)
-    if (world_box(query.assembly, s).overlaps(near)) add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
+    if (path::box_of(query.assembly, {s}).overlaps(near))
+      add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
   geometry::sort_by_area(faces);
 
   // Merge into those of more area, then order by what they have together.

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "dismantle/free_space/led_walk.h"
-#include "dismantle/path/box_of.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/time_limit.h"
 
 namespace dismantle::portfolio {

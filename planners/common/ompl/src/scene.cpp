@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "dismantle/geometry/hull.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/shortcuts.h"
 #include "dismantle/path/time_limit.h"
 
@@ -18,12 +19,6 @@ using StateType = DisplacementSpace::StateType;
 /// How far beyond contact of boxes a part counts as gone (assembly units): more than any simulator's rounding.
 constexpr double kBeyond = 0.01;
 constexpr int kPollEvery = 32;
-
-std::vector<Pose> poses_of(const std::vector<PlacedPart>& parts) {
-  std::vector<Pose> all;
-  for (const auto& p : parts) all.push_back(p.pose);
-  return all;
-}
 
 /// OMPL writes to the terminal unless told otherwise; a planner prints nothing.
 void silence_ompl() {
@@ -51,8 +46,7 @@ Surroundings::Surroundings(const PathQuery& query, const World& world, const Pos
   for (std::size_t i = 0; i < moving.size(); ++i)
     mover.center += moving[i].pose * world.center(i) / static_cast<double>(moving.size());
   for (const auto& p : moving_hull) mover.radius = std::max(mover.radius, (p - mover.center).norm());
-  for (const auto& s : query.cast.still)
-    for (const auto& v : query.assembly.parts[s.part].mesh->vertices) rest.extend(s.pose * v);
+  rest = path::box_of(query.assembly, query.cast.still);
   bounds = rest;
   bounds.extend(moving_box({}));
   bounds.extend(moving_box(goal));
@@ -104,7 +98,7 @@ Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration,
       space_(std::make_shared<DisplacementSpace>(surroundings_.mover, motion, surroundings_.bounds)),
       budget_(budget),
       step_(step),
-      start_(poses_of(query.cast.moving)) {
+      start_(path::poses_of(query.cast.moving)) {
   silence_ompl();
   // Noise of CAD may put the start itself beyond the limit; what is there already is no obstacle.
   allowed_ = std::max(max_penetration, world_->penetration(world_->initial_state()));

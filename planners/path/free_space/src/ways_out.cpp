@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/path/placed_parts.h"
 
 namespace dismantle::free_space {
 namespace {
@@ -68,8 +69,7 @@ void WaysOut::each_neighbour(std::uint32_t cell, const Visit& visit) const {
 }
 
 WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still, double ball, std::size_t most_cells) {
-  for (const auto& s : still)
-    for (const auto& v : assembly.parts[s.part].mesh->vertices) box_.extend(s.pose * v);
+  box_ = path::box_of(assembly, still);
   if (box_.empty()) box_.extend(Vec3::Zero());
   // Solved for the edge by repetition: the margin counts, too.
   cell_ = std::cbrt(std::max(box_.size().prod(), 1e-9) / static_cast<double>(most_cells));

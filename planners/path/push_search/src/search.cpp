@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::push {
@@ -25,13 +26,6 @@ constexpr double kOnceRound = 6.5;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
 constexpr std::uint64_t kStrictNodes = 24;
 
-std::vector<path::Ball> balls(const World& world) {
-  std::vector<path::Ball> result;
-  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
-    result.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
-  return result;
-}
-
 bool same_path(const Path& a, const Path& b) {
   constexpr double kSame = 1e-6;
   if (a.size() != b.size()) return false;
@@ -48,7 +42,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       tactics_(tactics),
       context_(context),
       world_(query.simulator.world(query.assembly, query.prepared, query.cast, space)),
-      bodies_(balls(*world_)),
+      bodies_(path::balls_of(*world_)),
       axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.cast, axes_),
       stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
@@ -86,8 +80,7 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   fine_.add(node.state, static_cast<std::uint32_t>(id));
   if (const double from_start = way_from_start(state); from_start > farthest_) {
     farthest_ = from_start;
-    best_.clear();
-    for (const auto& b : state.bodies) best_.push_back(b.pose);
+    best_ = path::poses_of(state);
   }
   nodes_.push_back(std::move(node));
   return id;
@@ -119,9 +112,7 @@ Path Search::path_to(std::int32_t node) const {
   std::int32_t at = node;
   for (; nodes_[static_cast<std::size_t>(at)].parent >= 0; at = nodes_[static_cast<std::size_t>(at)].parent)
     pieces.push_back(&nodes_[static_cast<std::size_t>(at)].way);
-  Path path;
-  path.emplace_back();
-  for (const auto& b : nodes_[static_cast<std::size_t>(at)].state.bodies) path.back().push_back(b.pose);
+  Path path{path::poses_of(nodes_[static_cast<std::size_t>(at)].state)};
   for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
     path.insert(path.end(), (*piece)->begin(), (*piece)->end());
   return path;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "dismantle/geometry/slippage.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/push/search.h"
 #include "dismantle/push/touching_surfaces.h"
 
@@ -37,12 +38,6 @@ constexpr int kFeelLooks = 40;
 constexpr double kTurns = 0.3, kLean = 0.5;
 /// Half turns with a smaller sine do not tell their axis.
 constexpr double kTellsAxis = 0.3;
-
-Path::value_type poses_of(const State& state) {
-  Path::value_type poses;
-  for (const auto& b : state.bodies) poses.push_back(b.pose);
-  return poses;
-}
 
 /// The screw that has led from `from` to `to` after `turned` rad about nearly `rough`: both poses have been put in the
 /// middle of their room, so that this is closer to the truth than what the contacts told.
@@ -172,7 +167,7 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
     for (int k = 1; k <= instants; ++k) {
       run.state = at(way + k * step / instants);
       run.length += step / instants;
-      run.way.push_back(poses_of(run.state));
+      run.way.push_back(path::poses_of(run.state));
       if (run.length < noted + kGlideLook * (1 - 1e-9) || seen_.similar(run.state, look)) continue;
       noted = run.length;
       look = run.state;
@@ -202,7 +197,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   run.last = from;
   run.first = static_cast<std::uint32_t>(nodes_.size());
   world_->retreat(run.state, kGlideClearance);
-  run.way.push_back(poses_of(run.state));
+  run.way.push_back(path::poses_of(run.state));
   const State start = run.state;
   double turned = 0;
   Pose stuck_at = start.bodies[0].pose;
@@ -228,7 +223,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
     }
     turned += (run.length - before) * twist.angular.norm();
     world_->retreat(run.state, kGlideClearance);
-    run.way.push_back(poses_of(run.state));
+    run.way.push_back(path::poses_of(run.state));
     twist =
         refit(twist, start.bodies[0].pose, run.state.bodies[0].pose, bodies_[0].center, world_->torque_arm(0), turned);
   }

@@ -1,6 +1,6 @@
 #include "dismantle/push/touching_surfaces.h"
 
-#include <algorithm>
+#include "dismantle/path/placed_parts.h"
 
 namespace dismantle::push {
 namespace {
@@ -15,7 +15,7 @@ std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact
   std::vector<geometry::SurfaceSample> samples;
   for (const Contact& c : contacts) {
     if (c.depth < -kTouching || c.on_edge) continue;
-    if (std::any_of(moving.begin(), moving.end(), [&](const PlacedPart& m) { return m.part == c.other; })) continue;
+    if (path::contains(moving, c.other)) continue;
     samples.push_back({c.point, c.normal});
   }
   return samples;
