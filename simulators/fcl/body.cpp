@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
 #include "flat_faces.h"
@@ -24,18 +24,11 @@ Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
 
 /// Root of each vertex among those joined by triangles.
 std::vector<std::uint32_t> shell_roots(const Mesh& mesh) {
-  std::vector<std::uint32_t> root(mesh.vertices.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&root](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+  DisjointSets sets(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
-    for (std::size_t k = 1; k < 3; ++k) {
-      const std::uint32_t x = find(t[0]), y = find(t[k]);
-      root[std::max(x, y)] = std::min(x, y);
-    }
-  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = find(v);
+    for (std::size_t k = 1; k < 3; ++k) sets.join(t[0], t[k]);
+  std::vector<std::uint32_t> root(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = sets.root(v);
   return root;
 }
 
