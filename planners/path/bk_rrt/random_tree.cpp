@@ -7,7 +7,7 @@
 #include "dismantle/path/candidates.h"
 #include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::bk_rrt {
 namespace {
@@ -23,11 +23,11 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
     : query_(query),
       parameters_(parameters),
       rng_(rng),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       sees_contacts_(query.simulator.capabilities().contacts) {
   const sampling::Surroundings around(query, *world_);
   // Several parts that move at once are told apart by the first of them: where it is draws the tree.
-  const sampling::Mover first{query.cast.moving[0].pose * world_->center(0), world_->radius(0)};
+  const sampling::Mover first{query.scene.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
   bodies_ = path::balls_of(*world_);
   add(world_->initial_state(), 0, {});
@@ -40,7 +40,7 @@ std::vector<Pose> RandomTree::farthest() const { return path::poses_of(nodes_[fa
 RandomTree::StateType RandomTree::place(const State& state) const {
   StateType s;
   s.center = state.bodies[0].pose * world_->center(0);
-  s.turn = (state.bodies[0].pose.q * query_.cast.moving[0].pose.q.conjugate()).normalized();
+  s.turn = (state.bodies[0].pose.q * query_.scene.moving[0].pose.q.conjugate()).normalized();
   return s;
 }
 
@@ -78,7 +78,7 @@ void RandomTree::note_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  for (const PartId p : path::touched_parts(contacts, query_.cast.moving)) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
 }
 
 Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const {
@@ -102,7 +102,7 @@ bool RandomTree::verified(std::uint32_t node, PathResult& result) {
       query_.checker, refused_, [&](std::size_t k) { return k == 0 ? std::optional(path) : std::nullopt; },
       [&](const PathCheck& check, const Path&) {
         result.message = check.reason;
-        if (check.has_witness) world_->learn(check.part, check.other, check.point);
+        if (check.has_witness) world_->add_contact_sample(check.part, check.other, check.point);
         return true;
       },
       [&](VerifiedPath verified) { result.solve(std::move(verified), nodes_[node].depth); });

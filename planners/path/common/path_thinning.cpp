@@ -16,7 +16,7 @@ double apart(const Pose& a, const Pose& b, const Ball& ball) {
 
 std::vector<Ball> balls_of(const World& world) {
   std::vector<Ball> balls;
-  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
     balls.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
   return balls;
 }

@@ -36,10 +36,10 @@ void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAx
 std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle,
                                             std::size_t most) {
   std::vector<FaceAxis> faces;
-  for (const auto& m : query.cast.moving) add_faces(*query.assembly.parts[m.part].mesh, m.pose.q, faces);
-  Aabb near = path::box_of(query.assembly, query.cast.moving);
+  for (const auto& m : query.scene.moving) add_faces(*query.assembly.parts[m.part].mesh, m.pose.q, faces);
+  Aabb near = path::box_of(query.assembly, query.scene.moving);
   near.inflate(reach);
-  for (const auto& s : query.cast.still)
+  for (const auto& s : query.scene.fixed)
     if (path::box_of(query.assembly, {s}).overlaps(near))
       add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
   geometry::sort_by_area(faces);

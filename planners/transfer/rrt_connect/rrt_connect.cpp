@@ -17,11 +17,11 @@ namespace {
 namespace ob = ompl::base;
 using sampling::CheckBudget;
 using sampling::ConnectTrees;
-using sampling::Scene;
+using sampling::SamplingProblem;
 
 /// State checks without turns where nothing else limits them.
 constexpr std::uint64_t kChecksWithoutTurns = 10'000;
-/// Paths that the judge may refuse: simulator and judge differ there, and more of the same will not help.
+/// Paths that the verifier may refuse: simulator and judge differ there, and more of the same will not help.
 constexpr int kMostRefused = 10;
 
 struct Parameters {
@@ -72,7 +72,7 @@ class RrtConnect final : public TransferPlanner {
     }
     if (parameters_.straight_first && goes_straight(query, context, result)) return result;
     const Capabilities has = query.simulator.capabilities();
-    if (!has.distance || has.max_moving < query.cast.moving.size()) {
+    if (!has.distance || has.max_moving < query.scene.moving.size()) {
       result.fail(Outcome::unsupported,
                   "no straight way, and trees need a simulator with distance queries for all moving parts");
       return result;
@@ -103,7 +103,7 @@ class RrtConnect final : public TransferPlanner {
   }
 
   void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
-    PathQuery removal{query.assembly, query.simulator, query.prepared, query.cast,
+    PathQuery removal{query.assembly, query.simulator, query.prepared, query.scene,
                       query.budget,   query.tolerance, query.checker};
     const auto own = static_cast<std::uint64_t>(parameters_.max_checks);
     std::uint64_t& most = removal.budget.max_steps;
@@ -117,13 +117,14 @@ class RrtConnect final : public TransferPlanner {
     for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
       if (motion == MotionSpace::translation && turns) continue;
       const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kChecksWithoutTurns;
-      Scene scene(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget, goal);
-      ConnectTrees trees(scene, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
-      auto problem = std::make_shared<ob::ProblemDefinition>(scene.information());
-      const auto start = scene.space().start();
-      const auto end = scene.state_after(goal);
+      SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
+                              goal);
+      ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
+      auto problem = std::make_shared<ob::ProblemDefinition>(problem.information());
+      const auto start = problem.space().start();
+      const auto end = problem.state_after(goal);
       problem->addStartState(&start);
-      auto target = std::make_shared<ob::GoalState>(scene.information());
+      auto target = std::make_shared<ob::GoalState>(problem.information());
       target->setState(&end);
       problem->setGoal(target);
       trees.setProblemDefinition(problem);
@@ -134,14 +135,14 @@ class RrtConnect final : public TransferPlanner {
         status = trees.solve(stop);
         if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
         std::size_t edge = 0;  // both trees begin anew all the same
-        if (candidates.accepts(scene, trees.solution(), result, edge, query.goal)) break;
+        if (candidates.accepts(problem, trees.solution(), result, edge, query.goal)) break;
       }
       result.stats.nodes += trees.nodes();
       if (result.outcome() == Outcome::solved) {
         result.blocked_by.clear();
         break;
       }
-      result.blocked_by = scene.blockers();
+      result.blocked_by = problem.blockers();
       if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
         result.fail(Outcome::invalid_start, status == ob::PlannerStatus::INVALID_START
                                                 ? "the part collides where it lies in the layout"

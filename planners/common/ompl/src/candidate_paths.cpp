@@ -8,11 +8,11 @@
 
 namespace dismantle::sampling {
 
-bool CandidatePaths::accepts(Scene& scene, const std::vector<Scene::StateType>& states, PathResult& result,
-                             std::size_t& edge, const std::vector<Pose>& end) {
-  std::vector<std::vector<Scene::StateType>> forms;
+bool CandidatePaths::accepts(SamplingProblem& problem, const std::vector<SamplingProblem::StateType>& states,
+                             PathResult& result, std::size_t& edge, const std::vector<Pose>& end) {
+  std::vector<std::vector<SamplingProblem::StateType>> forms;
   if (simplify_ && states.size() > 2) {
-    forms.push_back(scene.shortcut(states));
+    forms.push_back(problem.shortcut(states));
     if (forms.back().size() >= states.size()) forms.clear();
   }
   forms.push_back(states);
@@ -21,7 +21,7 @@ bool CandidatePaths::accepts(Scene& scene, const std::vector<Scene::StateType>& 
   const auto form = [&](std::size_t k) -> std::optional<Path> {
     shown = k;
     if (k == forms.size()) return std::nullopt;
-    Path path = scene.path(forms[k], &edge_of);
+    Path path = problem.path(forms[k], &edge_of);
     if (!end.empty()) path.back() = end;
     return path;
   };

@@ -68,8 +68,8 @@ void WaysOut::each_neighbour(std::uint32_t cell, const Visit& visit) const {
       }
 }
 
-WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still, double ball, std::size_t most_cells) {
-  box_ = path::box_of(assembly, still);
+WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& fixed, double ball, std::size_t most_cells) {
+  box_ = path::box_of(assembly, fixed);
   if (box_.empty()) box_.extend(Vec3::Zero());
   // Solved for the edge by repetition: the margin counts, too.
   cell_ = std::cbrt(std::max(box_.size().prod(), 1e-9) / static_cast<double>(most_cells));
@@ -85,7 +85,7 @@ WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still,
   const Vec3 middle = box_.center(), half = 0.5 * cell_ * Vec3(count_[0], count_[1], count_[2]);
   box_ = {middle - half, middle + half};
   clearance_.assign(all, kFar);
-  for (const auto& s : still) {
+  for (const auto& s : fixed) {
     const Mesh& mesh = *assembly.parts[s.part].mesh;
     for (const auto& t : mesh.triangles)
       mark({s.pose * mesh.vertices[t[0]], s.pose * mesh.vertices[t[1]], s.pose * mesh.vertices[t[2]]});

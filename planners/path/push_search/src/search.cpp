@@ -41,10 +41,10 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
     : query_(query),
       tactics_(tactics),
       context_(context),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, space)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, space)),
       bodies_(path::balls_of(*world_)),
-      axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
-      extents_(query.assembly, query.cast, axes_),
+      axes_(tactics.own_axes ? own_axes(query.assembly, query.scene) : Eigen::Matrix3d::Identity()),
+      extents_(query.assembly, query.scene, axes_),
       stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
               : space == MotionSpace::translation ? tactics.translating
                                                   : tactics.turning),
@@ -118,11 +118,11 @@ Path Search::path_to(std::int32_t node) const {
   return path;
 }
 
-/// The still parts that are touched there.
+/// The fixed parts that are touched there.
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts = path::touched_parts(contacts, query_.cast.moving);
+  std::vector<PartId> parts = path::touched_parts(contacts, query_.scene.moving);
   for (PartId p : parts) ++touched_[p];
   return parts;
 }
@@ -163,7 +163,7 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   refusals_.push_back(std::move(path));
   result.message = first.reason;
   if (!first.has_witness) return RunEnd::refused;
-  world_->learn(first.part, first.other, first.point);
+  world_->add_contact_sample(first.part, first.other, first.point);
   lessons_.push_back({first.part, first.other, first.point});
   return RunEnd::refused_learned;
 }
@@ -244,7 +244,7 @@ void Search::finish(PathResult& result) const {
                   .spared = spared_,
                   .cost = static_cast<double>(steps_ + looks_),
                   .extra = {{"expanded", static_cast<double>(expanded_before_ + expanded_)}}};
-  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
+  result.blocked_by = path::most_touched(touched_, query_.scene.moving);
   result.best_pose = best_;
 }
 
@@ -270,7 +270,7 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
   if (turning()) return leaning_turns(node);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  const Freedom freedom = freedom_of(contacts, query_.cast.moving, extents_);
+  const Freedom freedom = freedom_of(contacts, query_.scene.moving, extents_);
   for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom))
     actions.push_back(push(*world_, tactics_.force, d));
   return actions;
@@ -363,7 +363,7 @@ PathResult Search::run(const Limits& limits) {
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->relax();
     may_relax_ = false;
-    reset();  // once more, with all the overlap that the judge allows
+    reset();  // once more, with all the overlap that the verifier allows
   }
   if (end == RunEnd::solved) {
     result.message.clear();

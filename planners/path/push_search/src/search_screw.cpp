@@ -104,7 +104,7 @@ void Search::feel(const State& state, std::vector<Contact>& contacts) {
     if (!report.finite) continue;
     for (Contact& c : there) {
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-        if (query_.cast.moving[i].part != c.moving) continue;
+        if (query_.scene.moving[i].part != c.moving) continue;
         const Pose back = state.bodies[i].pose * moved_on.bodies[i].pose.inverse();
         c.point = back * c.point;
         c.normal = back.q * c.normal;
@@ -120,10 +120,10 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   const double arm = world_->torque_arm(0);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  std::vector<Twist> slips = geometry::slippable_motions(touching_surfaces(contacts, query_.cast.moving), center, arm);
+  std::vector<Twist> slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   if (slips.empty()) {
     feel(node.state, contacts);
-    slips = geometry::slippable_motions(touching_surfaces(contacts, query_.cast.moving), center, arm);
+    slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   }
   std::vector<std::pair<double, Twist>> by_way;
   for (const Twist& t : slips)
@@ -196,7 +196,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   run.state = origin;
   run.last = from;
   run.first = static_cast<std::uint32_t>(nodes_.size());
-  world_->retreat(run.state, kGlideClearance);
+  world_->project_to_clearance(run.state, kGlideClearance);
   run.way.push_back(path::poses_of(run.state));
   const State start = run.state;
   double turned = 0;
@@ -222,7 +222,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
       run.way.clear();
     }
     turned += (run.length - before) * twist.angular.norm();
-    world_->retreat(run.state, kGlideClearance);
+    world_->project_to_clearance(run.state, kGlideClearance);
     run.way.push_back(path::poses_of(run.state));
     twist =
         refit(twist, start.bodies[0].pose, run.state.bodies[0].pose, bodies_[0].center, world_->torque_arm(0), turned);
@@ -237,7 +237,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
 /// The wrench that drives the bodies along a screw from where they are, turning with them.
 Action Search::along(const Twist& twist, const State& state, const Eigen::Vector3d& lean) const {
   Action action;
-  action.turns_along = true;
+  action.in_body_frame = true;
   const Eigen::Vector3d center = state.bodies[0].pose * bodies_[0].center;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Pose& pose = state.bodies[i].pose;

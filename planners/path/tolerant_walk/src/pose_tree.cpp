@@ -31,29 +31,29 @@ PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, Run
       context_(context),
       rng_(rng),
       deadline_(path::deadline_of(query, context)),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.cast, parameters.tolerance_share * query.tolerance, overlap, cache) {
-  const std::size_t count = query.cast.moving.size();
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, MotionSpace::rigid)),
+      tolerance_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache) {
+  const std::size_t count = query.scene.moving.size();
   bodies_ = path::balls_of(*world_);
   for (std::size_t i = 0; i < count; ++i)
-    center_ += query.cast.moving[i].pose * bodies_[i].center / static_cast<double>(count);
+    center_ += query.scene.moving[i].pose * bodies_[i].center / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
-    radius_ = std::max(radius_, (query.cast.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
+    radius_ = std::max(radius_, (query.scene.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
   nodes_.push_back({Pose{}, center_});
 }
 
-bool PoseTree::Reached::has_room_now(const Cast& cast) const {
+bool PoseTree::Reached::has_room_now(const Scene& scene) const {
   std::uint64_t all = 0, gone = 0;
   for (const auto& [part, count] : stuck_at) {
     all += count;
-    if (!path::contains(cast.still, part)) gone += count;
+    if (!path::contains(scene.fixed, part)) gone += count;
   }
   return gone > 0 && static_cast<double>(gone) >= kRoom * static_cast<double>(all);
 }
 
 void PoseTree::resume(const Reached& known) {
   const auto here = [&](PartId part) {
-    return path::contains(query_.cast.moving, part) || path::contains(query_.cast.still, part);
+    return path::contains(query_.scene.moving, part) || path::contains(query_.scene.fixed, part);
   };
   for (const Reached::Lesson& lesson : known.lessons) {
     if (!here(lesson.part) || !here(lesson.other)) continue;
@@ -63,12 +63,12 @@ void PoseTree::resume(const Reached& known) {
   nodes_ = known.nodes;
   for (Node& node : nodes_) {  // parents come first
     const Node& parent = nodes_[node.parent];
-    if (node.cut && node.cut_by && !path::contains(query_.cast.still, *node.cut_by))
+    if (node.cut && node.cut_by && !path::contains(query_.scene.fixed, *node.cut_by))
       node.cut = false, node.cut_by.reset();
     if (parent.cut && !node.cut) node.cut = true, node.cut_by = parent.cut_by;
   }
   for (const auto& [part, count] : known.touched)
-    if (path::contains(query_.cast.still, part)) touched_[part] = count;
+    if (path::contains(query_.scene.fixed, part)) touched_[part] = count;
   spared_ = known.looks;
   resumed_ = nodes_.size();
 }
@@ -87,7 +87,7 @@ bool PoseTree::halted() const { return context_.cancel.cancelled() || deadline_.
 
 std::vector<Pose> PoseTree::poses(const Pose& displacement) const {
   std::vector<Pose> list;
-  for (const auto& m : query_.cast.moving) {
+  for (const auto& m : query_.scene.moving) {
     Pose p = displacement * m.pose;
     p.q.normalize();
     list.push_back(p);
@@ -188,8 +188,8 @@ bool PoseTree::verified(std::uint32_t node, PathResult& result) {
     result.message = check.reason;
     if (!check.has_witness) return false;
     const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
-    by = path::contains(query_.cast.still, check.other) ? check.other : check.part;
-    at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
+    by = path::contains(query_.scene.fixed, check.other) ? check.other : check.part;
+    at_fault = instant[0] * query_.scene.moving[0].pose.inverse();
     lessons_.push_back({check.part, check.other, check.point, at_fault});
     tightened = tolerance_.learn(check.part, check.other, check.point, at_fault);
     // What was learned may rule out some of the way itself.
@@ -211,8 +211,8 @@ void PoseTree::cut_off(std::uint32_t node, std::optional<PartId> by) {
   nodes_[node].cut_by = by;
 }
 
-/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the judge saw a fault,
-/// and what grew from it.
+/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the verifier saw a
+/// fault, and what grew from it.
 void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by) {
   std::uint32_t first = kNone;
   double least = std::numeric_limits<double>::infinity();
@@ -260,7 +260,7 @@ void PoseTree::finish(std::uint32_t best, PathResult& result) const {
                   .resumed_nodes = resumed_,
                   .spared = spared_,
                   .cost = static_cast<double>(looks_)};
-  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
+  result.blocked_by = path::most_touched(touched_, query_.scene.moving);
 }
 
 }  // namespace dismantle::tolerant_walk

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dismantle/path_planner.h"
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::sampling {
 
@@ -18,8 +18,8 @@ class CandidatePaths {
 
   /// True: `result` holds the path. False: `edge` is that of `states` (from edge - 1 to edge) which is at fault, and
   /// `result` holds the checker's reason. `end`: where the moving parts end exactly; empty: where the last state says.
-  bool accepts(Scene& scene, const std::vector<Scene::StateType>& states, PathResult& result, std::size_t& edge,
-               const std::vector<Pose>& end = {});
+  bool accepts(SamplingProblem& problem, const std::vector<SamplingProblem::StateType>& states, PathResult& result,
+               std::size_t& edge, const std::vector<Pose>& end = {});
   /// Paths that were refused, both forms counted.
   std::uint64_t refused() const { return refused_; }
 
