@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
 #include "flat_faces.h"
 
@@ -18,23 +19,16 @@ constexpr double kFlat = 1e-7;
 constexpr double kWorthMerging = 0.7;
 
 Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
-  return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
+  return geometry::area_vector(mesh, t).stableNormalized();
 }
 
 /// Root of each vertex among those joined by triangles.
 std::vector<std::uint32_t> shell_roots(const Mesh& mesh) {
-  std::vector<std::uint32_t> root(mesh.vertices.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&root](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+  DisjointSets sets(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
-    for (std::size_t k = 1; k < 3; ++k) {
-      const std::uint32_t x = find(t[0]), y = find(t[k]);
-      root[std::max(x, y)] = std::min(x, y);
-    }
-  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = find(v);
+    for (std::size_t k = 1; k < 3; ++k) sets.join(t[0], t[k]);
+  std::vector<std::uint32_t> root(mesh.vertices.size());
+  for (std::uint32_t v = 0; v < root.size(); ++v) root[v] = sets.root(v);
   return root;
 }
 

@@ -4,6 +4,7 @@
 
 #include "dismantle/path/ended_search.h"
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
 #include "dismantle/plugin.h"
 #include "random_tree.h"
@@ -21,8 +22,7 @@ class BkRrtSearch final : public PathSearch {
       : parameters_(parameters),
         query_(query),
         context_(context),
-        deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                           : context.deadline),
+        deadline_(path::deadline_of(query, context)),
         level_(path::doubled_per_level(parameters.level_steps, query.budget.max_depth)),
         turns_(parameters.motion == Motion::automatic ? 2 : 1, kFirstTurn) {
     if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
@@ -35,7 +35,7 @@ class BkRrtSearch final : public PathSearch {
       result_.start_is_goal();
       return SearchStatus::solved;
     }
-    const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+    const Deadline end = path::deadline_of(portion);
     const std::uint64_t until = path::end_of_portion(used(), portion.max_steps, level_);
     turns_.run(
         until, [&] { return used(); },

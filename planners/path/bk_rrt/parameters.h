@@ -3,6 +3,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/path/motion.h"
+#include "dismantle/path/shared_parameters.h"
 
 namespace dismantle::bk_rrt {
 
@@ -40,16 +41,8 @@ struct Parameters {
         {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
          {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
         "What a random action is drawn from.");
-    s.add("thinning", &Parameters::thinning,
-          {.unit = "unit",
-           .min = 0,
-           .max = 0.01,
-           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
-    s.add("level_steps", &Parameters::level_steps,
-          {.unit = "1",
-           .min = 1,
-           .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
-                  "level doubles them."});
+    path::add_thinning(s, &Parameters::thinning);
+    path::add_level_steps(s, &Parameters::level_steps);
   }
 };
 

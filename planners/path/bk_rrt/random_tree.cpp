@@ -1,17 +1,16 @@
 #include "random_tree.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
+#include "dismantle/path/touched.h"
 #include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::bk_rrt {
 namespace {
-
-std::vector<Pose> poses_of(const State& state) {
-  std::vector<Pose> poses;
-  for (const auto& b : state.bodies) poses.push_back(b.pose);
-  return poses;
-}
 
 bool same(const std::vector<Pose>& a, const std::vector<Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -30,14 +29,13 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
   // Several parts that move at once are told apart by the first of them: where it is draws the tree.
   const sampling::Mover first{query.scene.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
-  for (std::size_t i = 0; i < query.scene.moving.size(); ++i)
-    bodies_.push_back({world_->center(i), motion == MotionSpace::translation ? 0.0 : world_->radius(i)});
+  bodies_ = path::balls_of(*world_);
   add(world_->initial_state(), 0, {});
 }
 
 bool RandomTree::starts_out() { return world_->separated(nodes_[0].state); }
 
-std::vector<Pose> RandomTree::farthest() const { return poses_of(nodes_[farthest_].state); }
+std::vector<Pose> RandomTree::farthest() const { return path::poses_of(nodes_[farthest_].state); }
 
 RandomTree::StateType RandomTree::place(const State& state) const {
   StateType s;
@@ -80,19 +78,14 @@ void RandomTree::note_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  for (const auto& c : contacts)
-    if (c.depth > -1e-3) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  for (const PartId p : parts) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
 }
 
 Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const {
   std::vector<std::uint32_t> chain;
   for (std::uint32_t n = node; n != 0; n = nodes_[n].parent) chain.push_back(n);
   std::reverse(chain.begin(), chain.end());
-  Path path{poses_of(nodes_[0].state)};
+  Path path{path::poses_of(nodes_[0].state)};
   node_of_instant = {0};
   for (const auto n : chain) {
     path.insert(path.end(), nodes_[n].way.begin(), nodes_[n].way.end());
@@ -105,20 +98,21 @@ bool RandomTree::verified(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
   const Path path = path::thin(full, bodies_, parameters_.thinning);
-  PathCheck check = query_.checker.check(path);
-  if (check.accepted()) {
-    result.solve(std::move(*check.verified), nodes_[node].depth);
-    return true;
-  }
-  ++refused_;
-  result.message = check.reason;
-  if (!check.has_witness) {
+  const path::Shown shown = path::show_forms(
+      query_.checker, refused_, [&](std::size_t k) { return k == 0 ? std::optional(path) : std::nullopt; },
+      [&](const PathCheck& check, const Path&) {
+        result.message = check.reason;
+        if (check.has_witness) world_->add_contact_sample(check.part, check.other, check.point);
+        return true;
+      },
+      [&](VerifiedPath verified) { result.solve(std::move(verified), nodes_[node].depth); });
+  if (shown.accepted) return true;
+  if (!shown.last.has_witness) {
     discard(node);
     return false;
   }
-  world_->add_contact_sample(check.part, check.other, check.point);
   // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
-  const auto& after = path[std::min(check.instant + 1, path.size() - 1)];
+  const auto& after = path[std::min(shown.last.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;
   discard(node_of[k]);

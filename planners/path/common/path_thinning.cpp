@@ -14,6 +14,13 @@ double apart(const Pose& a, const Pose& b, const Ball& ball) {
 
 }  // namespace
 
+std::vector<Ball> balls_of(const World& world) {
+  std::vector<Ball> balls;
+  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
+    balls.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
+  return balls;
+}
+
 Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
   const std::size_t n = path.size();
   if (n <= 2) return path;

@@ -5,22 +5,10 @@
 
 namespace dismantle::contact_search {
 
-struct Parameters {
-  push::Motion motion = push::Motion::automatic;
-  // Table 6.
-  double time_step = 0.1;
-  double force = 100;
-  double similarity_translation = 0.05;
-  double similarity_rotation = 0.5;
+struct Parameters : push::SearchParameters {
   bool proposals = true;
   bool twists = true;
   bool novelty = true;
-  bool diagonals = true;
-  std::int64_t intermediate = 256;
-  double thinning = 1e-4;
-  std::int64_t max_refusals = 8;
-  std::int64_t translation_nodes = 24;
-  std::int64_t rotation_nodes = 8;
 
   static void describe(Schema<Parameters>& s) {
     push::describe_search(s);
@@ -48,10 +36,7 @@ struct Parameters {
     if (proposals) t.translating.push_back(push::Stage::leaning);
     if (twists) t.turning = {push::Stage::twists, push::Stage::leaning};
     t.turning.push_back(push::Stage::axes);
-    if (diagonals) {
-      t.translating.push_back(push::Stage::diagonals);
-      t.turning.push_back(push::Stage::screws);
-    }
+    if (diagonals) push::add_diagonals(t);
     return t;
   }
 };

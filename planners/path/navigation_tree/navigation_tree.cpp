@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dismantle/free_space/led_walk.h"
+#include "dismantle/path/time_limit.h"
 #include "dismantle/plugin.h"
 #include "dismantle/tolerant_walk/geometry_cache.h"
 #include "dismantle/tolerant_walk/walk.h"
@@ -56,7 +57,7 @@ class Search final : public PathSearch {
 
  private:
   SearchStatus run_on(const Budget& portion) {
-    const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+    const Deadline end = path::deadline_of(portion);
     if (!tree_) {
       thin_ = free_space::overlaps_through(query_);
       begin(thin_ ? Overlap::near_start : Overlap::everywhere);

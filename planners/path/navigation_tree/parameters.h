@@ -8,27 +8,15 @@
 
 namespace dismantle::navigation_tree {
 
-struct Parameters {
-  double tolerance_share = 0.8;
-  double step = 0.006;
+struct Parameters : tolerant_walk::TreeParameters {
   std::int64_t patience = 4'000;
   std::int64_t detours = 8;
   std::int64_t full_depth = 3;
   std::int64_t cells = 500'000;
-  std::int64_t shortcuts = 60;
-  double thinning = 1e-4;
-  std::int64_t max_refusals = 12;
   std::int64_t max_refusals_overlapping = 3;
 
   static void describe(Schema<Parameters>& s) {
-    s.add("tolerance_share", &Parameters::tolerance_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Share of verify.max_penetration up to which poses may be deeper than when assembled. Less than all "
-                  "of it: depth is measured at samples."});
-    s.add("step", &Parameters::step,
-          {.unit = "unit", .min = 1e-5, .max = 1, .doc = "How far a point of the part moves in a first step, about."});
+    tolerant_walk::describe_poses(s, "How far a point of the part moves in a first step, about.");
     s.add(
         "patience", &Parameters::patience,
         {.unit = "1",
@@ -50,15 +38,7 @@ struct Parameters {
            .min = 1000,
            .max = 1e8,
            .doc = "About this many cells are laid over the box of the fixed parts to find free space."});
-    s.add("shortcuts", &Parameters::shortcuts,
-          {.unit = "1", .min = 0, .max = 1e6, .doc = "Attempts to replace pieces of a path by straight ones."});
-    s.add("thinning", &Parameters::thinning,
-          {.unit = "unit",
-           .min = 0,
-           .max = 0.01,
-           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
-    s.add("max_refusals", &Parameters::max_refusals,
-          {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before it gives up."});
+    tolerant_walk::describe_paths(s);
     s.add(
         "max_refusals_overlapping", &Parameters::max_refusals_overlapping,
         {.unit = "1",
@@ -69,13 +49,9 @@ struct Parameters {
   }
 
   /// Of the tree. `overlapping`: in the second search of a thin group.
-  tolerant_walk::Parameters tree(bool overlapping) const {
-    tolerant_walk::Parameters p;
-    p.tolerance_share = tolerance_share;
-    p.step = step;
-    p.shortcuts = shortcuts;
-    p.thinning = thinning;
-    p.max_refusals = overlapping ? max_refusals_overlapping : max_refusals;
+  tolerant_walk::TreeParameters tree(bool overlapping) const {
+    tolerant_walk::TreeParameters p = *this;
+    if (overlapping) p.max_refusals = max_refusals_overlapping;
     return p;
   }
 };

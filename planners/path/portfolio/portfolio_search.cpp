@@ -6,7 +6,8 @@
 #include <map>
 
 #include "dismantle/free_space/led_walk.h"
-#include "dismantle/path/box_of.h"
+#include "dismantle/path/placed_parts.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::portfolio {
 namespace {
@@ -22,7 +23,7 @@ PortfolioSearch::PortfolioSearch(const Parameters& parameters,
       query_(query),
       context_(context),
       limited_(query.budget.max_depth > 0),
-      deadline_(query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline()),
+      deadline_(path::deadline_of(query.budget)),
       turn_(static_cast<std::uint64_t>(parameters.turn)) {
   std::map<std::string, std::uint64_t> times;
   for (std::size_t k = 0; k < planners.size(); ++k) {
@@ -84,7 +85,7 @@ SearchStatus PortfolioSearch::run(const Budget& portion) {
   Portion left;
   if (portion.max_steps > 0) left.steps_left = portion.max_steps;
   const Deadline whole = deadline_;
-  if (portion.timeout > 0) deadline_ = deadline_.earlier(Deadline::after_seconds(portion.timeout));
+  deadline_ = deadline_.earlier(path::deadline_of(portion));
   const bool alternating = (limited_ ? parameters_.depth_limited_mode : parameters_.mode) == Mode::alternate;
   const Decision decision = alternating ? alternate(left) : fall_back(left);
   deadline_ = whole;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/path/placed_parts.h"
+#include "dismantle/path/touched.h"
+
 namespace dismantle::tunnel_forest {
 namespace {
 
@@ -29,12 +32,6 @@ constexpr std::uint64_t kExtensionsPerTunnel = 100;
 /// Still parts count for tunnels when their boxes come so near to what moves (share of its size).
 constexpr double kNearby = 0.25;
 
-std::vector<Pose> start_poses(const PathQuery& query) {
-  std::vector<Pose> all;
-  for (const auto& m : query.scene.moving) all.push_back(m.pose);
-  return all;
-}
-
 void append(Mesh& to, const Mesh& mesh, const Pose& pose) {
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (const auto& v : mesh.vertices) to.vertices.push_back(pose * v);
@@ -55,14 +52,11 @@ Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& par
       guide_(*world_, parameters),
       center_(query.scene.moving[0].pose * world_->center(0)),
       arm_(rigid_ ? 0.5 * world_->radius(0) : 0.0),
-      start_(start_poses(query)),
+      start_(path::poses_of(query.scene.moving)),
       map_(kCell, arm_) {
-  Aabb moving;
-  for (const auto& m : query.scene.moving)
-    for (const auto& v : query.assembly.parts[m.part].mesh->vertices) moving.extend(m.pose * v);
-  bounds_ = moving;
-  for (const auto& s : query.scene.fixed)
-    for (const auto& v : query.assembly.parts[s.part].mesh->vertices) bounds_.extend(s.pose * v);
+  const Aabb moving = path::box_of(query.assembly, query.scene.moving);
+  bounds_ = path::box_of(query.assembly, query.scene.fixed);
+  bounds_.extend(moving);
   bounds_.inflate(0.6 * moving.size().norm());
   map_.plant(node_of(world_->initial_state()));
 }
@@ -89,10 +83,7 @@ void Forest::look_for_tunnels() {
   Aabb near = moving.box();
   near.inflate(kNearby * near.size().maxCoeff());
   for (const auto& s : query_.scene.fixed) {
-    const Mesh& mesh = *query_.assembly.parts[s.part].mesh;
-    Aabb box;
-    for (const auto& v : mesh.vertices) box.extend(s.pose * v);
-    if (box.overlaps(near)) append(fixed, mesh, s.pose);
+    if (path::box_of(query_.assembly, {s}).overlaps(near)) append(fixed, *query_.assembly.parts[s.part].mesh, s.pose);
   }
   Rng rng = rng_.fork(1);
   const auto samples = static_cast<std::size_t>(parameters_.surface_samples);
@@ -163,26 +154,20 @@ Forest::Index Forest::choose_node(Index tree) {
 
 void Forest::note_contacts(const State& state) {
   if (!sees_contacts_) return;
-  constexpr double kTouching = -1e-3;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  for (const auto& c : contacts)
-    if (c.depth > kTouching) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  for (const PartId p : parts) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
 }
 
 Forest::Index Forest::keep(Index from, const Guide::Trip& trip) {
   if (trip.blocked) note_contacts(trip.end);
-  if (trip.way.empty() || guide_.distance(poses_of(map_.node(from).state), poses_of(trip.end)) < kNew)
+  if (trip.way.empty() || guide_.distance(path::poses_of(map_.node(from).state), path::poses_of(trip.end)) < kNew)
     return Roadmap::kNone;
   Index last = from;
   Path way;
   double length = 0;
   const std::vector<Pose>* before = nullptr;
-  const std::vector<Pose> begin = poses_of(map_.node(from).state);
+  const std::vector<Pose> begin = path::poses_of(map_.node(from).state);
   for (std::size_t k = 0; k < trip.way.size(); ++k) {
     length += guide_.distance(before != nullptr ? *before : begin, trip.way[k]);
     before = &trip.way[k];
@@ -195,7 +180,7 @@ Forest::Index Forest::keep(Index from, const Guide::Trip& trip) {
       state.bodies[i].velocity.setZero();
       state.bodies[i].angular_velocity.setZero();
     }
-    Path whole{poses_of(map_.node(last).state)};
+    Path whole{path::poses_of(map_.node(last).state)};
     whole.insert(whole.end(), way.begin(), way.end());
     whole = path::thin(whole, guide_.bodies(), parameters_.thinning);
     whole.erase(whole.begin());
@@ -212,11 +197,11 @@ Forest::Index Forest::keep(Index from, const Guide::Trip& trip) {
 
 bool Forest::join(Index n, Index to, const std::function<bool()>& stop) {
   const double range = kDetour * parameters_.join_distance;
-  const Guide::Trip trip = guide_.go(map_.node(n).state, poses_of(map_.node(to).state), range, stop);
+  const Guide::Trip trip = guide_.go(map_.node(n).state, path::poses_of(map_.node(to).state), range, stop);
   const Index end = keep(n, trip);
   if (!trip.arrived) return false;
   const Index from = end == Roadmap::kNone ? n : end;
-  map_.join(from, to, {poses_of(map_.node(to).state)});
+  map_.join(from, to, {path::poses_of(map_.node(to).state)});
   return true;
 }
 

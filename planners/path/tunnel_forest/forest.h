@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path_planner.h"
 #include "guide.h"
 #include "narrow_places.h"
@@ -40,7 +41,7 @@ class Forest {
   std::size_t size() const { return map_.size(); }
   std::size_t cells() const { return map_.cells(); }  ///< how much of the space has been seen
   double farthest_way() const { return farthest_way_; }
-  std::vector<Pose> farthest() const { return poses_of(map_.node(farthest_).state); }
+  std::vector<Pose> farthest() const { return path::poses_of(map_.node(farthest_).state); }
   /// How often each fixed part was touched where a trip ended.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/shortcuts.h"
 #include "forest.h"
 
@@ -76,7 +77,7 @@ Path Forest::eased(const Path& path) {
       ++looks_;
       // The end is out, and has to remain so.
       if (i < pieces || k + 1 < path.size()) world_->project_to_clearance(state, parameters_.clearance);
-      dense.push_back(poses_of(state));
+      dense.push_back(path::poses_of(state));
     }
   }
   return path::thin(dense, guide_.bodies(), parameters_.thinning);

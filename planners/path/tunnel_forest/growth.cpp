@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tunnel_forest {
@@ -21,8 +22,7 @@ Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext&
     : parameters_(parameters),
       query_(query),
       context_(context),
-      deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                         : context.deadline),
+      deadline_(path::deadline_of(query, context)),
       most_steps_(most_steps) {
   if (parameters_.motion != Motion::rotation) add(MotionSpace::translation, 1);
   if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
@@ -41,7 +41,7 @@ SearchStatus Growth::run(const Budget& portion) {
     return SearchStatus::solved;
   }
   portion_.last_step = path::end_of_portion(used(), portion.max_steps, most_steps_);
-  portion_.deadline = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  portion_.deadline = path::deadline_of(portion);
   bool solved = false;
   while (!solved && !over() && !portion_over()) {
     Grown& grown = forests_[current_];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dismantle/path/placed_parts.h"
+
 namespace dismantle::tunnel_forest {
 namespace {
 
@@ -18,17 +20,8 @@ constexpr int kMostPushes = 1000;
 
 }  // namespace
 
-std::vector<Pose> poses_of(const State& state) {
-  std::vector<Pose> poses;
-  for (const auto& b : state.bodies) poses.push_back(b.pose);
-  return poses;
-}
-
 Guide::Guide(World& world, const Parameters& parameters)
-    : world_(world), force_(parameters.force), push_time_(parameters.push_time) {
-  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
-    bodies_.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
-}
+    : world_(world), force_(parameters.force), push_time_(parameters.push_time), bodies_(path::balls_of(world)) {}
 
 double Guide::distance(const std::vector<Pose>& from, const std::vector<Pose>& to) const {
   double most = 0;
@@ -44,7 +37,7 @@ Guide::Trip Guide::go(const State& from, const std::vector<Pose>& target, double
                       const std::function<bool()>& stop) {
   Trip trip;
   trip.end = from;
-  double left = distance(poses_of(trip.end), target), best = left;
+  double left = distance(path::poses_of(trip.end), target), best = left;
   int idle = 0;
   for (int push = 0; push < kMostPushes; ++push) {
     trip.arrived = left < kArrived;
@@ -76,7 +69,7 @@ Guide::Trip Guide::go(const State& from, const std::vector<Pose>& target, double
     }
     trip.length += report.travel;
     const double was = left;
-    left = distance(poses_of(trip.end), target);
+    left = distance(path::poses_of(trip.end), target);
     // Straight to the target: nothing was in the way. Pushed out of something, bodies jump further than any push goes.
     if (share == 1 && was - left > kStraight * report.travel) reach_ = std::max(reach_, report.travel);
     const double free = share * reach_;

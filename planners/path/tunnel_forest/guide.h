@@ -11,8 +11,6 @@
 
 namespace dismantle::tunnel_forest {
 
-std::vector<Pose> poses_of(const State& state);
-
 /// Pushes the bodies towards given poses, aiming anew after each push. Contact does the retraction: where a straight
 /// motion would penetrate, the simulator lets the bodies slide.
 class Guide {

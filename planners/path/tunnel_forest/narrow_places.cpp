@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::tunnel_forest {
@@ -18,9 +19,7 @@ constexpr double kTunnel = 1.25;
 /// A bar may be wider than the gap that it is put in by this factor: retraction finds where it fits, if it does.
 constexpr double kSqueeze = 1.05;
 
-Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) {
-  return (c[1] - c[0]).cross(c[2] - c[0]).normalized();
-}
+Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) { return geometry::area_vector(c).normalized(); }
 
 struct Hit {
   double way = std::numeric_limits<double>::infinity();
@@ -92,7 +91,7 @@ NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng)
   double total = 0;
   for (std::uint32_t t = 0; t < area.size(); ++t) {
     const auto& c = bvh.corners(t);
-    area[t] = total += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    area[t] = total += 0.5 * geometry::area_vector(c).norm();
   }
   for (std::size_t k = 0; k < samples; ++k) {
     const auto place = std::upper_bound(area.begin(), area.end(), total * rng.uniform());

@@ -3,6 +3,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/path/motion.h"
+#include "dismantle/path/shared_parameters.h"
 
 namespace dismantle::tunnel_forest {
 
@@ -62,21 +63,13 @@ struct Parameters {
          .max = 0.01,
          .doc = "What a path keeps from contact, or half of the room there is: contact is sampled, and the verifier is "
                 "not."});
-    s.add("thinning", &Parameters::thinning,
-          {.unit = "unit",
-           .min = 0,
-           .max = 0.01,
-           .doc = "Poses that the rest of the path reproduces this closely are dropped."});
+    path::add_thinning(s, &Parameters::thinning);
     s.add(
         "shortcuts", &Parameters::shortcuts,
         {.unit = "1", .min = 0, .max = 100'000, .doc = "Straight motions tried in place of parts of the path found."});
     s.add("max_refusals", &Parameters::max_refusals,
           {.unit = "1", .min = 1, .doc = "Paths that the verifier may refuse before the search gives up."});
-    s.add("level_steps", &Parameters::level_steps,
-          {.unit = "1",
-           .min = 1,
-           .doc = "Simulated time steps for a search of depth 1 where the sequence planner limits depth; each further "
-                  "level doubles them."});
+    path::add_level_steps(s, &Parameters::level_steps);
   }
 };
 

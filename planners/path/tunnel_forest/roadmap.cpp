@@ -5,16 +5,9 @@
 #include <deque>
 #include <limits>
 
+#include "dismantle/path/placed_parts.h"
+
 namespace dismantle::tunnel_forest {
-namespace {
-
-std::vector<Pose> poses(const State& state) {
-  std::vector<Pose> all;
-  for (const auto& b : state.bodies) all.push_back(b.pose);
-  return all;
-}
-
-}  // namespace
 
 double Roadmap::distance(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, const Node& n) const {
   return (center - n.center).norm() + (arm_ > 0 ? arm_ * angle_between(turn, n.turn) : 0.0);
@@ -142,7 +135,7 @@ Path Roadmap::along(Index edge, Index from) const {
   const Edge& e = edges_[edge];
   if (e.a == from) return e.way;
   Path way(e.way.rbegin() + 1, e.way.rend());
-  way.push_back(poses(nodes_[e.a].state));
+  way.push_back(path::poses_of(nodes_[e.a].state));
   return way;
 }
 

@@ -5,20 +5,18 @@
 #include <array>
 #include <cmath>
 
+#include "dismantle/geometry/face_axes.h"
+
 namespace dismantle::blocking {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using geometry::FaceAxis;
 
 constexpr double kSame = 1 - 1e-6;      // cosine; 0.08 degrees
 constexpr std::size_t kOwnAxes = 5;     // flat faces of a part that count
 constexpr std::size_t kCommonAxes = 6;  // of the assembly, tried for every part
 constexpr double kLeastFlat = 0.02;     // share of a part's surface that a flat face needs
-
-struct Weighted {
-  Vec3 axis;
-  double area = 0;
-};
 
 /// +1 or -1: makes the first coefficient that is not all but zero positive.
 Vec3 with_sign(const Vec3& v) {
@@ -27,26 +25,13 @@ Vec3 with_sign(const Vec3& v) {
   return v;
 }
 
-void add(std::vector<Weighted>& list, const Vec3& axis, double area) {
-  for (auto& known : list)
-    if (std::abs(known.axis.dot(axis)) > kSame) {
-      known.area += area;
-      return;
-    }
-  list.push_back({axis, area});
-}
-
-void sort(std::vector<Weighted>& list) {
-  std::stable_sort(list.begin(), list.end(), [](const Weighted& a, const Weighted& b) { return a.area > b.area; });
-}
-
-std::vector<Weighted> weighted_axes(const Mesh& mesh, std::size_t most) {
+std::vector<FaceAxis> weighted_axes(const Mesh& mesh, std::size_t most) {
   // Normals are binned first: round surfaces have thousands.
-  std::map<std::array<long, 3>, Weighted> bins;
+  std::map<std::array<long, 3>, FaceAxis> bins;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double total = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 cross = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+    const Vec3 cross = geometry::area_vector(mesh, t);
     const double area = 0.5 * cross.norm();
     if (!(area > 0)) continue;
     const Vec3 n = with_sign(cross.normalized());
@@ -56,18 +41,17 @@ std::vector<Weighted> weighted_axes(const Mesh& mesh, std::size_t most) {
     bin.axis += area * n;
     bin.area += area;
   }
-  std::vector<Weighted> sorted;
+  std::vector<FaceAxis> sorted;
   for (auto& [key, bin] : bins) sorted.push_back({bin.axis.normalized(), bin.area});
-  sort(sorted);
-  if (sorted.size() > 64) sorted.resize(64);
-  std::vector<Weighted> axes;
-  for (const auto& w : sorted) add(axes, w.axis, w.area);
-  sort(axes);
-  std::erase_if(axes, [&](const Weighted& w) { return w.area < kLeastFlat * total; });
+  geometry::sort_by_area(sorted, 64);
+  std::vector<FaceAxis> axes;
+  for (const auto& w : sorted) geometry::add_face(axes, w, kSame);
+  geometry::sort_by_area(axes);
+  std::erase_if(axes, [&](const FaceAxis& w) { return w.area < kLeastFlat * total; });
   if (axes.size() > most) axes.resize(most);
   if (total > 0) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-    add(axes, with_sign(solver.eigenvectors().col(0)), 0.01 * total);
+    geometry::add_face(axes, {with_sign(solver.eigenvectors().col(0)), 0.01 * total}, kSame);
   }
   return axes;
 }
@@ -81,15 +65,15 @@ std::vector<Vec3> axes_of(const Mesh& mesh, std::size_t most) {
 }
 
 Directions directions_of(const Assembly& assembly) {
-  std::vector<Weighted> all;  // in the order in which they are first met: indices stay
+  std::vector<FaceAxis> all;  // in the order in which they are first met: indices stay
   for (int k = 0; k < 3; ++k) all.push_back({Vec3::Unit(k), 0});
   std::vector<std::vector<std::size_t>> own(assembly.parts.size());
-  std::map<const Mesh*, std::vector<Weighted>> known;  // copies of a part may share their mesh
+  std::map<const Mesh*, std::vector<FaceAxis>> known;  // copies of a part may share their mesh
   for (const auto& part : assembly.parts) {
     auto [entry, is_new] = known.try_emplace(part.mesh.get());
     if (is_new) entry->second = weighted_axes(*part.mesh, kOwnAxes);
     for (const auto& w : entry->second) {
-      add(all, w.axis, w.area);
+      geometry::add_face(all, w, kSame);
       for (std::size_t k = 0; k < all.size(); ++k)
         if (std::abs(all[k].axis.dot(w.axis)) > kSame) own[part.id].push_back(k);
     }

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "dismantle/geometry/face_axes.h"
+
 namespace dismantle::blocking {
 namespace {
 
@@ -120,7 +122,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   std::iota(parent.begin(), parent.end(), 0U);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
   for (std::uint32_t t = 0; t < count; ++t) {
-    normals[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).normalized();
+    normals[t] = geometry::area_vector(mesh, t).normalized();
     for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
   }
   const auto neighbour = [&](std::uint32_t from, std::uint32_t to) {

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "blocking/directions.h"
+#include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/face_axes.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -56,21 +57,16 @@ Facets facets_of(const Mesh& mesh) {
   std::vector<Vec3> twice(count);
   for (std::uint32_t t = 0; t < count; ++t) {
     for (std::size_t k = 0; k < 3; ++k) by_edge[{mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}] = t;
-    twice[t] = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
+    twice[t] = geometry::area_vector(mesh, t);
   }
-  std::vector<std::uint32_t> root(count);
-  std::iota(root.begin(), root.end(), 0U);
-  const auto find = [&](std::uint32_t t) {
-    while (root[t] != t) t = root[t] = root[root[t]];
-    return t;
-  };
+  DisjointSets sets(count);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> bent;
   for (const auto& [ends, t] : by_edge) {
     const auto other = by_edge.find({ends.second, ends.first});
     if (ends.first > ends.second || other == by_edge.end()) continue;
     const double bend = twice[t].dot(twice[other->second]) / (twice[t].norm() * twice[other->second].norm());
     if (bend > kFlat)
-      root[find(t)] = find(other->second);
+      sets.join(t, other->second);
     else if (bend > kMostBend)
       bent.emplace_back(t, other->second);
   }
@@ -78,7 +74,7 @@ Facets facets_of(const Mesh& mesh) {
   std::vector<std::size_t> facet_of(count, 0);
   std::map<std::uint32_t, std::size_t> index;
   for (std::uint32_t t = 0; t < count; ++t) {
-    const auto [entry, is_new] = index.try_emplace(find(t), facets.all.size());
+    const auto [entry, is_new] = index.try_emplace(sets.root(t), facets.all.size());
     if (is_new) facets.all.emplace_back();
     Facet& f = facets.all[facet_of[t] = entry->second];
     f.normal += twice[t];

@@ -2,8 +2,12 @@
 #include <ompl/base/goals/GoalState.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "dismantle/path/candidates.h"
 #include "dismantle/plugin.h"
+#include "dismantle/sampling/candidate_paths.h"
 #include "dismantle/sampling/connect_trees.h"
 #include "straight.h"
 
@@ -16,7 +20,7 @@ using sampling::ConnectTrees;
 using sampling::SamplingProblem;
 
 /// State checks without turns where nothing else limits them.
-constexpr std::uint64_t kFirstTurn = 10'000;
+constexpr std::uint64_t kChecksWithoutTurns = 10'000;
 /// Paths that the verifier may refuse: simulator and judge differ there, and more of the same will not help.
 constexpr int kMostRefused = 10;
 
@@ -79,17 +83,23 @@ class RrtConnect final : public TransferPlanner {
 
  private:
   bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) const {
-    for (const Path& path : straight_ways(query, parameters_.clearance)) {
-      if (context.should_stop()) break;
-      ++result.stats.extra["straight"];
-      PathCheck check = query.checker.check(path);
-      if (check.accepted()) {
-        result.solve(std::move(*check.verified), static_cast<unsigned>(path.size() - 1));
-        return true;
-      }
-      result.message = check.reason;
-    }
-    return false;
+    const std::vector<Path> ways = straight_ways(query, parameters_.clearance);
+    std::uint64_t refused = 0;  // only what trees find counts in the statistics
+    std::size_t instants = 0;
+    return path::show_forms(
+               query.checker, refused,
+               [&](std::size_t k) -> std::optional<Path> {
+                 if (k == ways.size() || context.should_stop()) return std::nullopt;
+                 ++result.stats.extra["straight"];
+                 instants = ways[k].size();
+                 return ways[k];
+               },
+               [&](const PathCheck& check, const Path&) {
+                 result.message = check.reason;
+                 return true;
+               },
+               [&](VerifiedPath path) { result.solve(std::move(path), static_cast<unsigned>(instants - 1)); })
+        .accepted;
   }
 
   void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
@@ -99,13 +109,14 @@ class RrtConnect final : public TransferPlanner {
     std::uint64_t& most = removal.budget.max_steps;
     if (own > 0) most = most > 0 ? std::min(most, own) : own;
     CheckBudget budget(removal, context);
+    sampling::CandidatePaths candidates(query.checker, parameters_.simplify);
 
     // Without a turn to make, a quarter of the budget goes to searching without turns.
     const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
     result.fail(Outcome::timeout);
     for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
       if (motion == MotionSpace::translation && turns) continue;
-      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kFirstTurn;
+      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kChecksWithoutTurns;
       SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
                               goal);
       ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
@@ -122,11 +133,16 @@ class RrtConnect final : public TransferPlanner {
       ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
       for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
         status = trees.solve(stop);
-        if (status != ob::PlannerStatus::EXACT_SOLUTION || accepted(problem, trees.solution(), query, result)) break;
+        if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
+        std::size_t edge = 0;  // both trees begin anew all the same
+        if (candidates.accepts(problem, trees.solution(), result, edge, query.goal)) break;
       }
       result.stats.nodes += trees.nodes();
-      if (result.outcome() != Outcome::solved) result.blocked_by = problem.blockers();
-      if (result.outcome() == Outcome::solved) break;
+      if (result.outcome() == Outcome::solved) {
+        result.blocked_by.clear();
+        break;
+      }
+      result.blocked_by = problem.blockers();
       if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
         result.fail(Outcome::invalid_start, status == ob::PlannerStatus::INVALID_START
                                                 ? "the part collides where it lies in the layout"
@@ -135,28 +151,9 @@ class RrtConnect final : public TransferPlanner {
       }
     }
     if (result.outcome() == Outcome::timeout && context.cancel.cancelled()) result.fail(Outcome::cancelled);
+    result.stats.refused = candidates.refused();
     result.stats.state_checks = budget.checks;
     result.stats.cost = static_cast<double>(budget.checks);
-  }
-
-  bool accepted(SamplingProblem& problem, const std::vector<SamplingProblem::StateType>& states,
-                const TransferQuery& query, PathResult& result) const {
-    std::vector<std::vector<SamplingProblem::StateType>> forms;
-    if (parameters_.simplify && states.size() > 2) forms.push_back(problem.shortcut(states));
-    forms.push_back(states);
-    for (const auto& form : forms) {
-      Path path = problem.path(form);
-      path.back() = query.goal;
-      PathCheck check = query.checker.check(path);
-      if (check.accepted()) {
-        result.solve(std::move(*check.verified), static_cast<unsigned>(form.size() - 1));
-        result.blocked_by.clear();
-        return true;
-      }
-      ++result.stats.refused;
-      result.message = check.reason;
-    }
-    return false;
   }
 
   Parameters parameters_;

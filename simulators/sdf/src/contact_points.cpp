@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "dismantle/geometry/face_axes.h"
+
 namespace dismantle::sdf {
 namespace {
 
@@ -35,7 +37,7 @@ Creases find_creases(const Mesh& mesh, double sharp_angle) {
   std::vector<bool> folded(mesh.vertices.size()), sharp(mesh.vertices.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, Side> open;
   const auto normal = [&](std::size_t t) -> Eigen::Vector3d {
-    return (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0)).stableNormalized();
+    return geometry::area_vector(mesh, t).stableNormalized();
   };
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {

@@ -8,6 +8,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::sdf {
@@ -15,25 +16,12 @@ namespace {
 
 /// Axes of the smallest box among those along pairs of the largest face directions, and the mesh's own axes.
 Eigen::Quaterniond box_frame(const Mesh& mesh) {
-  struct Direction {
-    Eigen::Vector3d n;
-    double area;
-  };
-  std::vector<Direction> directions;
+  std::vector<geometry::FaceAxis> directions;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Eigen::Vector3d c = (mesh.vertex(t, 1) - mesh.vertex(t, 0)).cross(mesh.vertex(t, 2) - mesh.vertex(t, 0));
-    const double area = c.norm();
-    if (!(area > 0)) continue;
-    const Eigen::Vector3d n = c / area;
-    const auto known = std::find_if(directions.begin(), directions.end(),
-                                    [&](const Direction& d) { return std::abs(d.n.dot(n)) > 0.99999; });
-    if (known != directions.end())
-      known->area += area;
-    else if (directions.size() < 64)
-      directions.push_back({n, area});
+    const Eigen::Vector3d c = geometry::area_vector(mesh, t);
+    if (const double area = c.norm(); area > 0) geometry::add_face(directions, {c / area, area}, 0.99999, 64);
   }
-  std::stable_sort(directions.begin(), directions.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
-  if (directions.size() > 8) directions.resize(8);
+  geometry::sort_by_area(directions, 8);
   const auto volume = [&](const Eigen::Matrix3d& r) {  // of the box in the frame whose axes are r's rows
     Eigen::Vector3d lo = r * mesh.vertices.front(), hi = lo;
     for (const auto& v : mesh.vertices) {
@@ -47,13 +35,13 @@ Eigen::Quaterniond box_frame(const Mesh& mesh) {
   double best_volume = 0.98 * volume(best);
   for (const auto& first : directions)
     for (const auto& second : directions) {
-      Eigen::Vector3d y = second.n - second.n.dot(first.n) * first.n;
+      Eigen::Vector3d y = second.axis - second.axis.dot(first.axis) * first.axis;
       if (y.norm() < 0.1) continue;
       y.normalize();
       Eigen::Matrix3d r;
-      r.row(0) = first.n;
+      r.row(0) = first.axis;
       r.row(1) = y;
-      r.row(2) = first.n.cross(y);
+      r.row(2) = first.axis.cross(y);
       const double v = volume(r);
       if (v < 0.999 * best_volume) {
         best_volume = v;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 
+#include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::sdf {
@@ -47,19 +47,14 @@ Solid with_normals(Mesh mesh) {
 
 /// Connected components over shared vertices, in order of their first triangle.
 std::vector<Mesh> shells_of(const Mesh& mesh) {
-  std::vector<std::uint32_t> root(mesh.vertices.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&root](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+  DisjointSets sets(mesh.vertices.size());
   for (const auto& t : mesh.triangles)
-    for (int k = 1; k < 3; ++k) root[find(t[static_cast<std::size_t>(k)])] = find(t[0]);
+    for (std::size_t k = 1; k < 3; ++k) sets.join(t[0], t[k]);
   std::vector<int> shell_of_root(mesh.vertices.size(), -1);
   std::vector<std::uint32_t> local(mesh.vertices.size(), 0xffffffffu);
   std::vector<Mesh> shells;
   for (const auto& t : mesh.triangles) {
-    int& shell = shell_of_root[find(t[0])];
+    int& shell = shell_of_root[sets.root(t[0])];
     if (shell < 0) {
       shell = static_cast<int>(shells.size());
       shells.emplace_back();

@@ -47,10 +47,4 @@ void for_each_edge(const std::vector<EdgeRef>& edges, F&& f) {
   }
 }
 
-/// Twice the area, along the normal.
-inline Eigen::Vector3d area_vector(const Mesh& mesh, std::size_t t) {
-  const Eigen::Vector3d& a = mesh.vertex(t, 0);
-  return (mesh.vertex(t, 1) - a).cross(mesh.vertex(t, 2) - a);
-}
-
 }  // namespace dismantle::mesh_detail

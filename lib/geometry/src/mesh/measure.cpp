@@ -1,6 +1,7 @@
 #include <map>
 
 #include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "mesh/edges.h"
 
@@ -17,7 +18,7 @@ double signed_volume(const Mesh& mesh) {
 
 double surface_area(const Mesh& mesh) {
   double twice = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) twice += mesh_detail::area_vector(mesh, t).norm();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) twice += geometry::area_vector(mesh, t).norm();
   return twice / 2;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
 #include "dismantle/geometry/triangle_bvh.h"
@@ -42,14 +43,14 @@ std::uint32_t outer_side(const Mesh& mesh, const std::vector<std::uint32_t>& mem
   std::uint32_t largest = members.front();
   double largest_area = -1;
   for (const auto t : members) {
-    const double area = mesh_detail::area_vector(mesh, t).squaredNorm();
+    const double area = geometry::area_vector(mesh, t).squaredNorm();
     if (area > largest_area) {
       largest = t;
       largest_area = area;
     }
   }
   const Vector3d through = (mesh.vertex(largest, 0) + mesh.vertex(largest, 1) + mesh.vertex(largest, 2)) / 3;
-  const Vector3d normal = mesh_detail::area_vector(mesh, largest).normalized();
+  const Vector3d normal = geometry::area_vector(mesh, largest).normalized();
   std::uint32_t side = front(largest);
   for (int attempt = 0; attempt < 8; ++attempt) {
     // Off the normal by odd angles, so that edges of regular shapes are not met.
@@ -58,7 +59,7 @@ std::uint32_t outer_side(const Mesh& mesh, const std::vector<std::uint32_t>& mem
     const Vector3d d = (normal + (0.0871 + 0.0313 * attempt) * (std::cos(turn) * u + std::sin(turn) * v)).normalized();
     double far = -1, far_margin = 0;
     for (const auto t : members) {
-      const Vector3d n = mesh_detail::area_vector(mesh, t);
+      const Vector3d n = geometry::area_vector(mesh, t);
       const double slope = n.dot(d), area = n.norm();
       if (std::abs(slope) < 1e-9 * area || area == 0) continue;
       const double s = t == largest ? 0 : n.dot(mesh.vertex(t, 0) - through) / slope;

@@ -1,7 +1,6 @@
 #include <Eigen/Eigenvalues>
-#include <array>
-#include <map>
 
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "mesh/cross2.h"
@@ -12,7 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
 
 /// Counter-clockwise convex hull (monotone chain).
 std::vector<Vector2d> hull_2d(std::vector<Vector2d> p) {
@@ -65,31 +63,15 @@ Vector2d smallest_rectangle(const std::vector<Vector2d>& points) {
 
 /// Directions that a face of the smallest box may have: face normals with the most area, principal and coordinate axes.
 std::vector<Vector3d> candidate_axes(const Mesh& mesh, std::span<const Vector3d> points) {
-  struct Cluster {
-    Vector3d normal;
-    double area;
-  };
-  std::map<std::array<int, 3>, Cluster> clusters;
+  std::vector<geometry::FaceAxis> faces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Vector3d n = mesh_detail::area_vector(mesh, t);
-    const double area = n.norm();
-    if (!(area > 0)) continue;
-    n /= area;
-    std::array<int, 3> key;
-    for (int k = 0; k < 3; ++k) key[static_cast<std::size_t>(k)] = static_cast<int>(std::lround(n[k] * 1000));
-    if (key < std::array<int, 3>{0, 0, 0}) {
-      n = -n;
-      for (auto& k : key) k = -k;
-    }
-    const auto [it, fresh] = clusters.try_emplace(key, Cluster{n, 0});
-    it->second.area += area;
+    const Vector3d n = geometry::area_vector(mesh, t);
+    if (const double area = n.norm(); area > 0) faces.push_back({n / area, area});
   }
-  std::vector<Cluster> ranked;
-  for (const auto& [key, c] : clusters) ranked.push_back(c);
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
-  if (ranked.size() > 64) ranked.resize(64);
+  faces = geometry::rounded_axes(faces);
+  geometry::sort_by_area(faces, 64);
   std::vector<Vector3d> axes;
-  for (const auto& c : ranked) axes.push_back(c.normal);
+  for (const auto& face : faces) axes.push_back(face.axis);
   Vector3d mean = Vector3d::Zero();
   for (const auto& p : points) mean += p / static_cast<double>(points.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();

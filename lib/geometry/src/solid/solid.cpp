@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/ray.h"
 
 namespace dismantle::geometry {
@@ -137,44 +138,24 @@ std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& n
 
 /// Axes along the two directions, at right angles, that most of the surface faces.
 Pose tight_frame(const Mesh& mesh) {
-  struct Facing {
-    std::array<int, 3> key;  // direction up to sign, rounded
-    double area;
-    Vec3 n;
-  };
-  std::vector<Facing> all;
+  using geometry::FaceAxis;
+  std::vector<FaceAxis> all;
   all.reserve(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Vec3 n = triangle_normal(mesh, t);
-    if (n.isZero(0)) continue;
-    std::array<int, 3> key;
-    for (std::size_t k = 0; k < 3; ++k) key[k] = static_cast<int>(std::lround(n[static_cast<int>(k)] * 1000));
-    if (key < std::array<int, 3>{}) {
-      n = -n;
-      for (auto& k : key) k = -k;
-    }
-    const Vec3 a = mesh.vertex(t, 0);
-    all.push_back({key, 0.5 * (mesh.vertex(t, 1) - a).cross(mesh.vertex(t, 2) - a).norm(), n});
-  }
-  std::stable_sort(all.begin(), all.end(), [](const Facing& a, const Facing& b) { return a.key < b.key; });
-  std::vector<Facing> sums;
-  for (const auto& f : all) {
-    if (sums.empty() || sums.back().key != f.key)
-      sums.push_back(f);
-    else
-      sums.back().area += f.area;
-  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (const Vec3 n = triangle_normal(mesh, t); !n.isZero(0))
+      all.push_back({n, 0.5 * geometry::area_vector(mesh, t).norm()});
+  const std::vector<FaceAxis> sums = geometry::rounded_axes(all);
   const auto largest = [&](const auto& fits) {
-    const Facing* best = nullptr;
+    const FaceAxis* best = nullptr;
     for (const auto& f : sums)
       if (fits(f) && (!best || f.area > best->area)) best = &f;
     return best;
   };
-  const Facing* first = largest([](const Facing&) { return true; });
+  const FaceAxis* first = largest([](const FaceAxis&) { return true; });
   if (!first) return {};
-  const Facing* second = largest([&](const Facing& f) { return std::abs(f.n.dot(first->n)) < 0.02; });
-  const Vec3 x = first->n;
-  const Vec3 y = second ? Vec3((second->n - second->n.dot(x) * x).normalized()) : x.unitOrthogonal();
+  const FaceAxis* second = largest([&](const FaceAxis& f) { return std::abs(f.axis.dot(first->axis)) < 0.02; });
+  const Vec3 x = first->axis;
+  const Vec3 y = second ? Vec3((second->axis - second->axis.dot(x) * x).normalized()) : x.unitOrthogonal();
   Eigen::Matrix3d r;
   r << x, y, x.cross(y);
   // Already along the axes: leave the coordinates as they are.

@@ -7,7 +7,9 @@
 #include <mutex>
 
 #include "dismantle/geometry/hull.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/shortcuts.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -18,12 +20,6 @@ using StateType = DisplacementSpace::StateType;
 constexpr double kBeyond = 0.01;
 constexpr int kPollEvery = 32;
 
-std::vector<Pose> poses_of(const std::vector<PlacedPart>& parts) {
-  std::vector<Pose> all;
-  for (const auto& p : parts) all.push_back(p.pose);
-  return all;
-}
-
 /// OMPL writes to the terminal unless told otherwise; a planner prints nothing.
 void silence_ompl() {
   static std::once_flag once;
@@ -33,10 +29,7 @@ void silence_ompl() {
 }  // namespace
 
 CheckBudget::CheckBudget(const PathQuery& query, const RunContext& run)
-    : max_checks(query.budget.max_steps),
-      context(run),
-      deadline(query.budget.timeout > 0 ? run.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                        : run.deadline) {}
+    : max_checks(query.budget.max_steps), context(run), deadline(path::deadline_of(query, run)) {}
 
 bool CheckBudget::spent() const {
   return (max_checks > 0 && checks >= max_checks) || context.cancel.cancelled() || deadline.passed();
@@ -53,8 +46,7 @@ Surroundings::Surroundings(const PathQuery& query, const World& world, const Pos
   for (std::size_t i = 0; i < moving.size(); ++i)
     mover.center += moving[i].pose * world.center(i) / static_cast<double>(moving.size());
   for (const auto& p : moving_hull) mover.radius = std::max(mover.radius, (p - mover.center).norm());
-  for (const auto& s : query.scene.fixed)
-    for (const auto& v : query.assembly.parts[s.part].mesh->vertices) rest.extend(s.pose * v);
+  rest = path::box_of(query.assembly, query.scene.fixed);
   bounds = rest;
   bounds.extend(moving_box({}));
   bounds.extend(moving_box(goal));
@@ -106,7 +98,7 @@ SamplingProblem::SamplingProblem(const PathQuery& query, MotionSpace motion, dou
       space_(std::make_shared<DisplacementSpace>(surroundings_.mover, motion, surroundings_.bounds)),
       budget_(budget),
       step_(step),
-      start_(poses_of(query.scene.moving)) {
+      start_(path::poses_of(query.scene.moving)) {
   silence_ompl();
   // Noise of CAD may put the start itself beyond the limit; what is there already is no obstacle.
   allowed_ = std::max(max_penetration, world_->penetration(world_->initial_state()));

@@ -3,12 +3,12 @@
 #include <ompl/base/ProblemDefinition.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "dismantle/path/candidates.h"
 #include "dismantle/path/ended_search.h"
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
+#include "dismantle/sampling/candidate_paths.h"
 
 namespace dismantle::sampling {
 namespace {
@@ -17,49 +17,6 @@ using StateType = SamplingProblem::StateType;
 
 /// Checks of the first turn of a tree where two grow in turn; each round doubles it.
 constexpr std::uint64_t kFirstTurn = 4'000;
-
-/// Shows a path to the checker, simplified and then as it is.
-class Candidates {
- public:
-  Candidates(const PathChecker& checker, bool simplify) : checker_(checker), simplify_(simplify) {}
-
-  /// True: `result` holds the path. False: `edge` is that of `states` which is at fault.
-  bool accepts(SamplingProblem& problem, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
-    std::vector<std::vector<StateType>> forms;
-    if (simplify_ && states.size() > 2) {
-      forms.push_back(problem.shortcut(states));
-      if (forms.back().size() >= states.size()) forms.clear();
-    }
-    forms.push_back(states);
-    std::vector<std::size_t> edge_of;
-    std::size_t shown = 0;
-    return path::show_forms(
-               checker_, refused_,
-               [&](std::size_t k) -> std::optional<Path> {
-                 shown = k;
-                 return k < forms.size() ? std::optional(problem.path(forms[k], &edge_of)) : std::nullopt;
-               },
-               [&](const PathCheck& check, const Path&) {
-                 result.message = check.reason;
-                 // The instant is the last one before the fault: the edge that
-                 // follows is to blame. Without a place, the last.
-                 edge = check.has_witness ? edge_of[std::min(check.instant + 1, edge_of.size() - 1)]
-                                          : forms[shown].size() - 1;
-                 edge = std::max<std::size_t>(edge, 1);
-                 return true;
-               },
-               [&](VerifiedPath path) {
-                 result.solve(std::move(path), static_cast<unsigned>(forms[shown].size() - 1));
-               })
-        .accepted;
-  }
-  std::uint64_t refused() const { return refused_; }
-
- private:
-  const PathChecker& checker_;
-  bool simplify_;
-  std::uint64_t refused_ = 0;
-};
 
 /// One tree in one state space.
 class Tree {
@@ -81,7 +38,7 @@ class Tree {
 
   /// Until a path is accepted, or `limit` checks have been made in all, or the
   /// budget is spent.
-  bool grow(Candidates& candidates, std::uint64_t limit, PathResult& result) {
+  bool grow(CandidatePaths& candidates, std::uint64_t limit, PathResult& result) {
     const ompl::base::PlannerTerminationCondition stop(
         [&] { return problem_.budget().checks >= limit || problem_.budget().spent(); });
     while (tree_.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION) {
@@ -95,7 +52,7 @@ class Tree {
   }
 
   /// Straight on along each direction until out or blocked.
-  bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, Candidates& candidates,
+  bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, CandidatePaths& candidates,
                  std::uint64_t limit, PathResult& result) {
     const StateType start = problem_.space().start();
     const double far = 2 * problem_.surroundings().bounds.size().norm();
@@ -156,7 +113,7 @@ class TreesSearch final : public PathSearch {
     }
     const std::uint64_t until = path::end_of_portion(budget_.checks, portion.max_steps, level_);
     const Deadline query_end = budget_.deadline;
-    if (portion.timeout > 0) budget_.deadline = query_end.earlier(Deadline::after_seconds(portion.timeout));
+    budget_.deadline = query_end.earlier(path::deadline_of(portion));
     bool solved = false;
     if (first && make_lines_)
       solved = trees_.front()->try_lines(make_lines_(query_), parameters_.range, candidates_, level_, result_);
@@ -212,7 +169,7 @@ class TreesSearch final : public PathSearch {
   const MakeLines make_lines_;
   CheckBudget budget_;
   std::uint64_t level_;  ///< state checks that the depth limit allows
-  Candidates candidates_;
+  CandidatePaths candidates_;
   path::GrowingTurns turns_;
   std::vector<std::unique_ptr<Tree>> trees_;
   PathResult result_;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dismantle/executor.h"
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/inner_ball.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
@@ -51,10 +52,7 @@ std::vector<InnerBall> middle_of(const Solid& bar, double least, const RunContex
   const double largest = 0.5 * bar.box.size().minCoeff();
   if (!(largest > least)) return balls;
   double area = 0;
-  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) {
-    const Vec3 a = bar.mesh.vertex(t, 0);
-    area += 0.5 * (bar.mesh.vertex(t, 1) - a).cross(bar.mesh.vertex(t, 2) - a).norm();
-  }
+  for (std::size_t t = 0; t < bar.mesh.triangles.size(); ++t) area += 0.5 * geometry::area_vector(bar.mesh, t).norm();
   const double spacing = std::max(least, std::sqrt(area / kSamples));
   const auto stop = [&] { return context.should_stop(); };
   std::vector<std::vector<Vec3>> below(bar.mesh.triangles.size());  // by triangle: centres of balls that touch it

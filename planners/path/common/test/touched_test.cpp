@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "dismantle/run_context.h"
+
 namespace dismantle::path {
 namespace {
 
@@ -10,6 +14,21 @@ TEST(Touched, MostOftenFirstAndNobodyWhoMoves) {
   EXPECT_EQ(most_touched(touched, {{4, Pose{}}}), (std::vector<PartId>{2, 1, 3, 7}));
   EXPECT_EQ(most_touched(touched, {}).front(), 4U);
   EXPECT_TRUE(most_touched({}, {{1, Pose{}}}).empty());
+}
+
+TEST(TouchedParts, AreTheFixedOnesInContactEachOnce) {
+  Rng rng(1);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<Contact> contacts(rng.below(30));
+    std::set<PartId> expected;
+    for (Contact& c : contacts) {
+      c.other = static_cast<PartId>(rng.below(8));
+      c.depth = rng.uniform(-0.01, 0.01);
+      if (c.depth > -1e-3 && c.other != 3 && c.other != 5) expected.insert(c.other);
+    }
+    EXPECT_EQ(touched_parts(contacts, {{3, Pose{}}, {5, Pose{}}}),
+              std::vector<PartId>(expected.begin(), expected.end()));
+  }
 }
 
 }  // namespace

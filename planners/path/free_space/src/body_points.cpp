@@ -1,6 +1,5 @@
 #include "dismantle/free_space/body_points.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
@@ -14,7 +13,6 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr std::size_t kCandidates = 1000;  // triangles, from which the points are chosen
-constexpr double kStiff = 1e-3;            // share of the largest moment: turns that move no point are not made
 
 }  // namespace
 
@@ -50,32 +48,6 @@ std::vector<BodyPoint> body_points(const Mesh& mesh, std::size_t most) {
     next = static_cast<std::size_t>(std::max_element(away.begin(), away.end()) - away.begin());
   }
   return points;
-}
-
-Twist closest_twist(const std::vector<Vec3>& points, const std::vector<Vec3>& wishes,
-                    const std::vector<double>& weights, const Vec3& center) {
-  double all = 0;
-  Vec3 middle = Vec3::Zero(), way = Vec3::Zero();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    all += weights[k];
-    middle += weights[k] * points[k];
-    way += weights[k] * wishes[k];
-  }
-  middle /= all;
-  way /= all;
-  // About the middle of the points the two kinds of motion do not depend on each other.
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  Vec3 torque = Vec3::Zero();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vec3 arm = points[k] - middle;
-    moments += weights[k] * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-    torque += weights[k] * arm.cross(wishes[k]);
-  }
-  Twist twist;
-  const double stiff = kStiff * moments.trace();
-  if (stiff > 0) twist.turn = (moments + stiff * Eigen::Matrix3d::Identity()).ldlt().solve(torque);
-  twist.way = way + twist.turn.cross(center - middle);
-  return twist;
 }
 
 }  // namespace dismantle::free_space

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "dismantle/geometry/slippage.h"
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::free_space {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using geometry::Twist;
 
 constexpr std::size_t kPoints = 24;               // of all bodies together
 constexpr std::size_t kCorners = 3;               // of these tell where a body is and how it is turned
@@ -78,7 +81,7 @@ bool overlaps_through(const PathQuery& query) {
   return overlap > 0 && overlap > kThrough * ball_of(points_of(query));
 }
 
-LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
+LedWalk::LedWalk(const tolerant_walk::TreeParameters& parameters, const PathQuery& query, RunContext& context,
                  const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
@@ -91,8 +94,9 @@ LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& q
       effort_(effort) {
   if (query.scene.moving.size() == 1) {
     const PlacedPart& m = query.scene.moving.front();
-    for (const Twist& slip : slips(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
-      slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
+    for (const Twist& slip :
+         geometry::slippable_motions(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
+      slips_.push_back({m.pose.q * slip.linear, m.pose.q * slip.angular});
   }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
   if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
@@ -219,9 +223,9 @@ LedWalk::PoseTree::Step LedWalk::downhill(std::uint32_t node, const std::vector<
     at.push_back(tree_[node].pose * p.center);
     wishes.push_back((ways_.ahead(at.back()) - at.back()).normalized());
   }
-  const Twist twist = closest_twist(at, wishes, weights, tree_[node].center);
-  const double size = std::max(twist.way.norm() + tree_.radius() * twist.turn.norm(), 1e-12);
-  return {twist.way / size, twist.turn / size};
+  const Twist twist = geometry::fitted_twist(at, wishes, weights, tree_[node].center);
+  const double size = std::max(twist.linear.norm() + tree_.radius() * twist.angular.norm(), 1e-12);
+  return {twist.linear / size, twist.angular / size};
 }
 
 /// Thin, and no more where it starts.
@@ -246,7 +250,7 @@ bool LedWalk::arrived(std::uint32_t node, const Left& left) {
 /// A motion of the body along itself, from a node. Points move by about 1.
 LedWalk::PoseTree::Step LedWalk::along(std::uint32_t node, const Twist& slip) const {
   const Eigen::Quaterniond& q = tree_[node].pose.q;
-  return {q * slip.way, q * slip.turn};
+  return {q * slip.linear, q * slip.angular};
 }
 
 /// Steps downhill and a little aside, always the same; or only aside; or along
@@ -321,7 +325,7 @@ SearchStatus LedWalk::run(const Budget& portion) {
   if (is_success(result_.outcome())) return SearchStatus::solved;
   const std::uint64_t most = query_.budget.max_steps > 0 ? query_.budget.max_steps : ~std::uint64_t{0};
   const std::uint64_t until = path::end_of_portion(looks(), portion.max_steps, most);
-  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  const Deadline end = path::deadline_of(portion);
   bool solved = false;
   if (!std::exchange(begun_, true)) {
     progress_at_ = work();

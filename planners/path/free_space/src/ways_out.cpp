@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/geometry/face_axes.h"
+#include "dismantle/path/placed_parts.h"
+
 namespace dismantle::free_space {
 namespace {
 
@@ -66,8 +69,7 @@ void WaysOut::each_neighbour(std::uint32_t cell, const Visit& visit) const {
 }
 
 WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& fixed, double ball, std::size_t most_cells) {
-  for (const auto& s : fixed)
-    for (const auto& v : assembly.parts[s.part].mesh->vertices) box_.extend(s.pose * v);
+  box_ = path::box_of(assembly, fixed);
   if (box_.empty()) box_.extend(Vec3::Zero());
   // Solved for the edge by repetition: the margin counts, too.
   cell_ = std::cbrt(std::max(box_.size().prod(), 1e-9) / static_cast<double>(most_cells));
@@ -121,7 +123,7 @@ bool WaysOut::close_narrowest(const Vec3& p, double reach) {
 void WaysOut::mark(const std::array<Vec3, 3>& corners) {
   std::array<Vec3, 3> c;
   for (std::size_t k = 0; k < 3; ++k) c[k] = (corners[k] - box_.lo) / cell_;
-  const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+  const Vec3 normal = geometry::area_vector(c);
   int up = 0;
   normal.cwiseAbs().maxCoeff(&up);
   const int u = (up + 1) % 3, v = (up + 2) % 3;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "dismantle/path/placed_parts.h"
+
 namespace dismantle::push {
 namespace {
 
@@ -22,10 +24,6 @@ constexpr double kInto = 0.02;
 /// Leaning: sideways share of the push, and how square to the way a wall has to be.
 constexpr double kLean = 0.5, kBeside = 0.3;
 constexpr std::size_t kMostLeaning = 32;
-
-bool moves(const std::vector<PlacedPart>& moving, PartId part) {
-  return std::any_of(moving.begin(), moving.end(), [part](const PlacedPart& m) { return m.part == part; });
-}
 
 /// `torque` for a body of unit torque arm.
 Action turn(const World& world, const Vec3& torque, const Vec3& force) {
@@ -130,7 +128,7 @@ Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<Place
   };
   std::vector<Cluster> clusters;
   for (const Contact& c : contacts) {
-    if (c.depth < -kTouching || c.on_edge || moves(moving, c.other)) continue;
+    if (c.depth < -kTouching || c.on_edge || path::contains(moving, c.other)) continue;
     const auto same = std::find_if(clusters.begin(), clusters.end(),
                                    [&](const Cluster& k) { return k.normal.dot(c.normal) > kSameNormal; });
     if (same != clusters.end())

@@ -5,10 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/geometry/face_axes.h"
+
 namespace dismantle::push {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
+using geometry::FaceAxis;
 
 /// So many of the largest triangles tell the axes: more add nothing but the facets of round faces.
 constexpr std::size_t kMostTriangles = 600;
@@ -17,43 +20,29 @@ constexpr double kSameAxis = 0.9994;
 /// Sine within which two normals count as square to each other.
 constexpr double kSquare = 0.02;
 
-struct Facing {
-  Vec3 normal;  // unit
-  double area;
-};
-
-std::vector<Facing> facings(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
-  std::vector<Facing> all;
+std::vector<FaceAxis> facings(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
+  std::vector<FaceAxis> all;
   for (const PlacedPart& p : parts) {
     if (p.part >= assembly.parts.size()) continue;  // a world may move what has no mesh
     const Mesh& mesh = *assembly.parts[p.part].mesh;
-    for (const Triangle& t : mesh.triangles) {
-      const Vec3 n =
-          p.pose.q * (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Vec3 n = p.pose.q * geometry::area_vector(mesh, t);
       if (const double size = n.norm(); size > 1e-12) all.push_back({n / size, size});
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const Facing& a, const Facing& b) { return a.area > b.area; });
-  if (all.size() > kMostTriangles) all.resize(kMostTriangles);
+  geometry::sort_by_area(all, kMostTriangles);
   return all;
 }
 
 /// The axis with most area among those that are square to `to` (zero: all); zero when there is none.
-Vec3 main_axis(const std::vector<Facing>& all, const Vec3& to) {
-  std::vector<Facing> axes;
-  for (const Facing& f : all) {
-    if (std::abs(f.normal.dot(to)) > kSquare) continue;
-    const auto same = std::find_if(axes.begin(), axes.end(),
-                                   [&](const Facing& a) { return std::abs(a.normal.dot(f.normal)) > kSameAxis; });
-    if (same != axes.end())
-      same->area += f.area;
-    else
-      axes.push_back(f);
-  }
-  Facing best{Vec3::Zero(), 0};
-  for (const Facing& a : axes)
+Vec3 main_axis(const std::vector<FaceAxis>& all, const Vec3& to) {
+  std::vector<FaceAxis> axes;
+  for (const FaceAxis& f : all)
+    if (std::abs(f.axis.dot(to)) <= kSquare) geometry::add_face(axes, f, kSameAxis);
+  FaceAxis best{Vec3::Zero(), 0};
+  for (const FaceAxis& a : axes)
     if (a.area > best.area * (1 + 1e-6)) best = a;
-  return best.normal;
+  return best.axis;
 }
 
 Vec3 furthest_from(const Assembly& assembly, const std::vector<PlacedPart>& parts, const Vec3& axis) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "dismantle/path/ended_search.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::push {
 namespace {
@@ -112,7 +113,7 @@ ContactSearch::ContactSearch(const PathQuery& query, const Tactics& tactics, Run
       tactics_(tactics),
       context_(context),
       between_(std::move(between)),
-      deadline_(query.budget.timeout > 0 ? Deadline::after_seconds(query.budget.timeout) : Deadline()),
+      deadline_(path::deadline_of(query.budget)),
       steps_left_(query.budget.max_steps) {
   if (tactics.motion == Motion::automatic && query.budget.max_depth == 0)
     turns_.emplace(query, tactics, context);
@@ -122,7 +123,7 @@ ContactSearch::ContactSearch(const PathQuery& query, const Tactics& tactics, Run
 }
 
 SearchStatus ContactSearch::run(const Budget& portion) {
-  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  const Deadline end = path::deadline_of(portion);
   Search::Limits limits;
   limits.deadline = deadline_.earlier(end);
   limits.steps_left = query_.budget.max_steps > 0 ? &steps_left_ : nullptr;

@@ -1,8 +1,11 @@
 #include "dismantle/push/search.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::push {
@@ -23,13 +26,6 @@ constexpr double kOnceRound = 6.5;
 /// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
 constexpr std::uint64_t kStrictNodes = 24;
 
-std::vector<path::Ball> balls(const World& world) {
-  std::vector<path::Ball> result;
-  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
-    result.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
-  return result;
-}
-
 bool same_path(const Path& a, const Path& b) {
   constexpr double kSame = 1e-6;
   if (a.size() != b.size()) return false;
@@ -46,7 +42,7 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       tactics_(tactics),
       context_(context),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, space)),
-      bodies_(balls(*world_)),
+      bodies_(path::balls_of(*world_)),
       axes_(tactics.own_axes ? own_axes(query.assembly, query.scene) : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.scene, axes_),
       stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
@@ -84,8 +80,7 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
   fine_.add(node.state, static_cast<std::uint32_t>(id));
   if (const double from_start = way_from_start(state); from_start > farthest_) {
     farthest_ = from_start;
-    best_.clear();
-    for (const auto& b : state.bodies) best_.push_back(b.pose);
+    best_ = path::poses_of(state);
   }
   nodes_.push_back(std::move(node));
   return id;
@@ -117,9 +112,7 @@ Path Search::path_to(std::int32_t node) const {
   std::int32_t at = node;
   for (; nodes_[static_cast<std::size_t>(at)].parent >= 0; at = nodes_[static_cast<std::size_t>(at)].parent)
     pieces.push_back(&nodes_[static_cast<std::size_t>(at)].way);
-  Path path;
-  path.emplace_back();
-  for (const auto& b : nodes_[static_cast<std::size_t>(at)].state.bodies) path.back().push_back(b.pose);
+  Path path{path::poses_of(nodes_[static_cast<std::size_t>(at)].state)};
   for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
     path.insert(path.end(), (*piece)->begin(), (*piece)->end());
   return path;
@@ -129,15 +122,7 @@ Path Search::path_to(std::int32_t node) const {
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts;
-  const auto moves = [&](PartId part) {
-    return std::any_of(query_.scene.moving.begin(), query_.scene.moving.end(),
-                       [part](const PlacedPart& m) { return m.part == part; });
-  };
-  for (const auto& c : contacts)
-    if (c.depth > -1e-3 && !moves(c.other)) parts.push_back(c.other);
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  std::vector<PartId> parts = path::touched_parts(contacts, query_.scene.moving);
   for (PartId p : parts) ++touched_[p];
   return parts;
 }
@@ -159,20 +144,27 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
     if (same_path(refused, path)) return RunEnd::blocked;  // what the checker said of it could not be learned
-  PathCheck check = query_.checker.check(path);
-  if (!check.accepted() && !query_.goal.any_of.empty())
-    if (PathCheck again = query_.checker.check(with_room(path)); again.accepted()) check = std::move(again);
-  if (check.accepted()) {
+  std::uint64_t refused_forms = 0;
+  PathCheck first;
+  const auto form = [&](std::size_t k) -> std::optional<Path> {
+    if (k == 0) return path;
+    return k == 1 && !query_.goal.any_of.empty() ? std::optional(with_room(path)) : std::nullopt;
+  };
+  const auto learn = [&](const PathCheck& check, const Path&) {
+    if (refused_forms == 1) first = check;  // with room it is not the path of these states any more
+    return true;
+  };
+  const auto accept = [&](VerifiedPath verified) {
     note_contacts(start);
-    result.solve(std::move(*check.verified), nodes_[static_cast<std::size_t>(last)].depth);
-    return RunEnd::solved;
-  }
+    result.solve(std::move(verified), nodes_[static_cast<std::size_t>(last)].depth);
+  };
+  if (path::show_forms(query_.checker, refused_forms, form, learn, accept).accepted) return RunEnd::solved;
   ++refused_;
   refusals_.push_back(std::move(path));
-  result.message = check.reason;
-  if (!check.has_witness) return RunEnd::refused;
-  world_->add_contact_sample(check.part, check.other, check.point);
-  lessons_.push_back({check.part, check.other, check.point});
+  result.message = first.reason;
+  if (!first.has_witness) return RunEnd::refused;
+  world_->add_contact_sample(first.part, first.other, first.point);
+  lessons_.push_back({first.part, first.other, first.point});
   return RunEnd::refused_learned;
 }
 

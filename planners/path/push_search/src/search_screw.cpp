@@ -4,7 +4,10 @@
 #include <limits>
 #include <tuple>
 
+#include "dismantle/geometry/slippage.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/push/search.h"
+#include "dismantle/push/touching_surfaces.h"
 
 namespace dismantle::push {
 namespace {
@@ -35,12 +38,6 @@ constexpr int kFeelLooks = 40;
 constexpr double kTurns = 0.3, kLean = 0.5;
 /// Half turns with a smaller sine do not tell their axis.
 constexpr double kTellsAxis = 0.3;
-
-Path::value_type poses_of(const State& state) {
-  Path::value_type poses;
-  for (const auto& b : state.bodies) poses.push_back(b.pose);
-  return poses;
-}
 
 /// The screw that has led from `from` to `to` after `turned` rad about nearly `rough`: both poses have been put in the
 /// middle of their room, so that this is closer to the truth than what the contacts told.
@@ -82,7 +79,7 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   State there = from;
   for (double way = kGlideStep; way < most; way *= kWayOutFactor) {
     for (std::size_t i = 0; i < there.bodies.size(); ++i)
-      there.bodies[i].pose = moved(from.bodies[i].pose, twist, center, way);
+      there.bodies[i].pose = geometry::moved_along(from.bodies[i].pose, twist, center, way);
     if (world_->separated(there)) return way;
   }
   return std::numeric_limits<double>::infinity();
@@ -123,10 +120,10 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   const double arm = world_->torque_arm(0);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  std::vector<Twist> slips = slipping(contacts, query_.scene.moving, center, arm);
+  std::vector<Twist> slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   if (slips.empty()) {
     feel(node.state, contacts);
-    slips = slipping(contacts, query_.scene.moving, center, arm);
+    slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   }
   std::vector<std::pair<double, Twist>> by_way;
   for (const Twist& t : slips)
@@ -151,7 +148,7 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
   bool left_start = false;
   const auto at = [&](double along) {
     State there = start;
-    for (auto& b : there.bodies) b.pose = moved(b.pose, twist, center, along);
+    for (auto& b : there.bodies) b.pose = geometry::moved_along(b.pose, twist, center, along);
     return there;
   };
   while (true) {
@@ -170,7 +167,7 @@ Search::GlideEnd Search::glide(const Twist& twist, unsigned depth, Run& run) {
     for (int k = 1; k <= instants; ++k) {
       run.state = at(way + k * step / instants);
       run.length += step / instants;
-      run.way.push_back(poses_of(run.state));
+      run.way.push_back(path::poses_of(run.state));
       if (run.length < noted + kGlideLook * (1 - 1e-9) || seen_.similar(run.state, look)) continue;
       noted = run.length;
       look = run.state;
@@ -200,7 +197,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   run.last = from;
   run.first = static_cast<std::uint32_t>(nodes_.size());
   world_->project_to_clearance(run.state, kGlideClearance);
-  run.way.push_back(poses_of(run.state));
+  run.way.push_back(path::poses_of(run.state));
   const State start = run.state;
   double turned = 0;
   Pose stuck_at = start.bodies[0].pose;
@@ -226,7 +223,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
     }
     turned += (run.length - before) * twist.angular.norm();
     world_->project_to_clearance(run.state, kGlideClearance);
-    run.way.push_back(poses_of(run.state));
+    run.way.push_back(path::poses_of(run.state));
     twist =
         refit(twist, start.bodies[0].pose, run.state.bodies[0].pose, bodies_[0].center, world_->torque_arm(0), turned);
   }

@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "dismantle/path/candidates.h"
+#include "dismantle/path/placed_parts.h"
 #include "dismantle/path/shortcuts.h"
+#include "dismantle/path/time_limit.h"
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tolerant_walk {
@@ -20,27 +22,21 @@ constexpr double kRoom = 0.1;        // share of the looks in vain at which a tr
                                      // stuck; less is not what held it
 constexpr std::size_t kRepairs = 4;  // tries to shorten the same way, after it has been learned where it cuts
 
-bool stands(const Scene& scene, PartId part) {
-  return std::any_of(scene.fixed.begin(), scene.fixed.end(), [part](const PlacedPart& s) { return s.part == part; });
-}
-
 }  // namespace
 
-PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
-                   GeometryCache& cache)
+PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
+                   Overlap overlap, GeometryCache& cache)
     : parameters_(parameters),
       query_(query),
       context_(context),
       rng_(rng),
-      deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
-                                         : context.deadline),
+      deadline_(path::deadline_of(query, context)),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, MotionSpace::rigid)),
       tolerance_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache) {
   const std::size_t count = query.scene.moving.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    bodies_.push_back({world_->center(i), world_->radius(i)});
+  bodies_ = path::balls_of(*world_);
+  for (std::size_t i = 0; i < count; ++i)
     center_ += query.scene.moving[i].pose * bodies_[i].center / static_cast<double>(count);
-  }
   for (std::size_t i = 0; i < count; ++i)
     radius_ = std::max(radius_, (query.scene.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
   nodes_.push_back({Pose{}, center_});
@@ -50,17 +46,15 @@ bool PoseTree::Reached::has_room_now(const Scene& scene) const {
   std::uint64_t all = 0, gone = 0;
   for (const auto& [part, count] : stuck_at) {
     all += count;
-    if (!stands(scene, part)) gone += count;
+    if (!path::contains(scene.fixed, part)) gone += count;
   }
   return gone > 0 && static_cast<double>(gone) >= kRoom * static_cast<double>(all);
 }
 
 void PoseTree::resume(const Reached& known) {
-  const auto moves = [&](PartId part) {
-    return std::any_of(query_.scene.moving.begin(), query_.scene.moving.end(),
-                       [part](const PlacedPart& m) { return m.part == part; });
+  const auto here = [&](PartId part) {
+    return path::contains(query_.scene.moving, part) || path::contains(query_.scene.fixed, part);
   };
-  const auto here = [&](PartId part) { return moves(part) || stands(query_.scene, part); };
   for (const Reached::Lesson& lesson : known.lessons) {
     if (!here(lesson.part) || !here(lesson.other)) continue;
     tolerance_.learn(lesson.part, lesson.other, lesson.point, lesson.displacement);
@@ -69,11 +63,12 @@ void PoseTree::resume(const Reached& known) {
   nodes_ = known.nodes;
   for (Node& node : nodes_) {  // parents come first
     const Node& parent = nodes_[node.parent];
-    if (node.cut && node.cut_by && !stands(query_.scene, *node.cut_by)) node.cut = false, node.cut_by.reset();
+    if (node.cut && node.cut_by && !path::contains(query_.scene.fixed, *node.cut_by))
+      node.cut = false, node.cut_by.reset();
     if (parent.cut && !node.cut) node.cut = true, node.cut_by = parent.cut_by;
   }
   for (const auto& [part, count] : known.touched)
-    if (stands(query_.scene, part)) touched_[part] = count;
+    if (path::contains(query_.scene.fixed, part)) touched_[part] = count;
   spared_ = known.looks;
   resumed_ = nodes_.size();
 }
@@ -193,7 +188,7 @@ bool PoseTree::verified(std::uint32_t node, PathResult& result) {
     result.message = check.reason;
     if (!check.has_witness) return false;
     const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
-    by = stands(query_.scene, check.other) ? check.other : check.part;
+    by = path::contains(query_.scene.fixed, check.other) ? check.other : check.part;
     at_fault = instant[0] * query_.scene.moving[0].pose.inverse();
     lessons_.push_back({check.part, check.other, check.point, at_fault});
     tightened = tolerance_.learn(check.part, check.other, check.point, at_fault);

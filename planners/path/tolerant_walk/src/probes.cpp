@@ -7,6 +7,7 @@
 #include <map>
 #include <tuple>
 
+#include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/inner_ball.h"
 
 namespace dismantle::tolerant_walk {
@@ -34,7 +35,7 @@ double thickness_at(SolidField& part, const Vec3& p, const Vec3& inward, double 
     if (depth < kSurface && way > 2 * kLeastStep) {
       // The opposite side, or one beside the way?
       const auto& c = part.bvh().corners(part.bvh().closest(p + way * inward).triangle);
-      const Vec3 out = (c[1] - c[0]).cross(c[2] - c[0]);
+      const Vec3 out = geometry::area_vector(c);
       if (out.dot(inward) > 0.5 * out.norm()) return way;
     }
     way += std::max(depth, kLeastStep);
@@ -63,9 +64,8 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
   const double allowed = allowance.overlap + allowance.beyond;
   const TriangleBvh& bvh = part.bvh();
   double area = 0;
-  const auto twice = [](const std::array<Vec3, 3>& c) { return Vec3((c[1] - c[0]).cross(c[2] - c[0])); };
   bvh.overlapping(region, [&](std::uint32_t t) {
-    area += 0.5 * twice(bvh.corners(t)).norm() * share_within(bvh.corners(t), region);
+    area += 0.5 * geometry::area_vector(bvh.corners(t)).norm() * share_within(bvh.corners(t), region);
   });
   if (!(area > 0)) return;
   const double spacing = std::max(least_spacing, std::sqrt(area / static_cast<double>(most))), cell = kCells * spacing;
@@ -76,7 +76,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
   std::map<Key, Probe> balls, points;
   std::map<Key, int> ball_tries, point_tries;  // by where on the surface
   const auto normal_of = [&](std::uint32_t t) {
-    const Vec3 n = twice(bvh.corners(t));
+    const Vec3 n = geometry::area_vector(bvh.corners(t));
     return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
   };
   // What is deepest in another part lies on an edge: of this one, or of the other.

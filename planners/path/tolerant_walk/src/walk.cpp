@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dismantle/path/growing_turns.h"
+#include "dismantle/path/time_limit.h"
 
 namespace dismantle::tolerant_walk {
 namespace {
@@ -130,7 +131,7 @@ SearchStatus Walk::run(const Budget& portion) {
     result_.start_is_goal();
     return SearchStatus::solved;
   }
-  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  const Deadline end = path::deadline_of(portion);
   const std::uint64_t until = path::end_of_portion(looks(), portion.max_steps, most_looks_);
   bool solved = false;
   if (std::exchange(resumed_, false))  // what was in the way there may have left

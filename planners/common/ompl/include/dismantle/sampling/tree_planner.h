@@ -8,6 +8,7 @@
 
 #include "dismantle/parameters.h"
 #include "dismantle/path/motion.h"
+#include "dismantle/path/shared_parameters.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/sampling/target_tree.h"
 
@@ -29,36 +30,34 @@ struct TreeParameters {
 /// Declares them for a struct that derives from TreeParameters. `goal_doc`: what the goal is.
 template <class P>
 void describe_tree(Schema<P>& s, const std::string& goal_doc) {
-  const auto own = [](auto member) {
-    return static_cast<std::remove_reference_t<decltype(std::declval<P>().*member)> P::*>(member);
-  };
-  s.template add_choice<Motion>("motion", own(&TreeParameters::motion),
+  using path::inherited;
+  s.template add_choice<Motion>("motion", inherited<P>(&TreeParameters::motion),
                                 {{"translation", Motion::translation, "R3, orientation locked"},
                                  {"rotation", Motion::rotation, "SE(3)"},
                                  {"auto", Motion::automatic, "a tree in R3 and one in SE(3), which grow in turn"}},
                                 "State space of the search.");
-  s.add("goal_bias", own(&TreeParameters::goal_bias), {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
-  s.add("range", own(&TreeParameters::range),
+  s.add("goal_bias", inherited<P>(&TreeParameters::goal_bias), {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
+  s.add("range", inherited<P>(&TreeParameters::range),
         {.unit = "unit",
          .min = 0,
          .min_open = true,
          .doc = "Longest extension towards a random state, and way between nodes towards a goal."});
-  s.add("step", own(&TreeParameters::step),
+  s.add("step", inherited<P>(&TreeParameters::step),
         {.unit = "unit",
          .min = 1e-5,
          .max = 1,
          .doc = "Extensions go on in steps of this length, each of which is checked (table 7); largest way of any "
                 "point of the part."});
   s.add(
-      "tolerance_share", own(&TreeParameters::tolerance_share),
+      "tolerance_share", inherited<P>(&TreeParameters::tolerance_share),
       {.unit = "1",
        .min = 0,
        .max = 1,
        .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding (table "
               "7 has all of it; the rest keeps the verifier from refusing paths)."});
-  s.add("simplify", own(&TreeParameters::simplify),
+  s.add("simplify", inherited<P>(&TreeParameters::simplify),
         {.doc = "Replace detours by straight motions where these are free."});
-  s.add("level_checks", own(&TreeParameters::level_checks),
+  s.add("level_checks", inherited<P>(&TreeParameters::level_checks),
         {.unit = "1",
          .min = 1,
          .doc = "State checks for a search of depth 1 where the sequence planner limits depth; each further level "

@@ -4,9 +4,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 

@@ -13,6 +13,9 @@ struct Ball {
   double radius = 0;
 };
 
+/// Of the moving parts of a world. The radius is 0 where they do not turn.
+std::vector<Ball> balls_of(const World& world);
+
 /// The largest turn, in rad, that thin() leaves between two instants: small ones are verified in far less time than
 /// large ones.
 constexpr double kMostTurn = 0.25;

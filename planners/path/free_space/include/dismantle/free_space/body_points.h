@@ -1,4 +1,4 @@
-/// Points all over a body, and the small motion that takes them where each wants to go.
+/// Points all over a body, in the middle between its walls.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +17,5 @@ struct BodyPoint {
 
 /// At most `most` of them, as far from each other as can be.
 std::vector<BodyPoint> body_points(const Mesh& mesh, std::size_t most);
-
-/// A small rigid motion about a point.
-struct Twist {
-  Eigen::Vector3d way = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();  ///< rotation vector, rad
-};
-
-/// The one that moves each of the points most nearly by what is wished for it: least squares, with weights >= 0 of
-/// which one is positive. About `center`.
-Twist closest_twist(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& wishes,
-                    const std::vector<double>& weights, const Eigen::Vector3d& center);
 
 }  // namespace dismantle::free_space

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "dismantle/free_space/body_points.h"
-#include "dismantle/free_space/slips.h"
 #include "dismantle/free_space/ways_out.h"
+#include "dismantle/geometry/twist.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/tolerant_walk/parameters.h"
 #include "dismantle/tolerant_walk/pose_tree.h"
@@ -37,7 +37,7 @@ class LedWalk final : public PathSearch {
   };
   /// All outlive this. Several moving parts move as one rigid body. Overlaps
   /// near the start only are for what overlaps_through().
-  LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& query, RunContext& context,
+  LedWalk(const tolerant_walk::TreeParameters& parameters, const PathQuery& query, RunContext& context,
           const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
 
   /// Does free space lead out from where most of the body is? Else there is nothing to be led by.
@@ -75,7 +75,7 @@ class LedWalk final : public PathSearch {
   void begin_again();
   bool detour();
   std::uint32_t choose();
-  PoseTree::Step along(std::uint32_t node, const Twist& slip) const;
+  PoseTree::Step along(std::uint32_t node, const geometry::Twist& slip) const;
   PoseTree::Step downhill(std::uint32_t node, const std::vector<double>& weights) const;
   std::vector<double> leaders();
   bool gives_up();
@@ -83,12 +83,12 @@ class LedWalk final : public PathSearch {
   bool clearly_off(std::uint32_t node) const;
   bool arrived(std::uint32_t node, const Left& left);
 
-  const tolerant_walk::Parameters parameters_;
+  const tolerant_walk::TreeParameters parameters_;
   const PathQuery& query_;
   Rng rng_;
   PoseTree tree_;
-  std::vector<BodyPoint> body_;  // world, at the start
-  std::vector<Twist> slips_;     // likewise
+  std::vector<BodyPoint> body_;         // world, at the start
+  std::vector<geometry::Twist> slips_;  // likewise
   WaysOut ways_;
   bool leads_out_, thin_;
   bool held_ = true, moves_ = false;  // only some play was found; thin, and clearly off where it starts

@@ -7,15 +7,17 @@
 #include <set>
 #include <vector>
 
+#include "dismantle/geometry/twist.h"
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/push/actions.h"
 #include "dismantle/push/frame.h"
 #include "dismantle/push/reached.h"
 #include "dismantle/push/tactics.h"
-#include "dismantle/push/twists.h"
 
 namespace dismantle::push {
+
+using geometry::Twist;
 
 /// One search in one motion space. States form a tree; each knows the instants that lead to it.
 ///

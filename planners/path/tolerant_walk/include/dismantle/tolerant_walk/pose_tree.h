@@ -51,7 +51,7 @@ class PoseTree {
   };
 
   /// All three outlive this.
-  PoseTree(const Parameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
+  PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng, Overlap overlap,
            GeometryCache& cache);
 
   const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
@@ -103,7 +103,7 @@ class PoseTree {
   void cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by);
   void cut_disallowed();
 
-  const Parameters& parameters_;
+  const TreeParameters& parameters_;
   const PathQuery& query_;
   RunContext& context_;
   Rng& rng_;

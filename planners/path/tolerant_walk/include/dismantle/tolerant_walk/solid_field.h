@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "dismantle/mesh.h"
 #include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/mesh.h"
 
 namespace dismantle::tolerant_walk {
 

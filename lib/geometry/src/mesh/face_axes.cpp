@@ -1,0 +1,42 @@
+#include "dismantle/geometry/face_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace dismantle::geometry {
+
+void add_face(std::vector<FaceAxis>& axes, const FaceAxis& face, double same, std::size_t most) {
+  const auto known = std::find_if(axes.begin(), axes.end(),
+                                  [&](const FaceAxis& a) { return std::abs(a.axis.dot(face.axis)) >= same; });
+  if (known != axes.end())
+    known->area += face.area;
+  else if (axes.size() < most)
+    axes.push_back(face);
+}
+
+void sort_by_area(std::vector<FaceAxis>& axes, std::size_t most) {
+  std::stable_sort(axes.begin(), axes.end(), [](const FaceAxis& a, const FaceAxis& b) { return a.area > b.area; });
+  if (axes.size() > most) axes.resize(most);
+}
+
+std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces) {
+  constexpr double kDecimals = 1000;
+  using Key = std::array<int, 3>;
+  std::map<Key, FaceAxis> by_direction;
+  for (FaceAxis face : faces) {
+    Key key{};
+    for (std::size_t k = 0; k < 3; ++k)
+      key[k] = static_cast<int>(std::lround(face.axis[static_cast<Eigen::Index>(k)] * kDecimals));
+    if (key < Key{}) {
+      face.axis = -face.axis;
+      for (int& k : key) k = -k;
+    }
+    by_direction.try_emplace(key, FaceAxis{face.axis, 0}).first->second.area += face.area;
+  }
+  std::vector<FaceAxis> axes;
+  for (const auto& [key, axis] : by_direction) axes.push_back(axis);
+  return axes;
+}
+
+}  // namespace dismantle::geometry
