@@ -17,6 +17,7 @@ constexpr double kBookCrease = 30.0 * std::numbers::pi / 180.0;
 constexpr double kMargin = 1.12;     // of what is shown, around it
 constexpr double kSmallest = 0.22;   // share of a picture that what moves has to take
 constexpr double kFurthest = 1.1;    // of the size of what stands: no part is shown further away from its place
+constexpr double kSpeck = 0.07;      // of a picture's width: what is smaller gets a circle
 constexpr double kBetterView = 1.5;  // times as much of the part has to be seen before the side changes
 const Eigen::Vector3f kAccent(0.98f, 0.62f, 0.10f);
 
@@ -48,7 +49,7 @@ Illustrator::Illustrator(const Plan& plan, const Assembly& assembly)
     Eigen::Vector3f colour(0.62f, 0.68f, 0.75f);
     if (part.colour && different.size() > 1)
       colour = Eigen::Vector3f(part.colour->r, part.colour->g, part.colour->b) / 255.0f;
-    colours_.push_back(colour);
+    colours_.push_back(0.8f * colour + Eigen::Vector3f::Constant(0.14f));  // edges show on black parts too
   }
 }
 
@@ -100,7 +101,16 @@ Picture Illustrator::scene(const std::vector<PlacedPart>& parts, int width, int 
     bodies.push_back(body_of(placed, false));
     bodies.back().colour = colours_[placed.part];
   }
-  return {draw(bodies, camera_for(corners(parts), axes_of({}), width, height), width, height), {}};
+  return {draw(bodies, camera_for(corners(parts), axes_of({}), width, height), width, height), {}, {}};
+}
+
+void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const {
+  const int width = picture.image.width, height = picture.image.height;
+  Aabb box;
+  for (const auto& p : corners(parts)) box.extend(camera.project(p, width, height));
+  const double radius = box.empty() ? 0 : 0.5 * box.size().head<2>().norm();
+  if (radius > 0 && 2 * radius < kSpeck * width)
+    picture.rings.emplace_back(box.center().head<2>(), radius + 0.02 * width);
 }
 
 Picture Illustrator::part(std::size_t index, int width, int height) const {
@@ -206,10 +216,12 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
       line.push_back(camera.project(mover.poses[k] * mover.center, width, height).head<2>());
     out.apart.arrows.push_back(std::move(line));
   }
+  ring_specks(out.apart, away, camera);
   std::vector<Eigen::Vector3d> whole = corners(step.standing);
   whole.insert(whole.end(), there.begin(), there.end());
-  out.placed.image =
-      draw(bodies_with(placed), camera_for(whole, axes, small_width, small_height), small_width, small_height);
+  const Camera around = camera_for(whole, axes, small_width, small_height);
+  out.placed.image = draw(bodies_with(placed), around, small_width, small_height);
+  ring_specks(out.placed, placed, around);
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dismantle/assembly.h"
@@ -19,6 +20,8 @@ struct Picture {
   Image image;
   /// Dashed; the last point has an arrow head. Empty: none.
   std::vector<std::vector<Eigen::Vector2d>> arrows;
+  /// Middle and radius of circles around what would be overlooked.
+  std::vector<std::pair<Eigen::Vector2d, double>> rings;
 };
 
 /// A corner of the box around the assembly from which it is looked at.
@@ -67,6 +70,8 @@ class Illustrator {
   Camera camera_for(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix3d& axes, int width,
                     int height) const;
   std::vector<Eigen::Vector3d> corners(const std::vector<PlacedPart>& parts) const;
+  /// Circles around those of `parts` that are specks in a picture of this width.
+  void ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const;
   std::vector<PlacedPart> movers_at(const BookStep& step, const std::vector<std::size_t>& pose_indices) const;
   Viewpoint best_view(const BookStep& step, const std::vector<PlacedPart>& away,
                       const std::vector<PlacedPart>& placed) const;

@@ -14,8 +14,8 @@ namespace dismantle {
 
 /// Parts that move as one.
 struct BookMover {
-  std::vector<std::size_t> parts;  ///< indices into Assembly::parts, ascending
-  std::vector<Pose> poses;         ///< in the order of the work; input units
+  std::vector<std::size_t> parts;                    ///< indices into Assembly::parts, ascending
+  std::vector<Pose> poses;                           ///< in the order of the work; input units
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of their boxes, assembled; input units
 };
 

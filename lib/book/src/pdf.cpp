@@ -146,7 +146,7 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Assembly& assem
 void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures, bool disassembly) {
   const double width = kPageWidth - 2 * kPaper, column = 0.33 * width, large = width - column - 18;
   pdf.text(kPaper, kPaper - 14, 0.7 * width, page.chapter, 10.5, kSoftColour);
-  pdf.text(kPageWidth - kPaper - 110, kPaper - 14, 110, fmt::format("step {} of {}", page.number, page.count), 10.5,
+  pdf.text(kPageWidth - kPaper - 74, kPaper - 14, 74, fmt::format("step {} of {}", page.number, page.count), 10.5,
            kSoftColour);
   pdf.picture(pictures.apart, kPaper, kPaper + 8, large, kPageHeight - 2 * kPaper - 24);
   if (!pictures.view.usual())
@@ -182,10 +182,10 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
   item_pages(pdf, content, assembly, illustrator);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
-    pdf_step(
-        pdf, page,
-        illustrator.step(*page.step, options.disassembly, 2 * kStepWidth, 2 * kStepHeight, kPlacedWidth, kPlacedHeight),
-        options.disassembly);
+    pdf_step(pdf, page,
+             illustrator.step(*page.step, options.disassembly, kStepWidth * 3 / 2, kStepHeight * 3 / 2,
+                              kPlacedWidth * 3 / 2, kPlacedHeight * 3 / 2),
+             options.disassembly);
   }
   return pdf.finish();
 }
