@@ -6,9 +6,9 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/frame_options.h"
 #include "dismantle/host/ingredients.h"
 #include "dismantle/plan_file.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
@@ -21,7 +21,8 @@ namespace dismantle::app {
 namespace {
 
 struct BookCommand {
-  std::string plan, output, assembly, unit, title;
+  std::string plan, output, assembly, title;
+  FrameOptions frame;
   bool disassembly = false;
   ConsoleOptions console;
 };
@@ -44,11 +45,8 @@ int write_book(const BookCommand& options) {
   settings.timeout = 0;
   RunContext context = context_of(settings, console);
 
-  Plan plan = read_plan(options.plan);
-  if (!options.unit.empty()) {
-    metres_in(options.unit);
-    plan.assembly.unit = options.unit;
-  }
+  const Plan plan = read_plan(options.plan);
+  const InputFrame frame = frame_of(plan, options.frame);
   const std::string source = source_of(plan, options.plan, options.assembly);
   ReadOptions read;
   read.max_triangles = std::numeric_limits<std::int64_t>::max();
@@ -57,6 +55,7 @@ int write_book(const BookCommand& options) {
     const Assembly assembly =
         assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
     BookOptions how;
+    how.frame = frame;
     how.disassembly = options.disassembly;
     how.title = options.title;
     how.on_page = [&](std::size_t page, std::size_t count) {
@@ -94,8 +93,7 @@ void add_book(CLI::App& app, Action& action) {
   command->add_option("--title", options->title, "Title; default: the name of the input")->option_text("TEXT");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
-  command->add_option("--unit", options->unit, "Unit of the input, if its files name none: mm, m, inch...")
-      ->option_text("UNIT");
+  add_frame(*command, options->frame);
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(

@@ -7,11 +7,11 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/frame_options.h"
 #include "dismantle/host/ingredients.h"
 #include "dismantle/plan_file.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
@@ -25,26 +25,35 @@ std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begi
 struct ExportFormat {
   const char *name, *file, *doc;
   bool binary;
-  std::string (*of_plan)(const Plan&);                       ///< null: it needs the parts' surfaces
-  std::string (*of_assembly)(const Plan&, const Assembly&);  ///< null: the plan says it all
+  /// Null: it needs the parts' surfaces.
+  std::string (*of_plan)(const Plan&, const InputFrame&);
+  /// Null: the plan says it all.
+  std::string (*of_assembly)(const Plan&, const Assembly&, const InputFrame&);
 };
 
 constexpr std::array kExportFormats{
-    ExportFormat{"poses-csv", "poses.csv", "poses with times, a row each", false, nullptr, poses_csv},
+    ExportFormat{"poses-csv", "poses.csv", "poses with times, a row each", false, nullptr,
+                 [](const Plan& p, const Assembly& a, const InputFrame&) { return poses_csv(p, a); }},
     ExportFormat{"poses-json", "poses.json", "the same as JSON", false, nullptr, poses_json},
     ExportFormat{"glb", "plan.glb", "the animation, binary glTF", true, nullptr,
-                 [](const Plan& p, const Assembly& a) { return as_text(to_glb(p, a)); }},
-    ExportFormat{"glb-exploded", "exploded.glb", "the exploded assembly, binary glTF", true, nullptr,
-                 [](const Plan& p, const Assembly& a) { return as_text(to_exploded_glb(p, a)); }},
-    ExportFormat{"dot", "steps.dot", "which step waits for which, Graphviz", false, step_order_dot, nullptr},
-    ExportFormat{"graphml", "steps.graphml", "the same as GraphML", false, step_order_graphml, nullptr},
-    ExportFormat{"and-or-json", "and_or.json", "AND/OR graph of the sub-assemblies, JSON", false, and_or_json, nullptr},
-    ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false, and_or_dot, nullptr},
+                 [](const Plan& p, const Assembly& a, const InputFrame& f) { return as_text(to_glb(p, a, f)); }},
+    ExportFormat{
+        "glb-exploded", "exploded.glb", "the exploded assembly, binary glTF", true, nullptr,
+        [](const Plan& p, const Assembly& a, const InputFrame& f) { return as_text(to_exploded_glb(p, a, f)); }},
+    ExportFormat{"dot", "steps.dot", "which step waits for which, Graphviz", false,
+                 [](const Plan& p, const InputFrame&) { return step_order_dot(p); }, nullptr},
+    ExportFormat{"graphml", "steps.graphml", "the same as GraphML", false,
+                 [](const Plan& p, const InputFrame&) { return step_order_graphml(p); }, nullptr},
+    ExportFormat{"and-or-json", "and_or.json", "AND/OR graph of the sub-assemblies, JSON", false,
+                 [](const Plan& p, const InputFrame&) { return and_or_json(p); }, nullptr},
+    ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false,
+                 [](const Plan& p, const InputFrame&) { return and_or_dot(p); }, nullptr},
     ExportFormat{"markdown", "steps.md", "table of the steps", false, steps_markdown, nullptr},
 };
 
 struct ExportOptions {
-  std::string plan, format, output, assembly, unit;
+  std::string plan, format, output, assembly;
+  FrameOptions frame;
   ConsoleOptions console;
 };
 
@@ -69,24 +78,19 @@ int export_plan(const ExportOptions& options) {
   const ExportFormat* format = nullptr;
   for (const ExportFormat& f : kExportFormats)
     if (options.format == f.name) format = &f;
-  Plan plan = read_plan(options.plan);
-  if (!options.unit.empty()) {
-    metres_in(options.unit);
-    plan.assembly.unit = options.unit;
-  }
+  const Plan plan = read_plan(options.plan);
+  const InputFrame frame = frame_of(plan, options.frame);
   const bool to_stdout = options.output == "-";
   if (to_stdout && format->binary) throw Error("a .glb file is binary: name a file with -o");
 
   std::string content;
   if (format->of_plan != nullptr) {
-    content = format->of_plan(plan);
+    content = format->of_plan(plan, frame);
   } else {
-    Assembly assembly = assembly_for(plan, options, console);
-    assembly.unit = plan.assembly.unit;
-    const InputFrame frame = input_frame(assembly);
+    const Assembly assembly = assembly_for(plan, options, console);
     if (format->binary && !frame.unit_known)
       console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
-    content = format->of_assembly(plan, assembly);
+    content = format->of_assembly(plan, assembly, frame);
   }
   console.end_progress();
   if (to_stdout) {
@@ -120,8 +124,7 @@ void add_export(CLI::App& app, Action& action) {
   command->add_option("-o,--output", options->output, "The file to write; '-' is standard output")->option_text("FILE");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
-  command->add_option("--unit", options->unit, "Unit of the input, if its files name none: mm, m, inch...")
-      ->option_text("UNIT");
+  add_frame(*command, options->frame);
   add_verbosity(*command, options->console);
   command->footer(table +
                   "Poses and glTF need the input of the plan; all else is made from the plan alone.\n"

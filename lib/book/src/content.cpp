@@ -39,7 +39,7 @@ class ContentWriter {
       : plan_(plan),
         assembly_(assembly),
         options_(options),
-        frame_(input_frame(plan.assembly)),
+        frame_(options.frame),
         unit_(frame_.unit_known ? frame_.unit : "units"),
         size_(assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff()) {
     find_items(shapes);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dismantle/book/book.h"
+#include "dismantle/plan_io/input_frame.h"
 #include "illustrator.h"
 
 namespace dismantle {

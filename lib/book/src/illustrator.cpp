@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBookCrease = 30.0 * std::numbers::pi / 180.0;
 constexpr double kMargin = 1.12;     // of what is shown, around it
-constexpr double kSmallest = 0.22;   // share of a picture that what moves has to take
+constexpr double kSmallest = 0.14;   // share of a picture that what moves has to take
 constexpr double kFurthest = 1.1;    // of the size of what stands: no part is shown further away from its place
 constexpr double kSpeck = 0.07;      // of a picture's width: what is smaller gets a circle
 constexpr double kBetterView = 1.5;  // times as much of the part has to be seen before the side changes
@@ -31,8 +31,8 @@ std::string Viewpoint::words() const {
          (below ? ", from below" : "");
 }
 
-Illustrator::Illustrator(const Plan& plan, const Assembly& assembly)
-    : assembly_(assembly), frame_(input_frame(plan.assembly)), placements_(find_congruent(assembly.parts)) {
+Illustrator::Illustrator(const Assembly& assembly, bool y_up)
+    : assembly_(assembly), y_up_(y_up), placements_(find_congruent(assembly.parts)) {
   std::set<std::array<int, 3>> different;
   for (const Part& part : assembly.parts)
     if (part.colour) different.insert({part.colour->r, part.colour->g, part.colour->b});
@@ -68,7 +68,7 @@ Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view) const {
   const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(viewer).normalized();
   Eigen::Matrix3d axes;
   axes << right.transpose(), viewer.cross(right).transpose(), viewer.transpose();
-  if (!frame_.y_up) return axes;
+  if (!y_up_) return axes;
   const double half = std::numbers::sqrt2 / 2;
   return axes * Eigen::Quaterniond(half, half, 0, 0).toRotationMatrix();  // from Y up to Z up
 }

@@ -9,7 +9,6 @@
 #include "dismantle/assembly.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/congruent.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "instructions.h"
 #include "raster.h"
 
@@ -53,7 +52,7 @@ BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Il
 
 class Illustrator {
  public:
-  Illustrator(const Plan& plan, const Assembly& assembly);
+  Illustrator(const Assembly& assembly, bool y_up);
 
   /// The parts at these places, from the usual side; with `height` of the picture filled.
   Picture scene(const std::vector<PlacedPart>& parts, int width, int height) const;
@@ -77,7 +76,7 @@ class Illustrator {
                       const std::vector<PlacedPart>& placed) const;
 
   const Assembly& assembly_;
-  InputFrame frame_;
+  bool y_up_;
   std::vector<ShapePlacement> placements_;
   std::vector<ShadedMesh> meshes_;        // by part; empty but for originals
   std::vector<Eigen::Vector3d> centers_;  // by part: what its mesh counts from, input units

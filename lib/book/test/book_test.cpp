@@ -141,6 +141,12 @@ TEST(Instructions, TakingApartIsTheSameBackwards) {
   }
 }
 
+BookOptions options_with(const std::string& title) {
+  BookOptions out;
+  out.title = title;
+  return out;
+}
+
 TEST(Book, HtmlHasAPagePerStepAndNamesEveryPart) {
   std::mt19937 random(13);
   const Assembly assembly = row_of(5);
@@ -162,7 +168,7 @@ TEST(Book, HtmlHasAPagePerStepAndNamesEveryPart) {
   // p0 and p3, p1 and p4 are the same boxes.
   EXPECT_NE(html.find("5, 3 shapes"), std::string::npos);
   EXPECT_EQ(html.find("http"), html.find("http-equiv")) << "no address of any host";
-  EXPECT_EQ(html, book_html(plan, assembly, BookOptions{false, options.title}));
+  EXPECT_EQ(html, book_html(plan, assembly, options_with(options.title)));
 }
 
 TEST(Book, PdfHasAPagePerStep) {

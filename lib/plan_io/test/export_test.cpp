@@ -131,7 +131,7 @@ TEST(Exports, TheAndOrGraphIsATreeDownToTheParts) {
 TEST(Exports, PosesHaveTheTimesOfTheAnimation) {
   std::mt19937 random(3);
   const auto [plan, assembly] = random_disassembly(random, 6);
-  const ExportJson poses = ExportJson::parse(poses_json(plan, assembly));
+  const ExportJson poses = ExportJson::parse(poses_json(plan, assembly, input_frame(plan.assembly)));
   ASSERT_EQ(poses["disassembly"].size(), plan.disassembly.size());
   EXPECT_TRUE(poses["unit"].is_null());
   double before = 0;
@@ -174,7 +174,7 @@ TEST(Exports, GraphsOfStepsHaveEveryStepAndEveryReason) {
 TEST(Exports, MarkdownHasARowPerStepAndNoMarkupOfNames) {
   std::mt19937 random(5);
   const auto [plan, assembly] = random_disassembly(random, 5);
-  std::istringstream lines(steps_markdown(plan));
+  std::istringstream lines(steps_markdown(plan, input_frame(plan.assembly)));
   std::size_t rows = 0;
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("| ") || line.starts_with("| step")) continue;

@@ -238,7 +238,7 @@ TEST(Glb, ExplodedPartsAreClearOfEachOther) {
     }
     const Assembly assembly = assembly_of(parts, 2, {0, 0, 0});
     for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, "x.obj", {}, {}});
-    const Glb glb(to_exploded_glb(plan, assembly));
+    const Glb glb(to_exploded_glb(plan, assembly, input_frame(assembly)));
     EXPECT_FALSE(glb.json.contains("animations"));
     double top = -1e9;
     for (unsigned i = 0; i < 6; ++i) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "dismantle/plan_io/exports.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "export/dot_text.h"
@@ -32,9 +31,8 @@ std::string steps_list(const std::vector<unsigned>& steps) {
 
 }  // namespace
 
-std::string steps_markdown(const Plan& plan) {
+std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   const PlanAssembly& a = plan.assembly;
-  const InputFrame frame = input_frame(a);
   const std::string unit = frame.unit_known ? frame.unit : "units";
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();

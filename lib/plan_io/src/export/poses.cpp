@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/plan_io/exports.h"
-#include "dismantle/plan_io/input_frame.h"
 #include "export/dot_text.h"
 #include "json/json_text.h"
 #include "steps/timeline.h"
@@ -77,8 +76,7 @@ std::string poses_csv(const Plan& plan, const Assembly& assembly) {
   return out;
 }
 
-std::string poses_json(const Plan& plan, const Assembly& assembly) {
-  const InputFrame frame = input_frame(plan.assembly);
+std::string poses_json(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
   nlohmann::ordered_json out = {{"format", "dismantle.poses"}, {"version", 1}, {"source", plan.assembly.source}};
   out["unit"] = frame.unit_known ? nlohmann::ordered_json(frame.unit) : nlohmann::ordered_json(nullptr);
   out["disassembly"] = poses_of(plan.disassembly, assembly);

@@ -52,7 +52,11 @@ void animate(const Track& track, GlbScene& scene, std::map<std::vector<float>, s
 }  // namespace
 
 std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
-  GlbScene scene(plan, assembly);
+  return to_glb(plan, assembly, input_frame(assembly));
+}
+
+std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
+  GlbScene scene(plan, assembly, frame);
   std::map<std::vector<float>, std::size_t> clocks;
   GlbJson animations = GlbJson::array();
   const auto add_animation = [&](const char* name, const std::vector<PlanStep>& steps) {
@@ -70,8 +74,8 @@ std::vector<std::uint8_t> to_glb(const Plan& plan, const Assembly& assembly) {
   return scene.file(plan, "disassembly", std::move(animations));
 }
 
-std::vector<std::uint8_t> to_exploded_glb(const Plan& plan, const Assembly& assembly) {
-  GlbScene scene(plan, assembly);
+std::vector<std::uint8_t> to_exploded_glb(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
+  GlbScene scene(plan, assembly, frame);
   const std::vector<Eigen::Vector3d> offsets = exploded_offsets(plan, assembly);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);

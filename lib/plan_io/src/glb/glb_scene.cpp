@@ -4,7 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "dismantle/plan_io/input_frame.h"
 #include "dismantle/plan_io/shading.h"
 #include "glb/glb_colours.h"
 
@@ -45,8 +44,7 @@ GlbJson array_of(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w
 
 }  // namespace
 
-GlbScene::GlbScene(const Plan& plan, const Assembly& assembly) {
-  const InputFrame frame = input_frame(assembly);
+GlbScene::GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
   // Single precision counts from the middle of the assembly: input far from its origin keeps its digits, since
   // the root's translation is applied in the viewer's own precision.
   origin_ = assembly.input_box.empty() ? Eigen::Vector3d(0, 0, 0) : assembly.input_box.center();

@@ -8,6 +8,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/congruent.h"
+#include "dismantle/plan_io/input_frame.h"
 #include "glb/glb_file.h"
 
 namespace dismantle {
@@ -16,8 +17,7 @@ namespace dismantle {
 /// part. Congruent parts share the arrays of their surface, and the mesh too when they have one colour.
 class GlbScene {
  public:
-  /// @throws InputError for a unit that is not known.
-  GlbScene(const Plan& plan, const Assembly& assembly);
+  GlbScene(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
 
   std::size_t node_of(std::size_t part) const { return 1 + part; }
   /// What node_of(part) has to have as translation and rotation for the part to be at `displacement` (input units; the

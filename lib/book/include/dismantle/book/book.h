@@ -7,10 +7,12 @@
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/input_frame.h"
 
 namespace dismantle {
 
 struct BookOptions {
+  InputFrame frame;          ///< unit and up axis of the input
   bool disassembly = false;  ///< how to take it apart; else how to put it together
   std::string title;         ///< empty: the name of the plan's source
   /// Called before each page with its number (from 1) and how many there are. It may throw to stop.

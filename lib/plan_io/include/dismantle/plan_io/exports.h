@@ -7,6 +7,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/input_frame.h"
 
 namespace dismantle {
 
@@ -16,7 +17,7 @@ namespace dismantle {
 DISMANTLE_API std::string poses_csv(const Plan& plan, const Assembly& assembly);
 /// The same as JSON, format "dismantle.poses" (docs/exports.md).
 /// @throws InputError as poses_csv().
-DISMANTLE_API std::string poses_json(const Plan& plan, const Assembly& assembly);
+DISMANTLE_API std::string poses_json(const Plan& plan, const Assembly& assembly, const InputFrame& frame);
 
 /// One node per disassembly step, an edge from each step to those that wait for it (`after` of the plan).
 /// @throws InputError when the plan does not say what waits for what (one written before plans had `layer`).
@@ -32,6 +33,6 @@ DISMANTLE_API std::string and_or_dot(const Plan& plan);
 
 /// Tables of GitHub's Markdown: the steps with direction, distance and what they wait for; what stays and what is
 /// unsolved.
-DISMANTLE_API std::string steps_markdown(const Plan& plan);
+DISMANTLE_API std::string steps_markdown(const Plan& plan, const InputFrame& frame);
 
 }  // namespace dismantle
