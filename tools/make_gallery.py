@@ -35,7 +35,7 @@ ENTRIES = [
      [{"explode": 1}, {"mode": "assembly", "step": 12, "share": 0.45}]),
     ("bolt_and_nut", "An M6 nut on its bolt", ["bolt_and_nut", "--set", "diameter=6", "--set", "pitch=1", "--set", "clearance=0.05"],
      "made by `dismantle sample bolt_and_nut`", "A thread: the only way out is a screw motion.", [],
-     [{"step": 0, "share": 0.75}, {"explode": 1}]),
+     [{"step": 0, "share": 0.75, "size": [1180, 720]}, {"explode": 1, "size": [1180, 720]}]),
 ]
 BOOK = ("as1_oc_214", [0, 1, 7, 12])  # pages of instructions that are shown
 

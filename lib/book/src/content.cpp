@@ -30,8 +30,6 @@ std::string common_name(const std::vector<std::string>& names) {
   return stem.size() >= 3 ? stem : names.front();
 }
 
-std::string short_figure(double x) { return fmt::format("{:.3g}", x); }
-
 class ContentWriter {
  public:
   ContentWriter(const Plan& plan, const Assembly& assembly, const BookOptions& options,
@@ -73,7 +71,7 @@ class ContentWriter {
       const Eigen::Vector3d box =
           assembly_.parts[item.parts.front()].mesh->box().size() / assembly_.normalization.scale;
       item.size =
-          fmt::format("{} × {} × {} {}", short_figure(box.x()), short_figure(box.y()), short_figure(box.z()), unit_);
+          fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()), figure_text(box.z()), unit_);
     }
   }
 
@@ -90,15 +88,15 @@ class ContentWriter {
     content_.facts.emplace_back("steps", std::to_string(plan_.disassembly.size()));
     if (!a.box.empty()) {
       const Eigen::Vector3d box = a.box.size();
-      content_.facts.emplace_back("size", fmt::format("{} × {} × {} {}", short_figure(box.x()), short_figure(box.y()),
-                                                      short_figure(box.z()), unit_));
+      content_.facts.emplace_back("size", fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()),
+                                                      figure_text(box.z()), unit_));
     }
     content_.facts.emplace_back("directions", frame_.y_up ? "right is +X, up is +Y, the front is at +Z"
                                                           : "right is +X, up is +Z, the front is at -Y");
     if (!frame_.unit_known) content_.facts.emplace_back("units", "those of the input, which names none");
     content_.facts.emplace_back(
         "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
-                               short_figure(plan_.verified_max_penetration / a.scale), unit_));
+                               figure_text(plan_.verified_max_penetration / a.scale), unit_));
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
     if (plan_.status == PlanStatus::partial)
       content_.warnings.push_back(
@@ -183,10 +181,10 @@ class ContentWriter {
       const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
       facts.emplace_back("direction",
                          fmt::format("{}({}, {}, {})", who, rounded(d.x()), rounded(d.y()), rounded(d.z())));
-      facts.emplace_back("distance", fmt::format("{}{} {}", who, short_figure(motion.displacement.norm()), unit_));
+      facts.emplace_back("distance", fmt::format("{}{} {}", who, figure_text(motion.displacement.norm()), unit_));
     }
     if (motion.length > 1.01 * motion.displacement.norm())
-      facts.emplace_back("length of the path", fmt::format("{}{} {}", who, short_figure(motion.length), unit_));
+      facts.emplace_back("length of the path", fmt::format("{}{} {}", who, figure_text(motion.length), unit_));
   }
 
   const Plan& plan_;

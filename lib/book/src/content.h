@@ -29,7 +29,6 @@ struct BookPage {
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
   std::vector<std::string> motions;                         ///< a line for each mover
   Facts facts;
-  std::string caption;  ///< about the viewpoint; may be empty
   const BookStep* step = nullptr;
 };
 

@@ -84,7 +84,7 @@ std::string step_page(const BookPage& page, const StepPictures& pictures, bool d
   for (const std::string& motion : page.motions)
     motions += fmt::format("<p class=\"motion\">{}</p>", html_text(motion));
   out += fmt::format("<div class=\"step\"><div>{}{}</div>\n", img(pictures.apart, "the motion of this step"),
-                     pictures.view.usual() ? "" : fmt::format("<p class=\"soft\">seen {}</p>", pictures.view.words()));
+                     caption_of(pictures).empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", caption_of(pictures)));
   out += fmt::format("<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, page.verb,
                      what, motions, facts_list(page.facts));
   out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n", disassembly ? "before" : "after",

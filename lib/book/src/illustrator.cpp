@@ -17,6 +17,7 @@ constexpr double kBookCrease = 30.0 * std::numbers::pi / 180.0;
 constexpr double kMargin = 1.12;     // of what is shown, around it
 constexpr double kSmallest = 0.14;   // share of a picture that what moves has to take
 constexpr double kFurthest = 1.1;    // of the size of what stands: no part is shown further away from its place
+constexpr double kNearest = 0.16;    // of that size: and none nearer to it
 constexpr double kSpeck = 0.07;      // of a picture's width: what is smaller gets a circle
 constexpr double kBetterView = 1.5;  // times as much of the part has to be seen before the side changes
 const Eigen::Vector3f kAccent(0.98f, 0.62f, 0.10f);
@@ -125,6 +126,13 @@ std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
   return out;
 }
 
+Eigen::Vector3d Illustrator::stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const {
+  const Eigen::Vector3d from = mover.poses[place] * mover.center, to = mover.poses[away] * mover.center;
+  const double distance = (to - from).norm();
+  if (distance >= kNearest * extent || !(distance > 1e-3 * extent)) return Eigen::Vector3d::Zero();
+  return (kNearest * extent / distance - 1) * (to - from);
+}
+
 Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedPart>& away,
                                  const std::vector<PlacedPart>& placed) const {
   constexpr int kWidth = 160, kHeight = 120;
@@ -183,9 +191,15 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
     at_place.push_back(place);
     at_away.push_back(away);
   }
-  const auto away = movers_at(step, at_away), placed = movers_at(step, at_place);
-
+  auto away = movers_at(step, at_away);
+  const auto placed = movers_at(step, at_place);
   StepPictures out;
+  std::vector<Eigen::Vector3d> further;
+  for (std::size_t m = 0, p = 0; m < step.movers.size(); ++m) {
+    further.push_back(stretch(step.movers[m], at_away[m], at_place[m], extent));
+    out.stretched = out.stretched || !further.back().isZero(0);
+    for (std::size_t k = 0; k < step.movers[m].parts.size(); ++k) away[p++].pose.t += further.back();
+  }
   out.view = best_view(step, away, placed);
   const Eigen::Matrix3d axes = axes_of(out.view);
   const auto bodies_with = [&](const std::vector<PlacedPart>& movers) {
@@ -214,6 +228,8 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
     const std::size_t from = std::min(at_away[m], at_place[m]), to = std::max(at_away[m], at_place[m]);
     for (std::size_t k = from; k <= to; ++k)
       line.push_back(camera.project(mover.poses[k] * mover.center, width, height).head<2>());
+    const Eigen::Vector3d end = mover.poses[at_away[m]] * mover.center + further[m];
+    line.insert(disassembly ? line.end() : line.begin(), camera.project(end, width, height).head<2>());
     out.apart.arrows.push_back(std::move(line));
   }
   ring_specks(out.apart, away, camera);
@@ -222,6 +238,12 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
   const Camera around = camera_for(whole, axes, small_width, small_height);
   out.placed.image = draw(bodies_with(placed), around, small_width, small_height);
   ring_specks(out.placed, placed, around);
+  return out;
+}
+
+std::string caption_of(const StepPictures& pictures) {
+  std::string out = pictures.view.usual() ? "" : "seen " + pictures.view.words();
+  if (pictures.stretched) out += (out.empty() ? "" : "; ") + std::string("drawn further apart than needed");
   return out;
 }
 

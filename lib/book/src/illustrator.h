@@ -35,11 +35,15 @@ struct StepPictures {
   Picture apart;   ///< the moving parts away from their place, and the line between
   Picture placed;  ///< in their place
   Viewpoint view;
+  bool stretched = false;  ///< parts are drawn further from their place than the plan takes them
 };
 
 /// Pixels of the pictures of a book.
 inline constexpr int kStepWidth = 760, kStepHeight = 570, kPlacedWidth = 360, kPlacedHeight = 240, kItemWidth = 200,
                      kItemHeight = 140, kFrontWidth = 520, kFrontHeight = 420;
+
+/// "seen from the back left; drawn further apart than needed", or nothing.
+std::string caption_of(const StepPictures& pictures);
 
 class Illustrator;
 
@@ -72,6 +76,8 @@ class Illustrator {
   /// Circles around those of `parts` that are specks in a picture of this width.
   void ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const;
   std::vector<PlacedPart> movers_at(const BookStep& step, const std::vector<std::size_t>& pose_indices) const;
+  /// How much further than at pose `away` a mover has to be drawn for its motion from `place` to show, input units.
+  Eigen::Vector3d stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const;
   Viewpoint best_view(const BookStep& step, const std::vector<PlacedPart>& away,
                       const std::vector<PlacedPart>& placed) const;
 

@@ -149,8 +149,8 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   pdf.text(kPageWidth - kPaper - 74, kPaper - 14, 74, fmt::format("step {} of {}", page.number, page.count), 10.5,
            kSoftColour);
   pdf.picture(pictures.apart, kPaper, kPaper + 8, large, kPageHeight - 2 * kPaper - 24);
-  if (!pictures.view.usual())
-    pdf.text(kPaper, kPageHeight - kPaper - 12, large, "seen " + pictures.view.words(), 10, kSoftColour);
+  if (const std::string caption = caption_of(pictures); !caption.empty())
+    pdf.text(kPaper, kPageHeight - kPaper - 12, large, caption, 10, kSoftColour);
 
   const double x = kPageWidth - kPaper - column, placed_height = 150,
                bottom = kPageHeight - kPaper - placed_height - 24;

@@ -38,8 +38,15 @@ void simplify(const std::vector<Eigen::Vector3d>& points, std::size_t begin, std
   simplify(points, furthest, end, tolerance, kept);
 }
 
-/// Three significant digits, no exponent for what people measure.
-std::string figure(double x) {
+std::string turn_words(double turn) {
+  const double degrees = turn * 180 / std::numbers::pi;
+  if (degrees >= 719.5) return fmt::format("{} turns", figure_text(degrees / 360));
+  return fmt::format("{:.0f}°", degrees);
+}
+
+}  // namespace
+
+std::string figure_text(double x) {
   if (x == 0) return "0";
   const double size = std::abs(x);
   if (size >= 1e6 || size < 1e-4) return fmt::format("{:.3g}", x);
@@ -51,14 +58,6 @@ std::string figure(double x) {
   }
   return out;
 }
-
-std::string turn_words(double turn) {
-  const double degrees = turn * 180 / std::numbers::pi;
-  if (degrees >= 719.5) return fmt::format("{} turns", figure(degrees / 360));
-  return fmt::format("{:.0f}°", degrees);
-}
-
-}  // namespace
 
 MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point, double tolerance) {
   MotionSummary out;
@@ -114,13 +113,13 @@ std::string motion_words(const MotionSummary& motion, const std::string& unit, b
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
   if (motion.legs.size() > kManyLegs) {
-    out = fmt::format("along the line that is drawn, {}{} in all", figure(motion.length), of_unit);
+    out = fmt::format("along the line that is drawn, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
-      out += fmt::format(", to a place {}{} {}", figure(motion.displacement.norm()), of_unit,
+      out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
                          direction_words(motion.displacement, y_up));
   } else {
     for (const Eigen::Vector3d& leg : motion.legs)
-      out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure(leg.norm()), of_unit,
+      out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(leg.norm()), of_unit,
                          direction_words(leg, y_up));
   }
   if (motion.turn * 180 / std::numbers::pi < kTurned) return out.empty() ? "in its place" : out;

@@ -24,6 +24,9 @@ struct MotionSummary {
 DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
                                              double tolerance);
 
+/// Three significant digits, without an exponent for what people measure: "1270", "18.3", "0.05".
+DISMANTLE_API std::string figure_text(double x);
+
 /// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `y_up`:
 /// the input has Y up and is seen from +Z; otherwise Z is up and it is seen from -Y. `direction` need not be a unit
 /// vector.
