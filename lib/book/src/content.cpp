@@ -100,12 +100,13 @@ class ContentWriter {
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
     if (plan_.status == PlanStatus::partial)
       content_.warnings.push_back(
-          fmt::format("The plan is partial: {} parts do not come apart ({}). They count as one piece here.",
-                      plan_.remaining.size(), text::joined(plan_.remaining)));
+          fmt::format("The plan is partial: {} are still together with others at its end ({}). What the plan does not "
+                      "separate is handled as one piece here.",
+                      text::counted(plan_.remaining.size(), "part"), listed(plan_.remaining)));
     if (!a.excluded.empty()) {
       std::vector<std::string> names;
       for (const auto& [name, reason] : a.excluded) names.push_back(name);
-      content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", text::joined(names)));
+      content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", listed(names)));
     }
   }
 
@@ -120,6 +121,10 @@ class ContentWriter {
   std::string names_of(const std::vector<std::size_t>& parts) const {
     std::vector<std::string> names;
     for (const std::size_t i : parts) names.push_back(assembly_.parts[i].name);
+    return listed(std::move(names));
+  }
+
+  static std::string listed(std::vector<std::string> names) {
     constexpr std::size_t kMost = 8;
     if (names.size() <= kMost) return text::joined(names);
     const std::size_t more = names.size() - kMost + 1;

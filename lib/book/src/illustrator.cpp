@@ -129,7 +129,7 @@ std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
 Eigen::Vector3d Illustrator::stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const {
   const Eigen::Vector3d from = mover.poses[place] * mover.center, to = mover.poses[away] * mover.center;
   const double distance = (to - from).norm();
-  if (distance >= kNearest * extent || !(distance > 1e-3 * extent)) return Eigen::Vector3d::Zero();
+  if (distance >= kNearest * extent || !(distance > 1e-6 * extent)) return Eigen::Vector3d::Zero();
   return (kNearest * extent / distance - 1) * (to - from);
 }
 
