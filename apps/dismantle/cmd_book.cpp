@@ -13,7 +13,9 @@
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
-#ifdef DISMANTLE_HAS_BOOK
+#ifdef DISMANTLE_BOOK_LIBRARY
+#include <dlfcn.h>
+
 #include "dismantle/book/book.h"
 #endif
 
@@ -29,7 +31,17 @@ struct BookCommand {
 
 bool ends_with(const std::string& text, std::string_view ending) { return std::string_view(text).ends_with(ending); }
 
-#ifdef DISMANTLE_HAS_BOOK
+#ifdef DISMANTLE_BOOK_LIBRARY
+/// Stays loaded. @throws Error saying what to install.
+const BookLibrary& book_library() {
+  void* library = ::dlopen(DISMANTLE_BOOK_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+  void* symbol = library != nullptr ? ::dlsym(library, "dismantle_book_library") : nullptr;
+  if (symbol == nullptr)
+    throw Error(
+        fmt::format("instructions cannot be written, {}; Debian: apt-get install libpangocairo-1.0-0", ::dlerror()));
+  return *reinterpret_cast<const BookLibrary* (*)()>(symbol)();
+}
+
 int write_book(const BookCommand& options) {
   Console console(options.console);
   const std::string output = options.output.empty()
@@ -38,6 +50,7 @@ int write_book(const BookCommand& options) {
   const bool pdf = ends_with(output, ".pdf");
   if (!pdf && !ends_with(output, ".html") && !ends_with(output, ".htm"))
     throw Error(output + ": the ending says what is written: .html or .pdf");
+  const BookLibrary& library = book_library();
   Registry registry;
   registry.scan();
   warn_of_problems(registry, console);
@@ -63,7 +76,7 @@ int write_book(const BookCommand& options) {
       context.progress("drawing", page, count, fmt::format("step {}", page));
       pages = count;
     };
-    return pdf ? book_pdf(plan, assembly, how) : book_html(plan, assembly, how);
+    return (pdf ? library.pdf : library.html)(plan, assembly, how);
   });
   write_file(output, book);
   console.end_progress();

@@ -27,4 +27,12 @@ DISMANTLE_API std::string book_html(const Plan& plan, const Assembly& assembly, 
 /// @throws InputError as book_html(). @throws Error when the PDF library fails.
 DISMANTLE_API std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptions& options);
 
+/// The functions above for programs that load the library when they need it: pango and what it depends on would cost a
+/// program that is linked to them milliseconds at every start.
+struct BookLibrary {
+  std::string (*html)(const Plan&, const Assembly&, const BookOptions&);
+  std::string (*pdf)(const Plan&, const Assembly&, const BookOptions&);
+};
+extern "C" DISMANTLE_API const BookLibrary* dismantle_book_library();
+
 }  // namespace dismantle
