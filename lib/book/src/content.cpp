@@ -79,9 +79,10 @@ class ContentWriter {
     const PlanAssembly& a = plan_.assembly;
     std::filesystem::path source(a.source);
     if (!source.has_filename()) source = source.parent_path();
-    content_.title = !options_.title.empty()     ? options_.title
-                     : source.filename().empty() ? a.source
-                                                 : source.filename().string();
+    std::string title = source.filename().empty() ? a.source : source.filename().string();
+    for (const char* ending : {".step", ".stp", ".glb", ".gltf", ".3mf", ".obj", ".stl", ".dae"})
+      if (source.extension() == ending) title = source.stem().string();
+    content_.title = options_.title.empty() ? title : options_.title;
     content_.subtitle = options_.disassembly ? "How to take it apart" : "How to put it together";
     content_.facts.emplace_back("parts",
                                 fmt::format("{}, {}", a.parts.size(), text::counted(content_.items.size(), "shape")));

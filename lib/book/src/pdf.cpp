@@ -146,7 +146,7 @@ void item_pages(PdfPages& pdf, const BookContent& content, const Assembly& assem
 void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures, bool disassembly) {
   const double width = kPageWidth - 2 * kPaper, column = 0.33 * width, large = width - column - 18;
   pdf.text(kPaper, kPaper - 14, 0.7 * width, page.chapter, 10.5, kSoftColour);
-  pdf.text(kPageWidth - kPaper - 74, kPaper - 14, 74, fmt::format("step {} of {}", page.number, page.count), 10.5,
+  pdf.text(kPageWidth - kPaper - 96, kPaper - 14, 96, fmt::format("step {} of {}", page.number, page.count), 10.5,
            kSoftColour);
   pdf.picture(pictures.apart, kPaper, kPaper + 8, large, kPageHeight - 2 * kPaper - 24);
   if (const std::string caption = caption_of(pictures); !caption.empty())

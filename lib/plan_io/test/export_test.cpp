@@ -224,7 +224,7 @@ TEST(MotionWords, AScrewIsToldByItsTurnsAndItsSense) {
       const MotionSummary motion = summarize_motion(poses, {0, 0, 1}, 0.01);
       EXPECT_NEAR(motion.turn, 2 * std::numbers::pi * turns, 1e-9);
       const std::string words = motion_words(motion, "mm", false);
-      // A right-hand screw that goes in turns clockwise for whoever looks along.
+      // A right-hand screw that goes in turns clockwise when seen along its motion.
       EXPECT_NE(words.find(hand > 0 ? " clockwise" : "counter-clockwise"), std::string::npos) << words;
       EXPECT_EQ(words.find("3 mm down (-Z)"), 0u) << words;
     }

@@ -14,7 +14,7 @@ namespace dismantle {
 struct BookOptions {
   InputFrame frame;          ///< unit and up axis of the input
   bool disassembly = false;  ///< how to take it apart; else how to put it together
-  std::string title;         ///< empty: the name of the plan's source
+  std::string title;         ///< empty: the name of the plan's source, without the ending of a CAD file
   /// Called before each page with its number (from 1) and how many there are. It may throw to stop.
   std::function<void(std::size_t page, std::size_t pages)> on_page = [](std::size_t, std::size_t) {};
 };
