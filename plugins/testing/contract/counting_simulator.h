@@ -37,6 +37,7 @@ class CountingWorld final : public World {
     if (!dynamics_) count(1);
     return inner_->penetration(state);
   }
+  void retreat(State& state, double clearance) override { inner_->retreat(state, clearance); }
   void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
   bool separated(const State& state) override { return inner_->separated(state); }
   bool leaves(const State& state, std::size_t body) override { return inner_->leaves(state, body); }
