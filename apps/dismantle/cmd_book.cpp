@@ -29,9 +29,9 @@ struct BookCommand {
   ConsoleOptions console;
 };
 
+#ifdef DISMANTLE_BOOK_LIBRARY
 bool ends_with(const std::string& text, std::string_view ending) { return std::string_view(text).ends_with(ending); }
 
-#ifdef DISMANTLE_BOOK_LIBRARY
 /// Stays loaded. @throws Error saying what to install.
 const BookLibrary& book_library() {
   void* library = ::dlopen(DISMANTLE_BOOK_LIBRARY, RTLD_NOW | RTLD_LOCAL);
