@@ -59,12 +59,15 @@ function proofs(app, group) {
   return numbers.map(n => element('p.proof', {}, element('strong', {}, `Proof (${certificates[n].kind}): `), certificates[n].text));
 }
 
+/** The planner often says what the proof says. */
+const isProof = (app, group, message) => group.some(u => app.model.plan.certificates?.[u.certificate]?.text === message);
+
 /** Parts that share one reason. */
 function card(app, group) {
   const [{part, outcome, message}] = group, alone = group.length === 1;
   return element('article.card', {}, element('header', {}, icon('warning'),
     alone ? link(app, part, 'button.title') : element('strong.title', {}, `${group.length} parts, one reason`), element('span.pill.bad', {}, outcomeTitle(outcome))),
-  element('p', {}, outcomeMeaning(outcome)), message ? element('p.message', {}, message) : null,
+  element('p', {}, outcomeMeaning(outcome)), message && !isProof(app, group, message) ? element('p.message', {}, message) : null,
   proofs(app, group), group.map(u => attempt(app, u, alone)), nextSteps(group, app.model.plan));
 }
 
