@@ -8,7 +8,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/frame_options.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_file.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/exports.h"

@@ -6,16 +6,16 @@
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
+#include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/page.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
-#include "dismantle/engine/run.h"
+#include "dismantle/plan_io/write_file.h"
 #include "dismantle/settings.h"
 #include "dismantle/viewer_template.h"
-#include "dismantle/plan_io/write_file.h"
-#include "dismantle/plan_io/plan_file.h"
 
 namespace dismantle::app {
 namespace {
@@ -131,7 +131,7 @@ int plan(const PlanOptions& options) {
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
   warn_of_problems(registry, console);
-  const Ingredients ingredients = ingredients_of(config, registry);
+  const PlanningSetup setup = planning_setup_of(config, registry);
   RunContext context = context_of(config.run, console);
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
@@ -144,10 +144,10 @@ int plan(const PlanOptions& options) {
   Saver saver(folder / "plan.json", console);
   RunOptions run_options = run_options_of(config, options.part);
   run_options.constraints = constraints_of(config.constraints, assembly);
-  if (!run_options.constraints.empty() && options.part.empty() && !ingredients.sequence_planner->keeps_constraints())
+  if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->keeps_constraints())
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any",
                             config.sequence_planner.type));
-  const RunResult result = run(assembly, ingredients, run_options, context, std::ref(saver));
+  const RunResult result = run(assembly, setup, run_options, context, std::ref(saver));
   const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
 
@@ -161,8 +161,9 @@ int plan(const PlanOptions& options) {
   for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
   text += "\n";
   if (const auto names = unusable_parts(assembly); !names.empty())
-    text += fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
-                        names.size(), assembly.parts.size() + assembly.excluded.size(), names.size() == 1 ? "is" : "are");
+    text +=
+        fmt::format("{} of {} parts could not be used and {} not in the plan (see 'left out'): exit status 1\n",
+                    names.size(), assembly.parts.size() + assembly.excluded.size(), names.size() == 1 ? "is" : "are");
   if (status == kInterrupted) text += "interrupted: this is what was done until then\n";
   text += fmt::format("wrote to {}:", folder.string());
   for (const auto& file : files) text += " " + file;
@@ -186,7 +187,7 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--simulator", "simulator.type", "ID", "Simulator");
   options->config.add_key(*command, "--path-planner", "path_planner.type", "ID", "Path planner");
   options->config.add_key(*command, "--sequence-planner", "sequence_planner.type", "ID", "Sequence planner");
-  command->add_option("--part", options->part, "Plan just this part's path, all other parts still")
+  command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");

@@ -6,14 +6,14 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_file.h"
 #include "dismantle/plan_io/page.h"
+#include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 #include "dismantle/viewer_template.h"
-#include "dismantle/plan_io/write_file.h"
 
 namespace dismantle::app {
 namespace {

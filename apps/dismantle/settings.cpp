@@ -11,10 +11,10 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
+#include "dismantle/host/suggest.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"
-#include "dismantle/host/suggest.h"
 
 namespace dismantle::app {
 

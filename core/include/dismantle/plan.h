@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
 #include "dismantle/aabb.h"
-#include "dismantle/pose.h"
 #include "dismantle/assembly.h"
+#include "dismantle/export.h"
 #include "dismantle/outcome.h"
+#include "dismantle/pose.h"
 
 namespace dismantle {
 
@@ -80,7 +80,7 @@ struct PlanAssembly {
   Aabb box;                                          ///< input units
   SurfaceRepair repair;
   ImportParams import_params;
-  std::string unit;                                  ///< input unit; empty when the files do not say
+  std::string unit;  ///< input unit; empty when the files do not say
   std::vector<PlanPart> parts;
   std::vector<std::pair<std::string, std::string>> excluded;  ///< name, reason
   std::vector<PlanOverlap> overlaps;
@@ -101,7 +101,7 @@ struct Plan {
   PlanAssembly assembly;
   PlanStatus status = PlanStatus::partial;
   std::uint64_t seed = 0;
-  double verified_max_penetration = 0.01;  ///< the tolerance that every step was judged by
+  double verified_max_penetration = 0.01;  ///< the tolerance that every step was verified with
   std::vector<PlanStep> disassembly;
   std::vector<PlanStep> assembly_steps;
   AssemblyStatus assembly_status = AssemblyStatus::reversed;

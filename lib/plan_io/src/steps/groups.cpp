@@ -15,8 +15,8 @@ using PartSet = std::vector<std::size_t>;
 /// Index in `pieces` of the one that stays when all of a group is named.
 std::size_t staying_piece(const std::vector<PartSet>& pieces, const std::set<std::size_t>& movers) {
   const auto key = [&](const PartSet& piece) {
-    const bool still = std::ranges::none_of(piece, [&](std::size_t i) { return movers.contains(i); });
-    return std::pair(still, piece.size());
+    const bool fixed = std::ranges::none_of(piece, [&](std::size_t i) { return movers.contains(i); });
+    return std::pair(fixed, piece.size());
   };
   std::size_t best = 0;
   for (std::size_t i = 1; i < pieces.size(); ++i)
