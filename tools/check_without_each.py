@@ -19,7 +19,7 @@ import time
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 # Tests that take seconds, of every library and of what loads plugins.
-FAST = ("core_tests geometry_tests preparation_tests plan_io_tests engine_tests plugins_tests plugins_good_tests configs_tests "
+FAST = ("core_tests geometry_tests preparation_tests plan_io_tests book_tests engine_tests plugins_tests plugins_good_tests configs_tests "
         "shipped_plugins_are_found sdf_tests sdf_world_tests path_common_tests push_search_tests ompl_common_tests progressive_tests "
         "queue_tests random_tests mesh_files_test cli_tests").split()
 

@@ -24,6 +24,8 @@ void add_prepare(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_view(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
+void add_book(CLI::App& app, Action& action);
 void add_plugins(CLI::App& app, Action& action);
 void add_sample(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);

@@ -140,6 +140,8 @@ int main(int argc, char** argv) {
   add_verify(app, action);
   add_explain(app, action);
   add_view(app, action);
+  add_export(app, action);
+  add_book(app, action);
   add_plugins(app, action);
   add_sample(app, action);
   add_bench(app, action);

@@ -8,7 +8,7 @@ const SEEN_THROUGH = 0.5;
 export class App {
   constructor(model) {
     this.model = model;
-    this.stage = this.parts = this.trails = null;
+    this.stage = this.parts = this.trails = this.places = null;
     this.mode = 'disassembly';
     this.time = 0;
     this.playing = false;
@@ -36,8 +36,8 @@ export class App {
     for (const listener of this.listeners) listener(what);
   }
 
-  show(stage, parts, trails) {
-    Object.assign(this, {stage, parts, trails});
+  show(stage, parts, trails, places) {
+    Object.assign(this, {stage, parts, trails, places});
     stage.onFrame = seconds => this.frame(seconds);
     this.paint();
     this.place();
@@ -216,12 +216,14 @@ export class App {
       this.best.u = 0;
       this.place();
       this.stage.fit([...after, ...this.parts.boxes(concerned)], {margin: 1.3, minimum: 0.1 * this.model.size});
+      this.places.show((unsolved.places ?? []).map(p => p.at));
     }
   }
 
   leaveBest() {
     if (!this.best) return;
     this.best = null;
+    this.places?.show([]);
     this.stale = true;
     this.paint();
     this.#showTrails();

@@ -25,6 +25,7 @@ export function expose(app, display) {
     state: () => ({mode: app.mode, time: app.time, step: app.step, playing: app.playing, explode: app.explode, theme: display.dark ? 'dark' : 'light',
       up: app.stage?.axis, selected: app.selected < 0 ? null : model.parts[app.selected].name, best: app.best ? model.parts[app.best.index].name : null,
       trails: app.trailing, fading: app.fading}),
+    places: () => app.places.shown(),
     seek: time => app.seek(time),
     play: on => app.play(on),
     setMode: mode => app.setMode(mode),

@@ -5,6 +5,7 @@ import {expose} from './expose.js';
 import {Model} from './model.js';
 import {titleOf} from './plan/words.js';
 import {Parts} from './scene/parts.js';
+import {Places} from './scene/places.js';
 import {Picker} from './scene/picker.js';
 import {Stage} from './scene/stage.js';
 import {Trails} from './scene/trails.js';
@@ -61,7 +62,7 @@ function start() {
   if (stage) {
     if (display.axis !== 'z') stage.setUp(display.axis);
     const parts = new Parts(app.model, stage.scene);
-    app.show(stage, parts, new Trails(app.model, stage.scene));
+    app.show(stage, parts, new Trails(app.model, stage.scene), new Places(app.model, stage.scene));
     display.apply();
     const picker = new Picker(stage, parts, {
       hover: (index, x, y) => { app.hover(index); overlay.hover(index, x, y); },

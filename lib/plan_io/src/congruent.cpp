@@ -1,4 +1,4 @@
-#include "congruent.h"
+#include "dismantle/plan_io/congruent.h"
 
 #include <Eigen/Geometry>
 #include <map>

@@ -9,12 +9,12 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <span>
 
-#include "congruent.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/base64.h"
+#include "dismantle/plan_io/congruent.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "shading.h"
+#include "dismantle/plan_io/shading.h"
 
 namespace dismantle {
 namespace {
@@ -24,19 +24,6 @@ static_assert(std::endian::native == std::endian::little, "typed arrays are litt
 
 constexpr const char* kPlace = "@DISMANTLE_DATA@";
 constexpr double kPageCrease = 30.0 * std::numbers::pi / 180.0;
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  out.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < n ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) out += k <= n ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 template <class Scalar>
 std::string base64_of(const std::vector<Scalar>& values) {

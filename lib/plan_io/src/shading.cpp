@@ -1,4 +1,4 @@
-#include "shading.h"
+#include "dismantle/plan_io/shading.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

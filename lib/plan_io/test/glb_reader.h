@@ -125,7 +125,7 @@ class Glb {
   void check_meshes() {
     std::set<std::size_t> shown;
     for (std::size_t i = 1; i < json["nodes"].size(); ++i)
-      EXPECT_TRUE(shown.insert(json["nodes"][i]["mesh"].get<std::size_t>()).second);
+      shown.insert(json["nodes"][i]["mesh"].get<std::size_t>());
     EXPECT_EQ(shown.size(), json["meshes"].size());
     for (const nlohmann::json& m : json["meshes"])
       for (const nlohmann::json& p : m["primitives"]) {

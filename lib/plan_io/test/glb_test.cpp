@@ -65,6 +65,10 @@ std::vector<Pose> straight(const Eigen::Vector3d& way, std::size_t n) {
   return out;
 }
 
+Eigen::Quaterniond quaternion_of(const Json& json) {
+  return Eigen::Quaterniond(json[3].get<double>(), json[0].get<double>(), json[1].get<double>(), json[2].get<double>());
+}
+
 TEST(Glb, AssemblyIsTheSecondAnimation) {
   const Assembly assembly =
       assembly_of({{"a", box({-1, -1, -1}, {1, 1, 1})}, {"base", box({-5, -5, -2}, {5, 5, -1})}}, 1, {0, 0, 0});
@@ -121,7 +125,10 @@ TEST(Glb, EveryKeyPutsTheGeometryWhereThePlanSays) {
     EXPECT_FALSE(glb.sampler_of.contains(glb.node_of.at("base")));
     EXPECT_FALSE(glb.sampler_of.at(glb.node_of.at("a b")).contains("rotation")) << "nothing turns";
 
-    const Eigen::Vector3d origin = vector_of(glb.json["nodes"][0]["translation"]);
+    // Input units in Z up below the root, metres in Y up above: (x, y, z) becomes (x, z, -y) thousandths.
+    const Json& root = glb.json["nodes"][0];
+    const Pose turned{vector_of(root["translation"]), quaternion_of(root["rotation"])};
+    EXPECT_EQ(root["scale"], Json::array({1e-3, 1e-3, 1e-3}));
     for (const Part& part : assembly.parts) {
       const std::size_t node = glb.node_of.at(part.name);
       const Json& n = glb.json["nodes"][node];
@@ -151,14 +158,101 @@ TEST(Glb, EveryKeyPutsTheGeometryWhereThePlanSays) {
       for (std::size_t k = 0; k < shown.size(); ++k)
         for (std::size_t i = 0; i < indices.size(); i += 7) {
           const auto v = static_cast<std::size_t>(indices[i]);
-          const Eigen::Vector3d at = origin + shown[k] * Eigen::Vector3d(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
+          const Eigen::Vector3d at =
+              turned * (1e-3 * (shown[k] * Eigen::Vector3d(p[3 * v], p[3 * v + 1], p[3 * v + 2])));
           const Eigen::Vector3d vertex = part.mesh->vertices[part.mesh->triangles[i / 3][i % 3]];
-          const Eigen::Vector3d expected = planned[k] * assembly.normalization.to_input(vertex);
+          const Eigen::Vector3d input = planned[k] * assembly.normalization.to_input(vertex);
+          const Eigen::Vector3d expected = 1e-3 * Eigen::Vector3d(input.x(), input.z(), -input.y());
           // Doubles at 1e8 resolve 1e-8 and rotate with an error of the same order.
-          EXPECT_LT((at - expected).norm(), 2e-6 * size + (far ? 1e-6 : 0)) << part.name << " key " << k;
+          EXPECT_LT((at - expected).norm(), 1e-3 * (2e-6 * size + (far ? 1e-6 : 0))) << part.name << " key " << k;
         }
     }
   }
+}
+
+/// A part turned and shifted, with its vertices in the same order.
+Mesh relocated(const Mesh& mesh, const Pose& pose) {
+  Mesh out = mesh;
+  for (auto& v : out.vertices) v = pose * v;
+  return out;
+}
+
+TEST(Glb, CongruentPartsShareASurfaceAndStandWhereTheyStood) {
+  Rng rng(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Mesh shape = cylinder_mesh(7);
+    std::vector<std::pair<std::string, Mesh>> parts;
+    for (int i = 0; i < 5; ++i) {
+      const Eigen::Vector3d axis(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
+      const Pose pose{{4.0 * i, rng.uniform(-5, 5), rng.uniform(-5, 5)}, rotation_from_vector(2 * axis)};
+      parts.emplace_back("p" + std::to_string(i), relocated(shape, pose));
+    }
+    Assembly assembly = assembly_of(parts, 2, {1, 2, 3});
+    assembly.unit = "inch";
+    for (Part& part : assembly.parts) part.colour = Rgba{static_cast<std::uint8_t>(part.id < 3 ? 10 : 200), 40, 60};
+    Plan plan;
+    plan.disassembly = {step_of(1, {{"p4", straight({0, 0, 9}, 4)}})};
+    const Glb glb(to_glb(plan, assembly));
+    EXPECT_EQ(glb.json["meshes"].size(), 2u) << "one shape in two colours";
+    EXPECT_EQ(glb.json["meshes"][0]["primitives"][0]["attributes"],
+              glb.json["meshes"][1]["primitives"][0]["attributes"]);
+    const Json& root = glb.json["nodes"][0];
+    EXPECT_EQ(root["scale"][0], 0.0254);
+    EXPECT_EQ(root["extras"]["unit_known"], true);
+    const Pose turned{vector_of(root["translation"]), quaternion_of(root["rotation"])};
+    for (const Part& part : assembly.parts) {
+      const Json& n = glb.json["nodes"][glb.node_of.at(part.name)];
+      const Json& primitive = glb.json["meshes"][n["mesh"].get<std::size_t>()]["primitives"][0];
+      const auto p = glb.read(primitive["attributes"]["POSITION"]);
+      const auto indices = glb.read(primitive["indices"]);
+      const Pose node{vector_of(n["translation"]),
+                      n.contains("rotation") ? quaternion_of(n["rotation"]) : Eigen::Quaterniond::Identity()};
+      for (std::size_t i = 0; i < indices.size(); ++i) {
+        const auto v = static_cast<std::size_t>(indices[i]);
+        const Eigen::Vector3d at = turned * (0.0254 * (node * Eigen::Vector3d(p[3 * v], p[3 * v + 1], p[3 * v + 2])));
+        const Eigen::Vector3d in =
+            assembly.normalization.to_input(part.mesh->vertices[part.mesh->triangles[i / 3][i % 3]]);
+        EXPECT_LT((at - 0.0254 * Eigen::Vector3d(in.x(), in.z(), -in.y())).norm(), 1e-6);
+      }
+    }
+    // The animation begins where the node stands, and does not turn what the plan only shifts.
+    const Json& animation = glb.json["animations"][0];
+    ASSERT_EQ(animation["channels"].size(), 1u);
+    const auto t = glb.read(animation["samplers"][0]["output"].get<std::size_t>());
+    EXPECT_LT(
+        (Eigen::Vector3d(t[0], t[1], t[2]) - vector_of(glb.json["nodes"][glb.node_of.at("p4")]["translation"])).norm(),
+        1e-5);
+  }
+}
+
+TEST(Glb, ExplodedPartsAreClearOfEachOther) {
+  Rng rng(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    // A stack of plates of any size that leave upwards, the topmost first.
+    std::vector<std::pair<std::string, Mesh>> parts;
+    Plan plan;
+    for (unsigned i = 0; i < 6; ++i) {
+      const double w = rng.uniform(1, 4);
+      parts.emplace_back("p" + std::to_string(i), box({-w, -w, double(i)}, {w, w, i + 1.0}));
+      if (i > 0) plan.disassembly.push_back(step_of(i, {{"p" + std::to_string(6 - i), straight({0, 0, 9}, 3)}}));
+    }
+    const Assembly assembly = assembly_of(parts, 2, {0, 0, 0});
+    for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, "x.obj", {}, {}});
+    const Glb glb(to_exploded_glb(plan, assembly, input_frame(assembly)));
+    EXPECT_FALSE(glb.json.contains("animations"));
+    double top = -1e9;
+    for (unsigned i = 0; i < 6; ++i) {
+      const double z = vector_of(glb.json["nodes"][glb.node_of.at("p" + std::to_string(i))]["translation"]).z();
+      EXPECT_GT(z - 0.25, top) << "plates are half a unit thick in input units, and apart";
+      top = z + 0.25;
+    }
+  }
+}
+
+TEST(Glb, AnUnknownUnitIsNamed) {
+  Assembly assembly = assembly_of({{"a", cylinder_mesh(8)}}, 1, {0, 0, 0});
+  assembly.unit = "furlong";
+  EXPECT_THROW(to_glb(Plan{}, assembly), InputError);
 }
 
 TEST(Glb, NormalsAreSmoothOnRoundsAndHardOnEdges) {

@@ -4,6 +4,7 @@ const OUTCOMES = {
   timeout: ['Time ran out', 'The budget of time or steps was used up. More may help.'],
   depth_limit: ['Search was cut short', 'It was searched to the depth allowed. Deeper may help.'],
   exhausted: ['Nothing left to try', 'No state was left to search at this resolution.'],
+  infeasible: ['Proved: it cannot leave', 'No motion of rigid parts separates it from what holds it. The proof is below.'],
   invalid_start: ['Start is not valid', 'Assembled, it already cuts into another part deeper than was measured.'],
   cancelled: ['Run was stopped', 'The run was stopped before this part was solved.'],
   unsupported: ['Not supported', 'The simulator lacks what the planner needs.'],

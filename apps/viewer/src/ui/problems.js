@@ -1,5 +1,6 @@
-// Parts that did not come out: how the attempt ended, what was in the way, how far it got.
-import {number, outcomeMeaning, outcomeTitle, share} from '../plan/words.js';
+// Parts that did not come out: what was tried, what was in the way and where, how far it got, the proof, and what to do next.
+import {adviceOn} from '../plan/advice.js';
+import {number, outcomeMeaning, outcomeTitle, seconds, share} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
 const TURNED = 0.05;  // degrees, from which a turn is worth saying
@@ -29,18 +30,45 @@ function attempt(app, unsolved, alone) {
   return element('section.attempt', {'data-part': unsolved.part},
     alone ? null : link(app, unsolved.part, 'button.title'),
     element('dl.facts', {},
+      unsolved.attempts ? row('tried', tried(unsolved)) : null,
       row('blocked by', unsolved.blocked_by.length > 0 ? unsolved.blocked_by.map(n => link(app, n)) : 'nothing on record'),
       row('furthest', !moved ? 'it did not move' : angle < TURNED ? far : `${far}, turned by ${number(Number(angle.toPrecision(2)))}°`),
+      unsolved.places?.length > 0 ? row('touches', unsolved.places.map(p => `${p.part} at (${p.at.map(number).join(', ')})`).join('; ')) : null,
       overlaps.length > 0 ? row('overlaps', overlaps.map(o => `${o.a === unsolved.part ? o.b : o.a} by ${number(o.depth)} units (${share(o.depth, plan)})`).join(', ')) : null),
     show);
 }
+
+/** "3 searches by guided, 12 s, to depth 4" */
+function tried({planner, attempts, seconds: time, depth}) {
+  return `${attempts === 1 ? '1 search' : `${attempts} searches`} by ${planner}, ${seconds(time)}${depth > 0 ? `, to depth ${depth}` : ''}`;
+}
+
+/** Text in which what stands between backquotes is code. */
+const withCode = text => text.split('`').map((piece, i) => i % 2 === 1 ? element('code', {}, piece) : piece);
+
+function nextSteps(group, plan) {
+  const advice = adviceOn(group, plan);
+  return advice.length === 0 ? null : element('div.advice', {}, element('strong', {}, 'What you can do'),
+    element('ul', {}, advice.map(text => element('li', {}, withCode(text)))));
+}
+
+/** The sentences of the proofs that the plan holds for these parts. */
+function proofs(app, group) {
+  const {certificates = []} = app.model.plan;
+  const numbers = [...new Set(group.map(u => u.certificate).filter(n => n !== undefined && n !== null && certificates[n]))];
+  return numbers.map(n => element('p.proof', {}, element('strong', {}, `Proof (${certificates[n].kind}): `), certificates[n].text));
+}
+
+/** The planner often says what the proof says. */
+const isProof = (app, group, message) => group.some(u => app.model.plan.certificates?.[u.certificate]?.text === message);
 
 /** Parts that share one reason. */
 function card(app, group) {
   const [{part, outcome, message}] = group, alone = group.length === 1;
   return element('article.card', {}, element('header', {}, icon('warning'),
     alone ? link(app, part, 'button.title') : element('strong.title', {}, `${group.length} parts, one reason`), element('span.pill.bad', {}, outcomeTitle(outcome))),
-  element('p', {}, outcomeMeaning(outcome)), message ? element('p.message', {}, message) : null, group.map(u => attempt(app, u, alone)));
+  element('p', {}, outcomeMeaning(outcome)), message && !isProof(app, group, message) ? element('p.message', {}, message) : null,
+  proofs(app, group), group.map(u => attempt(app, u, alone)), nextSteps(group, app.model.plan));
 }
 
 /** Attempts with the same outcome and message, in the order of the first of each. */
@@ -54,12 +82,15 @@ function byReason(unsolved) {
   return [...groups.values()];
 }
 
-function certificate(c) {
-  const parts = Array.isArray(c.parts) ? c.parts.join(', ') : '';
-  const rest = Object.entries(c).filter(([key]) => key !== 'kind' && key !== 'parts').map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n');
+function certificate(app, c) {
+  const parts = Array.isArray(c.parts) ? c.parts : [];
+  const scope = c.full_tolerance === false && c.margin > 0 ? `It holds for motions that cut in by no more than ${share(c.margin, app.model.plan)} of the size.`
+    : c.full_tolerance ? 'It holds for every motion within the tolerance.' : '';
   return element('article.card', {}, element('header', {}, icon('check'), element('strong', {}, `Proof: ${c.kind ?? 'certificate'}`)),
-    parts ? element('p', {}, `These parts cannot be separated: ${parts}`) : null,
-    rest ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, rest)) : null);
+    c.text ? element('p.proof', {}, c.text) : null,
+    parts.length > 0 ? element('p', {}, 'The first of these cannot be separated from the others: ', element('span.chips', {}, parts.filter(n => app.model.index.has(n)).map(n => link(app, n)))) : null,
+    scope ? element('p.note', {}, withCode(`${scope} \`dismantle verify\` checks it again.`)) : null,
+    c.numbers ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, Object.entries(c.numbers).map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n'))) : null);
 }
 
 /** Null when there is nothing to tell. */
@@ -75,7 +106,7 @@ export function makeProblems(app) {
     byReason(plan.unsolved).map(group => card(app, group)),
     forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
       element('p', {}, `${s.moves.map(m => m.part).join(', ')} cannot come out as a rigid body: it is taken out where it cuts in least. This step is not verified.`))),
-    certificates.map(certificate),
+    certificates.map(c => certificate(app, c)),
     silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
       element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),
       element('div.chips', {}, silent.map(n => link(app, n)))) : null,

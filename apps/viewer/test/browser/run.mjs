@@ -205,7 +205,8 @@ test('best poses, forced steps and certificates, as plans to come may have them'
     last.forced = {pair: [last.moves[0].part, stays], depth: 0.4, at: [0, 0, 0]};
     plan.status = 'partial';
     plan.unsolved.push({part: stays, outcome: 'timeout', blocked_by: [last.moves[0].part], best_pose: pose, message: 'the budget <i>ended</i>'});
-    plan.certificates = [{kind: 'ring', parts: [stays, last.moves[0].part], diameter: 2}];
+    plan.certificates = [{kind: 'ring', parts: [stays, last.moves[0].part], full_tolerance: true, margin: 0.01, numbers: {diameter: [2]}, text: 'it is <b>closed</b>'}];
+    Object.assign(plan.unsolved.at(-1), {planner: 'guided', attempts: 2, seconds: 3, depth: 4, certificate: 0, places: [{part: last.moves[0].part, at: [1, 2, 3]}]});
     plan.assembly.parts[0].color = '#123456';
   });
   const page = await open(browser, file), stays = shelf.plan.remaining[0];
@@ -216,6 +217,14 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   assert.match(await page.locator('.problems').textContent(), /the budget <i>ended<\/i>.*is forced.*Proof: ring/s);
   await page.getByRole('button', {name: 'Show how far it got'}).click();
   await page.waitForFunction(([n, goal]) => Math.hypot(...window.dismantle.shownPoint(n, [1, 2, 3]).map((x, k) => x - goal[k])) < 1e-6, [stays, placed(pose, [1, 2, 3])]);
+  // What was tried, where it is held, why it is proved, what to do: in the card, and as dots in the scene.
+  assert.match(await page.locator('article').filter({has: page.locator(`[data-part="${stays}"]`)}).textContent(),
+    /Proof \(ring\): it is <b>closed<\/b>.*2 searches by guided, 3 s, to depth 4.*at \(1, 2, 3\).*What you can do.*--path-timeout/s);
+  const places = await page.evaluate('window.dismantle.places()');
+  assert.equal(places.length, 1);
+  assert.ok(distance(places[0], [1, 2, 3]) < 1e-9);
+  await page.keyboard.press('Escape');
+  assert.deepEqual(await page.evaluate('window.dismantle.places()'), []);
   assert.equal(await page.evaluate(n => window.dismantle.colour(n), shelf.plan.assembly.parts[0].name),
     shelf.plan.assembly.parts[0].name === stays ? '#e5484d' : '#123456');
   assert.deepEqual(page.complaints, []);

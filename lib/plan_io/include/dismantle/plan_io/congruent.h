@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/export.h"
 #include "dismantle/pose.h"
 
 namespace dismantle {
@@ -16,6 +17,6 @@ struct ShapePlacement {
 
 /// One per part. Two parts count as one shape when their triangles are numbered alike and a rigid displacement takes
 /// each vertex of one to within 1e-4 of the part's size of the other's. Mirror images are different shapes.
-std::vector<ShapePlacement> find_congruent(const std::vector<Part>& parts);
+DISMANTLE_API std::vector<ShapePlacement> find_congruent(const std::vector<Part>& parts);
 
 }  // namespace dismantle

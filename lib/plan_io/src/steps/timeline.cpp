@@ -1,4 +1,4 @@
-#include "timeline.h"
+#include "steps/timeline.h"
 
 #include <fmt/format.h>
 
@@ -74,15 +74,15 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
     }
     const std::vector<double> way = way_of(step, bodies);
     const double duration = std::clamp(kSecondsPerSize * way.back() / size, kShortest, kLongest);
+    std::vector<double> times;
+    for (std::size_t k = 0; k < way.size(); ++k)
+      times.push_back(now + duration * (way.back() > 0 ? way[k] / way.back() : double(k) / double(way.size())));
     for (std::size_t m = 0; m < bodies.size(); ++m) {
       Track& track = tracks[bodies[m].id];
       track.part = bodies[m].id;
-      for (std::size_t k = 0; k < way.size(); ++k) {
-        const double share = way.back() > 0 ? way[k] / way.back() : double(k) / double(way.size());
-        append(track.keys, now + duration * share, step.moves[m].poses[k]);
-      }
+      for (std::size_t k = 0; k < way.size(); ++k) append(track.keys, times[k], step.moves[m].poses[k]);
     }
-    out.steps.push_back({step.step, static_cast<float>(now), static_cast<float>(now + duration), {}});
+    out.steps.push_back({step.step, static_cast<float>(now), static_cast<float>(now + duration), {}, std::move(times)});
     for (const Body& body : bodies) out.steps.back().parts.push_back(body.id);
     now += duration + kPause;
   }

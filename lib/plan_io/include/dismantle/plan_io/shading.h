@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/export.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle {
@@ -18,6 +19,6 @@ struct ShadedMesh {
 
 /// Triangles that share an edge and meet at less than `crease_angle` (rad) share a normal along it, so that
 /// cylinders look round and boxes keep their edges. Triangles without area are left out.
-ShadedMesh shade(const Mesh& mesh, double crease_angle);
+DISMANTLE_API ShadedMesh shade(const Mesh& mesh, double crease_angle);
 
 }  // namespace dismantle

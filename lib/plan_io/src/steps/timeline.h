@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dismantle/pose.h"
 #include "dismantle/assembly.h"
 #include "dismantle/plan.h"
+#include "dismantle/pose.h"
 
 namespace dismantle {
 
@@ -24,6 +24,7 @@ struct StepTime {
   unsigned step = 0;
   float begin = 0, end = 0;  ///< s
   std::vector<PartId> parts;
+  std::vector<double> pose_times;  ///< s, one per pose of the step's moves; do not decrease
 };
 
 struct Timeline {

@@ -1,0 +1,137 @@
+// dismantle export PLAN.json --format FORMAT
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+
+#include "dismantle/command.h"
+#include "dismantle/console.h"
+#include "dismantle/errors.h"
+#include "dismantle/frame_options.h"
+#include "dismantle/host/planning_setup.h"
+#include "dismantle/plan_file.h"
+#include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/write_file.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/settings.h"
+#include "dismantle/stopped.h"
+
+namespace dismantle::app {
+namespace {
+
+std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
+
+struct ExportFormat {
+  const char *name, *file, *doc;
+  bool binary;
+  /// Null: it needs the parts' surfaces.
+  std::string (*of_plan)(const Plan&, const InputFrame&);
+  /// Null: the plan says it all.
+  std::string (*of_assembly)(const Plan&, const Assembly&, const InputFrame&);
+};
+
+constexpr std::array kExportFormats{
+    ExportFormat{"poses-csv", "poses.csv", "poses with times, a row each", false, nullptr,
+                 [](const Plan& p, const Assembly& a, const InputFrame&) { return poses_csv(p, a); }},
+    ExportFormat{"poses-json", "poses.json", "the same as JSON", false, nullptr, poses_json},
+    ExportFormat{"glb", "plan.glb", "the animation, binary glTF", true, nullptr,
+                 [](const Plan& p, const Assembly& a, const InputFrame& f) { return as_text(to_glb(p, a, f)); }},
+    ExportFormat{
+        "glb-exploded", "exploded.glb", "the exploded assembly, binary glTF", true, nullptr,
+        [](const Plan& p, const Assembly& a, const InputFrame& f) { return as_text(to_exploded_glb(p, a, f)); }},
+    ExportFormat{"dot", "steps.dot", "which step waits for which, Graphviz", false,
+                 [](const Plan& p, const InputFrame&) { return step_order_dot(p); }, nullptr},
+    ExportFormat{"graphml", "steps.graphml", "the same as GraphML", false,
+                 [](const Plan& p, const InputFrame&) { return step_order_graphml(p); }, nullptr},
+    ExportFormat{"and-or-json", "and_or.json", "AND/OR graph of the sub-assemblies, JSON", false,
+                 [](const Plan& p, const InputFrame&) { return and_or_json(p); }, nullptr},
+    ExportFormat{"and-or-dot", "and_or.dot", "the same for Graphviz", false,
+                 [](const Plan& p, const InputFrame&) { return and_or_dot(p); }, nullptr},
+    ExportFormat{"markdown", "steps.md", "table of the steps", false, steps_markdown, nullptr},
+};
+
+struct ExportOptions {
+  std::string plan, format, output, assembly;
+  FrameOptions frame;
+  ConsoleOptions console;
+};
+
+/// The parts of the plan, read from its input again.
+Assembly assembly_for(const Plan& plan, const ExportOptions& options, Console& console) {
+  Registry registry;
+  registry.scan();
+  warn_of_problems(registry, console);
+  RunSettings settings;
+  settings.timeout = 0;
+  RunContext context = context_of(settings, console);
+  const std::string source = source_of(plan, options.plan, options.assembly);
+  ReadOptions read;
+  read.max_triangles = std::numeric_limits<std::int64_t>::max();
+  return stoppable(context, [&] {
+    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
+  });
+}
+
+int export_plan(const ExportOptions& options) {
+  Console console(options.console);
+  const ExportFormat* format = nullptr;
+  for (const ExportFormat& f : kExportFormats)
+    if (options.format == f.name) format = &f;
+  const Plan plan = read_plan(options.plan);
+  const InputFrame frame = frame_of(plan, options.frame);
+  const bool to_stdout = options.output == "-";
+  if (to_stdout && format->binary) throw Error("a .glb file is binary: name a file with -o");
+
+  std::string content;
+  if (format->of_plan != nullptr) {
+    content = format->of_plan(plan, frame);
+  } else {
+    const Assembly assembly = assembly_for(plan, options, console);
+    if (format->binary && !frame.unit_known)
+      console.warning(fmt::format("the files do not name their unit: {} is assumed; --unit names another", frame.unit));
+    content = format->of_assembly(plan, assembly, frame);
+  }
+  console.end_progress();
+  if (to_stdout) {
+    fmt::print("{}", content);
+    return kComplete;
+  }
+  const std::filesystem::path file = options.output.empty()
+                                         ? std::filesystem::path(options.plan).replace_filename(format->file)
+                                         : std::filesystem::path(options.output);
+  write_file(file, content);
+  console.text(fmt::format("wrote {}\n", file.string()));
+  return kComplete;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Action& action) {
+  auto* command = app.add_subcommand("export", "Write a plan for other programs: poses, graphs, glTF, Markdown");
+  auto options = std::make_shared<ExportOptions>();
+  std::vector<std::string> names;
+  std::string table = "Formats, and the file that is written beside the plan:\n";
+  for (const ExportFormat& f : kExportFormats) {
+    names.emplace_back(f.name);
+    table += fmt::format("  {:13} {:14} {}\n", f.name, f.file, f.doc);
+  }
+  command->add_option("PLAN.json", options->plan, "Plan file")->required()->option_text(" ");
+  command->add_option("--format", options->format, "What to write, see below")
+      ->required()
+      ->option_text("FORMAT")
+      ->check(CLI::IsMember(names));
+  command->add_option("-o,--output", options->output, "The file to write; '-' is standard output")->option_text("FILE");
+  command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
+      ->option_text("INPUT");
+  add_frame(*command, options->frame);
+  add_verbosity(*command, options->console);
+  command->footer(table +
+                  "Poses and glTF need the input of the plan; all else is made from the plan alone.\n"
+                  "Examples:\n"
+                  "  dismantle export out/plan.json --format poses-csv\n"
+                  "  dismantle export out/plan.json --format and-or-dot -o - | dot -Tsvg > and_or.svg");
+  command->callback([&action, options] { action = [options] { return export_plan(*options); }; });
+}
+
+}  // namespace dismantle::app

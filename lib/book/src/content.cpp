@@ -1,0 +1,213 @@
+#include "content.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/text_columns.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kLegTolerance = 0.01;  // of the assembly's largest edge
+
+/// "bolt" of "bolt_1", "bolt_2"; the first name when they have too little in common.
+std::string common_name(const std::vector<std::string>& names) {
+  std::string stem = names.front();
+  for (const std::string& name : names)
+    stem.resize(static_cast<std::size_t>(std::ranges::mismatch(stem, name).in1 - stem.begin()));
+  if (names.size() == 1) return stem;
+  while (!stem.empty() && (std::isdigit(static_cast<unsigned char>(stem.back())) ||
+                           std::string_view(" _-.#:(").find(stem.back()) != std::string_view::npos))
+    stem.pop_back();
+  while (!stem.empty() && (static_cast<unsigned char>(stem.back()) & 0x80) != 0) stem.pop_back();  // half a character
+  return stem.size() >= 3 ? stem : names.front();
+}
+
+class ContentWriter {
+ public:
+  ContentWriter(const Plan& plan, const Assembly& assembly, const BookOptions& options,
+                const std::vector<ShapePlacement>& shapes)
+      : plan_(plan),
+        assembly_(assembly),
+        options_(options),
+        frame_(options.frame),
+        unit_(frame_.unit_known ? frame_.unit : "units"),
+        size_(assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff()) {
+    find_items(shapes);
+  }
+
+  BookContent write() {
+    content_.chapters = instructions(plan_, assembly_, options_.disassembly);
+    if (content_.chapters.empty())
+      throw InputError(plan_.assembly.source, "the plan has no steps, so there is nothing to instruct");
+    write_title();
+    std::size_t count = 0;
+    for (const BookChapter& chapter : content_.chapters) count += chapter.steps.size();
+    for (const BookChapter& chapter : content_.chapters)
+      for (std::size_t s = 0; s < chapter.steps.size(); ++s) add_page(chapter, s, count);
+    return std::move(content_);
+  }
+
+ private:
+  void find_items(const std::vector<ShapePlacement>& shapes) {
+    std::map<std::size_t, std::size_t> item_of_shape;
+    for (std::size_t i = 0; i < assembly_.parts.size(); ++i) {
+      const auto [it, fresh] = item_of_shape.try_emplace(shapes[i].original, content_.items.size());
+      if (fresh) content_.items.push_back({content_.items.size() + 1, {}, {}, {}});
+      content_.items[it->second].parts.push_back(i);
+      item_of_.push_back(it->second);
+    }
+    for (BookItem& item : content_.items) {
+      std::vector<std::string> names;
+      for (const std::size_t i : item.parts) names.push_back(assembly_.parts[i].name);
+      item.name = common_name(names);
+      const Eigen::Vector3d box =
+          assembly_.parts[item.parts.front()].mesh->box().size() / assembly_.normalization.scale;
+      item.size =
+          fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()), figure_text(box.z()), unit_);
+    }
+  }
+
+  void write_title() {
+    const PlanAssembly& a = plan_.assembly;
+    std::filesystem::path source(a.source);
+    if (!source.has_filename()) source = source.parent_path();
+    std::string title = source.filename().empty() ? a.source : source.filename().string();
+    for (const char* ending : {".step", ".stp", ".glb", ".gltf", ".3mf", ".obj", ".stl", ".dae"})
+      if (source.extension() == ending) title = source.stem().string();
+    content_.title = options_.title.empty() ? title : options_.title;
+    content_.subtitle = options_.disassembly ? "How to take it apart" : "How to put it together";
+    content_.facts.emplace_back("parts",
+                                fmt::format("{}, {}", a.parts.size(), text::counted(content_.items.size(), "shape")));
+    content_.facts.emplace_back("steps", std::to_string(plan_.disassembly.size()));
+    if (!a.box.empty()) {
+      const Eigen::Vector3d box = a.box.size();
+      content_.facts.emplace_back("size", fmt::format("{} × {} × {} {}", figure_text(box.x()), figure_text(box.y()),
+                                                      figure_text(box.z()), unit_));
+    }
+    content_.facts.emplace_back("directions", frame_.y_up ? "right is +X, up is +Y, the front is at +Z"
+                                                          : "right is +X, up is +Z, the front is at -Y");
+    if (!frame_.unit_known) content_.facts.emplace_back("units", "those of the input, which names none");
+    content_.facts.emplace_back(
+        "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
+                               figure_text(plan_.verified_max_penetration / a.scale), unit_));
+    content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
+    if (plan_.status == PlanStatus::partial)
+      content_.warnings.push_back(
+          fmt::format("The plan is partial: {} are still together with others at its end ({}). What the plan does not "
+                      "separate is handled as one piece here.",
+                      text::counted(plan_.remaining.size(), "part"), listed(plan_.remaining)));
+    if (!a.excluded.empty()) {
+      std::vector<std::string> names;
+      for (const auto& [name, reason] : a.excluded) names.push_back(name);
+      content_.warnings.push_back(fmt::format("Left out of the plan, and not in this book: {}.", listed(names)));
+    }
+  }
+
+  std::string chapter_name(const BookChapter& chapter) const {
+    if (chapter.letter < 0) return content_.chapters.size() > 1 ? "The whole assembly" : "Assembly";
+    std::string letters;  // A..Z, AA..
+    for (int n = chapter.letter; n >= 0; n = n / 26 - 1)
+      letters.insert(letters.begin(), static_cast<char>('A' + n % 26));
+    return "Sub-assembly " + letters;
+  }
+
+  std::string names_of(const std::vector<std::size_t>& parts) const {
+    std::vector<std::string> names;
+    for (const std::size_t i : parts) names.push_back(assembly_.parts[i].name);
+    return listed(std::move(names));
+  }
+
+  static std::string listed(std::vector<std::string> names) {
+    constexpr std::size_t kMost = 8;
+    if (names.size() <= kMost) return text::joined(names);
+    const std::size_t more = names.size() - kMost + 1;
+    names.resize(kMost - 1);
+    return fmt::format("{} and {} more", text::joined(names), more);
+  }
+
+  /// The sub-assembly that is these parts, if a chapter is about one.
+  const BookChapter* chapter_of(const std::vector<std::size_t>& parts) const {
+    for (const BookChapter& chapter : content_.chapters)
+      if (chapter.letter >= 0 && chapter.parts == parts) return &chapter;
+    return nullptr;
+  }
+
+  void add_page(const BookChapter& chapter, std::size_t index, std::size_t count) {
+    const BookStep& step = chapter.steps[index];
+    BookPage page;
+    page.step = &step;
+    page.chapter = chapter_name(chapter);
+    page.chapter_begins = index == 0;
+    page.number = content_.pages.size() + 1;
+    page.count = count;
+    page.verb = step.shifts_only       ? (options_.disassembly ? "Move aside" : "Move back")
+                : options_.disassembly ? "Take out"
+                                       : "Put in";
+    for (const BookMover& mover : step.movers) {
+      std::map<std::size_t, std::size_t> of_item;
+      for (const std::size_t i : mover.parts) ++of_item[item_of_[i]];
+      if (const BookChapter* built = chapter_of(mover.parts)) {
+        page.moving.emplace_back(0, fmt::format("{} ({} parts)", chapter_name(*built), built->parts.size()));
+      } else {
+        for (const auto& [item, n] : of_item)
+          page.moving.emplace_back(content_.items[item].number,
+                                   n == 1 && mover.parts.size() == 1
+                                       ? assembly_.parts[mover.parts.front()].name
+                                       : fmt::format("{} × {}", n, content_.items[item].name));
+      }
+      const MotionSummary motion = summarize_motion(mover.poses, mover.center, kLegTolerance * size_);
+      const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
+      page.motions.push_back(who + motion_words(motion, unit_, frame_.y_up));
+      add_vectors(motion, who, page.facts);
+    }
+    if (step.movers.empty()) page.motions.emplace_back("it is apart already: nothing has to move");
+    if (index == 0 && !options_.disassembly) page.facts.emplace_back("start with", names_of(chapter.base));
+    if (index == 0 && options_.disassembly && chapter.letter >= 0)
+      page.facts.emplace_back("of", names_of(chapter.parts));
+    for (const PlanStep& s : plan_.disassembly) {
+      if (s.step != step.plan_step) continue;
+      if (!s.contacts.empty()) page.facts.emplace_back("touches", text::joined(s.contacts));
+      page.facts.emplace_back("step of the plan",
+                              fmt::format("{}{}", s.step, options_.disassembly ? "" : ", backwards"));
+    }
+    content_.pages.push_back(std::move(page));
+  }
+
+  void add_vectors(const MotionSummary& motion, const std::string& who, Facts& facts) const {
+    if (motion.length > 0 && motion.displacement.norm() > 1e-6 * size_) {
+      const Eigen::Vector3d d = motion.displacement.normalized();
+      const auto rounded = [](double x) { return std::round(1000 * x) / 1000 + 0.0; };
+      facts.emplace_back("direction",
+                         fmt::format("{}({}, {}, {})", who, rounded(d.x()), rounded(d.y()), rounded(d.z())));
+      facts.emplace_back("distance", fmt::format("{}{} {}", who, figure_text(motion.displacement.norm()), unit_));
+    }
+    if (motion.length > 1.01 * motion.displacement.norm())
+      facts.emplace_back("length of the path", fmt::format("{}{} {}", who, figure_text(motion.length), unit_));
+  }
+
+  const Plan& plan_;
+  const Assembly& assembly_;
+  const BookOptions& options_;
+  const InputFrame frame_;
+  const std::string unit_;
+  const double size_;
+  std::vector<std::size_t> item_of_;  // by part
+  BookContent content_;
+};
+
+}  // namespace
+
+BookContent book_content(const Plan& plan, const Assembly& assembly, const BookOptions& options,
+                         const std::vector<ShapePlacement>& shapes) {
+  return ContentWriter(plan, assembly, options, shapes).write();
+}
+
+}  // namespace dismantle

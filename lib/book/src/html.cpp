@@ -1,0 +1,135 @@
+// The book as HTML.
+#include <fmt/format.h>
+
+#include "canvas.h"
+#include "content.h"
+#include "dismantle/plan_io/base64.h"
+
+namespace dismantle {
+namespace {
+
+constexpr const char* kBookStyle = R"(
+:root { --ink: #20242c; --soft: #667085; --line: #d7dce3; --accent: #c2410c; --paper: #fff; }
+* { box-sizing: border-box; }
+body { margin: 0; background: #eef0f3; color: var(--ink); font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; }
+section { background: var(--paper); max-width: 1120px; margin: 18px auto; padding: 28px 34px; border-radius: 6px;
+  box-shadow: 0 1px 4px #0002; }
+h1 { font-size: 34px; margin: 0 0 4px; overflow-wrap: anywhere; }
+h2 { font-size: 22px; margin: 0 0 12px; }
+p { margin: 6px 0; }
+img { max-width: 100%; height: auto; display: block; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: 3px 14px; margin: 10px 0 0; font-size: 14px; }
+dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
+.soft { color: var(--soft); } .warning { border-left: 4px solid var(--accent); padding: 4px 12px; background: #fff4ec; }
+.title { display: grid; grid-template-columns: 1fr 1fr; gap: 24px; align-items: center; }
+.items { display: grid; grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); gap: 14px; }
+.item { border: 1px solid var(--line); border-radius: 6px; padding: 10px; break-inside: avoid; overflow-wrap: anywhere; font-size: 14px; }
+.badge { display: inline-block; min-width: 1.7em; text-align: center; border: 1.5px solid var(--ink); border-radius: 1em;
+  padding: 0 .4em; font-weight: 600; font-size: 13px; margin-right: 6px; }
+.count { float: right; font-weight: 600; }
+.head { display: flex; justify-content: space-between; gap: 20px; color: var(--soft); border-bottom: 1px solid var(--line);
+  padding-bottom: 6px; margin-bottom: 14px; }
+.step { display: grid; grid-template-columns: 2fr 1fr; gap: 22px; }
+.number { font-size: 44px; font-weight: 700; line-height: 1; }
+.do { font-size: 19px; margin: 10px 0; } .do .what { font-weight: 600; overflow-wrap: anywhere; }
+.motion { font-weight: 600; color: var(--accent); }
+.after { border: 1px solid var(--line); border-radius: 6px; padding: 6px; margin-top: 12px; }
+.after p { font-size: 13px; color: var(--soft); margin: 0 0 4px; }
+@media (max-width: 760px) { .step, .title { grid-template-columns: 1fr; } section { padding: 18px; } }
+@media print { @page { size: A4 landscape; margin: 9mm; } body { background: none; }
+  section { margin: 0; max-width: none; box-shadow: none; padding: 0; break-after: page; } section:last-child { break-after: auto; } }
+)";
+
+std::string html_text(const std::string& raw) {
+  std::string out;
+  for (const char c : raw) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out;
+}
+
+std::string img(const Picture& picture, const std::string& alt) {
+  return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
+                     picture.image.width, picture.image.height, html_text(alt), base64(png_of(picture)));
+}
+
+std::string facts_list(const Facts& facts) {
+  std::string out = "<dl>";
+  for (const auto& [name, value] : facts)
+    out += fmt::format("<dt>{}</dt><dd>{}</dd>", html_text(name), html_text(value));
+  return out + "</dl>";
+}
+
+std::string badge(std::size_t number) {
+  return number == 0 ? "" : fmt::format("<span class=\"badge\">{}</span>", number);
+}
+
+std::string step_page(const BookPage& page, const StepPictures& pictures, bool disassembly) {
+  std::string out = fmt::format(
+      "<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>step {} of {}</span></div>\n",
+      page.number, html_text(page.chapter), page.number, page.count);
+  std::string what;
+  for (const auto& [item, words] : page.moving)
+    what += fmt::format("<div class=\"what\">{}{}</div>", badge(item), html_text(words));
+  std::string motions;
+  for (const std::string& motion : page.motions)
+    motions += fmt::format("<p class=\"motion\">{}</p>", html_text(motion));
+  out += fmt::format("<div class=\"step\"><div>{}{}</div>\n", img(pictures.apart, "the motion of this step"),
+                     caption_of(pictures).empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", caption_of(pictures)));
+  out += fmt::format("<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, page.verb,
+                     what, motions, facts_list(page.facts));
+  out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n", disassembly ? "before" : "after",
+                     img(pictures.placed, disassembly ? "before this step" : "after this step"));
+  return out;
+}
+
+}  // namespace
+
+std::string book_html(const Plan& plan, const Assembly& assembly, const BookOptions& options) {
+  const Illustrator illustrator(assembly, options.frame.y_up);
+  const BookContent content = book_content(plan, assembly, options, illustrator.shapes());
+  const BookPictures fronts = front_pictures(plan, assembly, illustrator);
+
+  std::string out = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+      "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
+      html_text(content.title), kBookStyle);
+  std::string warnings;
+  for (const std::string& w : content.warnings) warnings += fmt::format("<p class=\"warning\">{}</p>", html_text(w));
+  out += fmt::format("<section><h1>{}</h1><p class=\"soft\">{}</p>{}\n<div class=\"title\">{}{}</div>{}</section>\n",
+                     html_text(content.title), content.subtitle, warnings, img(fronts.whole, "the assembly"),
+                     img(fronts.exploded, "the assembly, exploded"), facts_list(content.facts));
+  out += "<section><h2>Bill of materials</h2><div class=\"items\">\n";
+  for (const BookItem& item : content.items) {
+    std::string names;
+    for (const std::size_t i : item.parts) names += (names.empty() ? "" : ", ") + assembly.parts[i].name;
+    out += fmt::format(
+        "<div class=\"item\"><span class=\"count\">{} ×</span>{}{}<div><strong>{}</strong></div>{}"
+        "<div class=\"soft\">{}</div></div>\n",
+        item.parts.size(), badge(item.number),
+        img(illustrator.part(item.parts.front(), kItemWidth, kItemHeight), item.name), html_text(item.name),
+        item.parts.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", html_text(names)) : "",
+        html_text(item.size));
+  }
+  out += "</div></section>\n";
+  for (const BookPage& page : content.pages) {
+    options.on_page(page.number, page.count);
+    out += step_page(
+        page, illustrator.step(*page.step, options.disassembly, kStepWidth, kStepHeight, kPlacedWidth, kPlacedHeight),
+        options.disassembly);
+  }
+  return out + "</body>\n</html>\n";
+}
+
+}  // namespace dismantle

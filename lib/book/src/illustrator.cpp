@@ -1,0 +1,263 @@
+#include "illustrator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "dismantle/plan_io/explode.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kBookCrease = 30.0 * std::numbers::pi / 180.0;
+constexpr double kMargin = 1.12;     // of what is shown, around it
+constexpr double kSmallest = 0.14;   // share of a picture that what moves has to take
+constexpr double kFurthest = 1.1;    // of the size of what stands: no part is shown further away from its place
+constexpr double kNearest = 0.16;    // of that size: and none nearer to it
+constexpr double kSpeck = 0.07;      // of a picture's width: what is smaller gets a circle
+constexpr double kBetterView = 1.5;  // times as much of the part has to be seen before the side changes
+const Eigen::Vector3f kAccent(0.98f, 0.62f, 0.10f);
+
+/// Paler, so that what moves stands out.
+Eigen::Vector3f pale(const Eigen::Vector3f& c) { return 0.55f * c + Eigen::Vector3f::Constant(0.45f); }
+
+}  // namespace
+
+std::string Viewpoint::words() const {
+  return std::string("from the ") + (back ? "back " : "front ") + (left ? "left" : "right") +
+         (below ? ", from below" : "");
+}
+
+Illustrator::Illustrator(const Assembly& assembly, bool y_up)
+    : assembly_(assembly), y_up_(y_up), placements_(find_congruent(assembly.parts)) {
+  std::set<std::array<int, 3>> different;
+  for (const Part& part : assembly.parts)
+    if (part.colour) different.insert({part.colour->r, part.colour->g, part.colour->b});
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
+    const Part& part = assembly.parts[i];
+    centers_.push_back(assembly.normalization.to_input(part.mesh->box().center()));
+    meshes_.emplace_back();
+    if (placements_[i].original == i) {
+      Mesh local = *part.mesh;
+      for (auto& v : local.vertices) v = assembly.normalization.to_input(v) - centers_[i];
+      meshes_.back() = shade(local, kBookCrease);
+    }
+    // A CAD program that gives every part the same colour has given none.
+    Eigen::Vector3f colour(0.62f, 0.68f, 0.75f);
+    if (part.colour && different.size() > 1)
+      colour = Eigen::Vector3f(part.colour->r, part.colour->g, part.colour->b) / 255.0f;
+    colours_.push_back(0.8f * colour + Eigen::Vector3f::Constant(0.14f));  // edges show on black parts too
+  }
+}
+
+DrawnBody Illustrator::body_of(const PlacedPart& placed, bool marked) const {
+  const ShapePlacement& placement = placements_[placed.part];
+  const Pose shape = assembly_.normalization.pose_to_input(placement.pose);
+  const Pose local{centers_[placement.original], Eigen::Quaterniond::Identity()};
+  return {&meshes_[placement.original], placed.pose * shape * local, marked ? kAccent : pale(colours_[placed.part]),
+          marked};
+}
+
+Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view) const {
+  // Z up, seen from -Y; then turned for input with Y up.
+  const Eigen::Vector3d viewer =
+      Eigen::Vector3d(view.left ? -0.62 : 0.62, view.back ? 0.78 : -0.78, view.below ? -0.62 : 0.62).normalized();
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(viewer).normalized();
+  Eigen::Matrix3d axes;
+  axes << right.transpose(), viewer.cross(right).transpose(), viewer.transpose();
+  if (!y_up_) return axes;
+  const double half = std::numbers::sqrt2 / 2;
+  return axes * Eigen::Quaterniond(half, half, 0, 0).toRotationMatrix();  // from Y up to Z up
+}
+
+std::vector<Eigen::Vector3d> Illustrator::corners(const std::vector<PlacedPart>& parts) const {
+  std::vector<Eigen::Vector3d> out;
+  for (const PlacedPart& placed : parts) {
+    const DrawnBody body = body_of(placed, false);
+    for (const auto& v : body.mesh->positions) out.push_back(body.pose * v.cast<double>());
+  }
+  return out;
+}
+
+Camera Illustrator::camera_for(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix3d& axes, int width,
+                               int height) const {
+  Aabb box;
+  for (const auto& p : points) box.extend(axes * p);
+  Camera out;
+  out.axes = axes;
+  if (box.empty()) return out;
+  out.target = axes.transpose() * box.center();
+  const Eigen::Vector3d size = kMargin * box.size().cwiseMax(1e-9 * box.size().maxCoeff() + 1e-300);
+  out.scale = std::min(width / size.x(), height / size.y());
+  return out;
+}
+
+Picture Illustrator::scene(const std::vector<PlacedPart>& parts, int width, int height) const {
+  std::vector<DrawnBody> bodies;
+  for (const PlacedPart& placed : parts) {
+    bodies.push_back(body_of(placed, false));
+    bodies.back().colour = colours_[placed.part];
+  }
+  return {draw(bodies, camera_for(corners(parts), axes_of({}), width, height), width, height), {}, {}};
+}
+
+void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const {
+  const int width = picture.image.width, height = picture.image.height;
+  Aabb box;
+  for (const auto& p : corners(parts)) box.extend(camera.project(p, width, height));
+  const double radius = box.empty() ? 0 : 0.5 * box.size().head<2>().norm();
+  if (radius > 0 && 2 * radius < kSpeck * width)
+    picture.rings.emplace_back(box.center().head<2>(), radius + 0.02 * width);
+}
+
+Picture Illustrator::part(std::size_t index, int width, int height) const {
+  return scene({{index, Pose{}}}, width, height);
+}
+
+std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
+                                               const std::vector<std::size_t>& pose_indices) const {
+  std::vector<PlacedPart> out;
+  for (std::size_t m = 0; m < step.movers.size(); ++m)
+    for (const std::size_t part : step.movers[m].parts) out.push_back({part, step.movers[m].poses[pose_indices[m]]});
+  return out;
+}
+
+Eigen::Vector3d Illustrator::stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const {
+  const Eigen::Vector3d from = mover.poses[place] * mover.center, to = mover.poses[away] * mover.center;
+  const double distance = (to - from).norm();
+  if (distance >= kNearest * extent || !(distance > 1e-6 * extent)) return Eigen::Vector3d::Zero();
+  return (kNearest * extent / distance - 1) * (to - from);
+}
+
+Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedPart>& away,
+                                 const std::vector<PlacedPart>& placed) const {
+  constexpr int kWidth = 160, kHeight = 120;
+  const auto seen = [&](const std::vector<PlacedPart>& movers, const Viewpoint& view) {
+    std::vector<DrawnBody> bodies, alone;
+    std::vector<PlacedPart> all = step.standing;
+    all.insert(all.end(), movers.begin(), movers.end());
+    for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
+    for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
+    for (const PlacedPart& p : movers) alone.push_back(body_of(p, true));
+    // Near the moving parts: in a picture of the whole, a screw is less than a pixel.
+    const Camera camera = camera_for(corners(movers), axes_of(view), kWidth, kHeight);
+    const std::size_t whole = visible_pixels(alone, camera, kWidth, kHeight);
+    return whole == 0 ? 0.0 : double(visible_pixels(bodies, camera, kWidth, kHeight)) / double(whole);
+  };
+  Viewpoint best;
+  double most = 0;
+  for (const bool below : {false, true})
+    for (const bool back : {false, true})
+      for (const bool left : {false, true}) {
+        const Viewpoint view{left, back, below};
+        const double score = seen(placed, view) + 0.7 * seen(away, view);
+        if (view.usual() || score > kBetterView * most) {
+          best = view;
+          most = std::max(score, 0.05);
+        }
+      }
+  return best;
+}
+
+StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width, int height, int small_width,
+                               int small_height) const {
+  // Which pose shows a part in its place, and which away from it: the end of its path unless that is very far.
+  std::vector<std::size_t> at_place, at_away;
+  double extent = 0;
+  Aabb standing;
+  for (const PlacedPart& p : step.standing)
+    for (const auto& v : corners({p})) standing.extend(v);
+  for (const BookMover& mover : step.movers) {
+    Aabb own;
+    for (const std::size_t part : mover.parts)
+      for (const auto& v : corners({{part, disassembly ? mover.poses.front() : mover.poses.back()}})) own.extend(v);
+    standing.extend(own);
+  }
+  if (!standing.empty()) extent = standing.size().norm();
+  for (const BookMover& mover : step.movers) {
+    const std::size_t last = mover.poses.size() - 1, place = disassembly ? 0 : last;
+    std::size_t away = disassembly ? last : 0;
+    const Eigen::Vector3d goal = mover.poses[place] * mover.center;
+    for (std::size_t k = 0; k <= last; ++k) {  // from the place outwards
+      const std::size_t at = disassembly ? k : last - k;
+      if ((mover.poses[at] * mover.center - goal).norm() < kFurthest * extent) continue;
+      away = at;
+      break;
+    }
+    at_place.push_back(place);
+    at_away.push_back(away);
+  }
+  auto away = movers_at(step, at_away);
+  const auto placed = movers_at(step, at_place);
+  StepPictures out;
+  std::vector<Eigen::Vector3d> further;
+  for (std::size_t m = 0, p = 0; m < step.movers.size(); ++m) {
+    further.push_back(stretch(step.movers[m], at_away[m], at_place[m], extent));
+    out.stretched = out.stretched || !further.back().isZero(0);
+    for (std::size_t k = 0; k < step.movers[m].parts.size(); ++k) away[p++].pose.t += further.back();
+  }
+  out.view = best_view(step, away, placed);
+  const Eigen::Matrix3d axes = axes_of(out.view);
+  const auto bodies_with = [&](const std::vector<PlacedPart>& movers) {
+    std::vector<DrawnBody> bodies;
+    for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
+    for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
+    return bodies;
+  };
+
+  // All that stands and all that moves, or nearer where what moves would be a speck.
+  std::vector<Eigen::Vector3d> moving = corners(away);
+  const auto there = corners(placed);
+  moving.insert(moving.end(), there.begin(), there.end());
+  std::vector<Eigen::Vector3d> all = corners(step.standing);
+  all.insert(all.end(), moving.begin(), moving.end());
+  Camera camera = camera_for(all, axes, width, height);
+  const Camera near = camera_for(moving, axes, width, height);
+  if (camera.scale < kSmallest * near.scale) {
+    camera = near;
+    camera.scale *= 2 * kSmallest;
+  }
+  out.apart.image = draw(bodies_with(away), camera, width, height);
+  for (std::size_t m = 0; m < step.movers.size(); ++m) {
+    const BookMover& mover = step.movers[m];
+    std::vector<Eigen::Vector2d> line;
+    const std::size_t from = std::min(at_away[m], at_place[m]), to = std::max(at_away[m], at_place[m]);
+    for (std::size_t k = from; k <= to; ++k)
+      line.push_back(camera.project(mover.poses[k] * mover.center, width, height).head<2>());
+    const Eigen::Vector3d end = mover.poses[at_away[m]] * mover.center + further[m];
+    line.insert(disassembly ? line.end() : line.begin(), camera.project(end, width, height).head<2>());
+    out.apart.arrows.push_back(std::move(line));
+  }
+  ring_specks(out.apart, away, camera);
+  std::vector<Eigen::Vector3d> whole = corners(step.standing);
+  whole.insert(whole.end(), there.begin(), there.end());
+  const Camera around = camera_for(whole, axes, small_width, small_height);
+  out.placed.image = draw(bodies_with(placed), around, small_width, small_height);
+  ring_specks(out.placed, placed, around);
+  return out;
+}
+
+std::string caption_of(const StepPictures& pictures) {
+  std::string out = pictures.view.usual() ? "" : "seen " + pictures.view.words();
+  if (pictures.stretched) out += (out.empty() ? "" : "; ") + std::string("drawn further apart than needed");
+  return out;
+}
+
+BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator) {
+  const std::vector<Eigen::Vector3d> offsets = exploded_offsets(plan, assembly);
+  std::map<std::string, std::size_t> index_of;
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) index_of.emplace(assembly.parts[i].name, i);
+  std::vector<PlacedPart> whole, exploded;
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const std::size_t part = index_of.at(plan.assembly.parts[i].name);
+    whole.push_back({part, Pose{}});
+    exploded.push_back({part, {offsets[i], Eigen::Quaterniond::Identity()}});
+  }
+  return {illustrator.scene(whole, kFrontWidth, kFrontHeight), illustrator.scene(exploded, kFrontWidth, kFrontHeight)};
+}
+
+}  // namespace dismantle

@@ -1,0 +1,92 @@
+/// Pictures of parts: what to look at from where, and the line along which they move.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/plan.h"
+#include "dismantle/plan_io/congruent.h"
+#include "instructions.h"
+#include "raster.h"
+
+namespace dismantle {
+
+/// A drawing with lines over it, in pixels of the image.
+struct Picture {
+  Image image;
+  /// Dashed; the last point has an arrow head. Empty: none.
+  std::vector<std::vector<Eigen::Vector2d>> arrows;
+  /// Middle and radius of circles around what would be overlooked.
+  std::vector<std::pair<Eigen::Vector2d, double>> rings;
+};
+
+/// A corner of the box around the assembly from which it is looked at.
+struct Viewpoint {
+  bool left = false, back = false, below = false;
+  bool usual() const { return !left && !back && !below; }
+  /// "from the back left, below"
+  std::string words() const;
+};
+
+struct StepPictures {
+  Picture apart;   ///< the moving parts away from their place, and the line between
+  Picture placed;  ///< in their place
+  Viewpoint view;
+  bool stretched = false;  ///< parts are drawn further from their place than the plan takes them
+};
+
+/// Pixels of the pictures of a book.
+inline constexpr int kStepWidth = 760, kStepHeight = 570, kPlacedWidth = 360, kPlacedHeight = 240, kItemWidth = 200,
+                     kItemHeight = 140, kFrontWidth = 520, kFrontHeight = 420;
+
+/// "seen from the back left; drawn further apart than needed", or nothing.
+std::string caption_of(const StepPictures& pictures);
+
+class Illustrator;
+
+/// Of the title page.
+struct BookPictures {
+  Picture whole, exploded;
+};
+/// @throws InputError when the plan names a part that the assembly does not have.
+BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Illustrator& illustrator);
+
+class Illustrator {
+ public:
+  Illustrator(const Assembly& assembly, bool y_up);
+
+  /// The parts at these places, from the usual side; with `height` of the picture filled.
+  Picture scene(const std::vector<PlacedPart>& parts, int width, int height) const;
+  /// One part as assembled.
+  Picture part(std::size_t index, int width, int height) const;
+  StepPictures step(const BookStep& step, bool disassembly, int width, int height, int small_width,
+                    int small_height) const;
+  /// By part: the first part of its shape.
+  const std::vector<ShapePlacement>& shapes() const { return placements_; }
+
+ private:
+  DrawnBody body_of(const PlacedPart& placed, bool marked) const;
+  Eigen::Matrix3d axes_of(const Viewpoint& view) const;
+  Camera camera_for(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix3d& axes, int width,
+                    int height) const;
+  std::vector<Eigen::Vector3d> corners(const std::vector<PlacedPart>& parts) const;
+  /// Circles around those of `parts` that are specks in a picture of this width.
+  void ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const;
+  std::vector<PlacedPart> movers_at(const BookStep& step, const std::vector<std::size_t>& pose_indices) const;
+  /// How much further than at pose `away` a mover has to be drawn for its motion from `place` to show, input units.
+  Eigen::Vector3d stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const;
+  Viewpoint best_view(const BookStep& step, const std::vector<PlacedPart>& away,
+                      const std::vector<PlacedPart>& placed) const;
+
+  const Assembly& assembly_;
+  bool y_up_;
+  std::vector<ShapePlacement> placements_;
+  std::vector<ShadedMesh> meshes_;        // by part; empty but for originals
+  std::vector<Eigen::Vector3d> centers_;  // by part: what its mesh counts from, input units
+  std::vector<Eigen::Vector3f> colours_;  // by part, sRGB
+};
+
+}  // namespace dismantle

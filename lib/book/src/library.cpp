@@ -1,0 +1,10 @@
+#include "dismantle/book/book.h"
+
+namespace dismantle {
+
+const BookLibrary* dismantle_book_library() {
+  static constexpr BookLibrary kLibrary{book_html, book_pdf};
+  return &kLibrary;
+}
+
+}  // namespace dismantle

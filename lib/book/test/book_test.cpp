@@ -1,0 +1,191 @@
+// Instructions put every part in once, sub-assemblies first, and end as assembled; the pages say it in HTML and PDF.
+#include "dismantle/book/book.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "dismantle/errors.h"
+#include "dismantle/testing/shapes.h"
+#include "instructions.h"
+
+namespace dismantle {
+namespace {
+
+/// Boxes of several sizes in a row, in input units of 0.1 and away from the origin.
+Assembly row_of(std::size_t count) {
+  Assembly a;
+  a.normalization = {10, {5, 6, 7}};
+  for (std::size_t i = 0; i < count; ++i) {
+    Part part;
+    part.id = static_cast<PartId>(i);
+    part.name = "p" + std::to_string(i);
+    part.file = part.name + ".obj";
+    const double x = 3.0 * double(i), edge = 1 + 0.25 * double(i % 3);
+    part.mesh = part.surface = std::make_shared<Mesh>(shapes::box({x, 0, 0}, {x + edge, edge, edge}));
+    for (const auto& v : part.mesh->vertices) a.input_box.extend(a.normalization.to_input(v));
+    a.parts.push_back(part);
+  }
+  return a;
+}
+
+std::vector<Pose> path_from(const Pose& begin, const Pose& end, std::size_t n) {
+  std::vector<Pose> out;
+  for (std::size_t i = 0; i < n; ++i) out.push_back(screw_interpolate(begin, end, double(i) / double(n - 1)));
+  return out;
+}
+
+/// A plan that takes groups apart at random: each step moves some parts of a group away as a whole, rigidly.
+Plan random_plan(const Assembly& assembly, std::mt19937& random) {
+  Plan plan;
+  plan.assembly.source = "row/";
+  plan.assembly.scale = assembly.normalization.scale;
+  plan.assembly.center = assembly.normalization.center;
+  plan.assembly.box = assembly.input_box;
+  for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, part.file});
+  std::vector<std::vector<std::size_t>> groups(1);
+  for (std::size_t i = 0; i < assembly.parts.size(); ++i) groups[0].push_back(i);
+  std::map<std::size_t, Pose> now;
+  std::uniform_real_distribution<double> any(-1, 1);
+  while (true) {
+    std::vector<std::size_t> open;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (groups[g].size() > 1) open.push_back(g);
+    if (open.empty()) break;
+    auto& group = groups[open[random() % open.size()]];
+    std::ranges::shuffle(group, random);
+    const std::size_t count = 1 + random() % (group.size() - 1);
+    const Pose away{{any(random), any(random), any(random)},
+                    Eigen::Quaterniond(2, any(random), any(random), any(random)).normalized()};
+    PlanStep step;
+    step.step = static_cast<unsigned>(plan.disassembly.size() + 1);
+    step.separates.emplace_back();
+    std::vector<std::size_t> out(group.end() - static_cast<std::ptrdiff_t>(count), group.end());
+    group.resize(group.size() - count);
+    for (const std::size_t i : out) {
+      step.separates.back().push_back(assembly.parts[i].name);
+      step.moves.push_back({assembly.parts[i].name, {}});
+      for (const Pose& p : path_from(Pose{}, away, 5)) step.moves.back().poses.push_back(p * now[i]);
+      now[i] = step.moves.back().poses.back();
+    }
+    groups.push_back(std::move(out));
+    plan.disassembly.push_back(std::move(step));
+  }
+  plan.status = PlanStatus::complete;
+  return plan;
+}
+
+TEST(Instructions, EachPartJoinsOnceAndEndsWhereItBelongs) {
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Assembly assembly = row_of(2 + trial % 9);
+    const Plan plan = random_plan(assembly, random);
+    const auto chapters = instructions(plan, assembly, false);
+    std::set<std::vector<std::size_t>> built;  // sub-assemblies that are ready
+    std::size_t steps = 0;
+    for (const BookChapter& chapter : chapters) {
+      std::vector<std::size_t> together = chapter.base;
+      for (const BookStep& step : chapter.steps) {
+        ++steps;
+        ASSERT_EQ(step.movers.size(), 1u);
+        const auto& joins = step.movers[0].parts;
+        if (joins.size() > 1) {
+          EXPECT_TRUE(built.contains(joins)) << "a sub-assembly is put in before it is built";
+        }
+        std::vector<std::size_t> standing;
+        for (const PlacedPart& p : step.standing) {
+          standing.push_back(p.part);
+          EXPECT_TRUE(p.pose.is_identity(1e-9)) << "what stands is as assembled, whatever was moved before";
+        }
+        std::ranges::sort(together);
+        EXPECT_EQ(standing, together);
+        EXPECT_TRUE(step.movers[0].poses.back().is_identity(1e-9)) << "it ends in its place";
+        EXPECT_FALSE(step.movers[0].poses.front().is_identity(1e-3));
+        together.insert(together.end(), joins.begin(), joins.end());
+      }
+      std::ranges::sort(together);
+      EXPECT_EQ(together, chapter.parts);
+      built.insert(chapter.parts);
+    }
+    EXPECT_EQ(steps, plan.disassembly.size());
+    EXPECT_EQ(chapters.back().parts.size(), assembly.parts.size());
+    EXPECT_EQ(chapters.back().letter, -1);
+  }
+}
+
+TEST(Instructions, TakingApartIsTheSameBackwards) {
+  std::mt19937 random(12);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Assembly assembly = row_of(2 + trial % 7);
+    const Plan plan = random_plan(assembly, random);
+    std::multiset<unsigned> forward, backward;
+    std::map<unsigned, std::size_t> place;
+    const auto chapters = instructions(plan, assembly, true);
+    EXPECT_EQ(chapters.front().letter, -1) << "the whole comes apart first";
+    for (const BookChapter& chapter : chapters) {
+      for (std::size_t s = 1; s < chapter.steps.size(); ++s)
+        EXPECT_LT(chapter.steps[s - 1].plan_step, chapter.steps[s].plan_step);
+      for (const BookStep& step : chapter.steps) {
+        forward.insert(step.plan_step);
+        EXPECT_TRUE(step.movers.at(0).poses.front().is_identity(1e-9));
+      }
+    }
+    for (const BookChapter& chapter : instructions(plan, assembly, false))
+      for (const BookStep& step : chapter.steps) backward.insert(step.plan_step);
+    EXPECT_EQ(forward, backward);
+    EXPECT_EQ(forward.size(), plan.disassembly.size());
+  }
+}
+
+BookOptions options_with(const std::string& title) {
+  BookOptions out;
+  out.title = title;
+  return out;
+}
+
+TEST(Book, HtmlHasAPagePerStepAndNamesEveryPart) {
+  std::mt19937 random(13);
+  const Assembly assembly = row_of(5);
+  Plan plan = random_plan(assembly, random);
+  BookOptions options;
+  options.title = "<b>&\"title\"";
+  std::size_t pages = 0;
+  options.on_page = [&](std::size_t page, std::size_t count) {
+    EXPECT_EQ(page, ++pages);
+    EXPECT_EQ(count, plan.disassembly.size());
+  };
+  const std::string html = book_html(plan, assembly, options);
+  EXPECT_EQ(pages, plan.disassembly.size());
+  EXPECT_NE(html.find("<h1>&lt;b&gt;&amp;&quot;title&quot;</h1>"), std::string::npos);
+  std::size_t sections = 0;
+  for (std::size_t at = html.find("<section"); at != std::string::npos; at = html.find("<section", at + 1)) ++sections;
+  EXPECT_EQ(sections, 2 + pages);
+  for (const Part& part : assembly.parts) EXPECT_NE(html.find(part.name), std::string::npos);
+  // p0 and p3, p1 and p4 are the same boxes.
+  EXPECT_NE(html.find("5, 3 shapes"), std::string::npos);
+  EXPECT_EQ(html.find("http"), html.find("http-equiv")) << "no address of any host";
+  EXPECT_EQ(html, book_html(plan, assembly, options_with(options.title)));
+}
+
+TEST(Book, PdfHasAPagePerStep) {
+  std::mt19937 random(14);
+  const Assembly assembly = row_of(4);
+  const Plan plan = random_plan(assembly, random);
+  const std::string pdf = book_pdf(plan, assembly, {});
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  EXPECT_NE(pdf.find("/Count " + std::to_string(2 + plan.disassembly.size())), std::string::npos);
+}
+
+TEST(Book, APlanWithoutStepsIsRefused) {
+  const Assembly assembly = row_of(2);
+  Plan plan;
+  for (const Part& part : assembly.parts) plan.assembly.parts.push_back({part.id, part.name, part.file});
+  EXPECT_THROW(book_html(plan, assembly, {}), InputError);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,34 @@
+/// Length and up axis of an assembly's input: what turns its coordinates into those of glTF (metres, Y up).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dismantle/assembly.h"
+#include "dismantle/export.h"
+#include "dismantle/plan.h"
+
+namespace dismantle {
+
+struct InputFrame {
+  std::string unit;         ///< "mm", "inch"...
+  bool unit_known = false;  ///< false: the files name none, and `unit` is the usual one of CAD, "mm" (of glTF: "m")
+  double metres = 1e-3;     ///< per input unit, > 0
+  bool y_up = false;        ///< input from glTF; all else counts as Z up, as CAD has it
+
+  Eigen::Vector3d up() const { return y_up ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ(); }
+  /// Turns input axes to those of glTF.
+  Eigen::Quaterniond to_y_up() const;
+};
+
+/// Metres in a unit that importers name: um, mm, cm, dm, m, km, mil, inch, foot, mile.
+/// @throws InputError for another one, with the list.
+DISMANTLE_API double metres_in(std::string_view unit);
+
+/// @throws InputError as metres_in().
+DISMANTLE_API InputFrame input_frame(const Assembly& assembly);
+DISMANTLE_API InputFrame input_frame(const PlanAssembly& assembly);
+
+}  // namespace dismantle

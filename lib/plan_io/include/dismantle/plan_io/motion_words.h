@@ -1,0 +1,40 @@
+/// The motion of a part in numbers and in words.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "dismantle/export.h"
+#include "dismantle/pose.h"
+
+namespace dismantle {
+
+struct MotionSummary {
+  /// Displacements of the point along the straight legs of its path, input units. Empty when it stays where it is.
+  std::vector<Eigen::Vector3d> legs;
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< from begin to end, input units
+  double length = 0;                                       ///< of the path of the point, input units
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();         ///< unit; of the turn, by the right-hand rule
+  double turn = 0;                                         ///< rad, >= 0, full turns counted
+};
+
+/// The path of `point` (assembled frame), simplified by the rule of Douglas and Peucker (Cartographica 10(2), 1973): no
+/// pose's point is further than `tolerance` (input units, > 0) from the legs.
+DISMANTLE_API MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point,
+                                             double tolerance);
+
+/// Three significant digits, without an exponent for what people measure: "1270", "18.3", "0.05".
+DISMANTLE_API std::string figure_text(double x);
+
+/// "up (+Z)", "left and down (-0.71, 0, -0.71)": the axes of the assembly seen by someone who stands before it. `y_up`:
+/// the input has Y up and is seen from +Z; otherwise Z is up and it is seen from -Y. `direction` need not be a unit
+/// vector.
+/// @throws Error for a direction without length.
+DISMANTLE_API std::string direction_words(const Eigen::Vector3d& direction, bool y_up);
+
+/// "40 mm down (-Z), then 3 mm left (-X)", "15 mm down (-Z), turning clockwise by 5 turns": one phrase. Clockwise is
+/// seen along the motion, or along the axis that is named. `unit` may be empty.
+DISMANTLE_API std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up);
+
+}  // namespace dismantle

@@ -1,0 +1,80 @@
+// The steps of a plan as Markdown.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/motion_words.h"
+#include "dismantle/plan_io/text_columns.h"
+#include "export/dot_text.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kStraight = 0.01;  // of the assembly's largest edge: what a leg of a path may leave out
+
+/// A cell of a table: no line breaks, nothing that Markdown or HTML would take for its own.
+std::string markdown_text(const std::string& raw) {
+  std::string out;
+  for (const char c : utf8_text(raw)) {
+    if (std::string_view("\\`*_[]<>|~&#").find(c) != std::string_view::npos) out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return out;
+}
+
+std::string steps_list(const std::vector<unsigned>& steps) {
+  std::string out;
+  for (const unsigned s : steps) out += fmt::format("{}{}", out.empty() ? "" : ", ", s);
+  return out.empty() ? "-" : out;
+}
+
+}  // namespace
+
+std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
+  const PlanAssembly& a = plan.assembly;
+  const std::string unit = frame.unit_known ? frame.unit : "units";
+  const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
+  const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
+
+  std::string out = fmt::format(
+      "# {}\n\n{}, {}, {}.\n\n", markdown_text(a.source), text::counted(a.parts.size(), "part"),
+      text::counted(plan.disassembly.size(), "step"),
+      plan.status == PlanStatus::complete ? "complete: all parts come apart" : "partial: not all parts come apart");
+  if (!plan.disassembly.empty()) {
+    out +=
+        "| step | parts | motion | waits for | touches | cuts in at most |\n"
+        "|---:|---|---|---|---|---:|\n";
+    for (const PlanStep& step : plan.disassembly) {
+      std::string motion = "-";
+      if (!step.moves.empty())
+        motion = motion_words(summarize_motion(step.moves.front().poses, middle, kStraight * size), unit, frame.y_up);
+      const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
+      out +=
+          fmt::format("| {} | {}{} | {} | {} | {} | {:.2g} |\n", step.step, markdown_text(text::names_of(step)), what,
+                      markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
+                      step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)), step.max_penetration);
+    }
+    out += fmt::format(
+        "\nMotions are those of the first part named, at the assembly's middle. Depths are in assembly units, of which "
+        "the "
+        "largest edge has {:.3g}; {:.2g} are allowed.\n",
+        size * a.scale, plan.verified_max_penetration);
+  }
+  if (!plan.remaining.empty()) out += fmt::format("\nStays: {}.\n", markdown_text(text::joined(plan.remaining)));
+  if (!plan.unsolved.empty()) {
+    out += "\n| not out | outcome | blocked by | said |\n|---|---|---|---|\n";
+    for (const PlanUnsolved& u : plan.unsolved)
+      out += fmt::format("| {} | {} | {} | {} |\n", markdown_text(u.part),
+                         markdown_text(std::string(to_string(u.outcome))), markdown_text(text::joined(u.blocked_by)),
+                         markdown_text(u.message));
+  }
+  if (!a.excluded.empty()) {
+    out += "\n| left out | reason |\n|---|---|\n";
+    for (const auto& [name, reason] : a.excluded)
+      out += fmt::format("| {} | {} |\n", markdown_text(name), markdown_text(reason));
+  }
+  return out;
+}
+
+}  // namespace dismantle

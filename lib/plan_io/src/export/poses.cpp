@@ -1,0 +1,87 @@
+// Poses with times, as CSV and JSON.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "dismantle/plan_io/exports.h"
+#include "export/dot_text.h"
+#include "json/json_text.h"
+#include "steps/timeline.h"
+
+namespace dismantle {
+namespace {
+
+/// Quoted where RFC 4180 asks for it.
+std::string csv_field(const std::string& raw) {
+  const std::string text = utf8_text(raw);
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + '"';
+}
+
+/// Whole microseconds: what the clamp and the shares of a step leave below is noise.
+double shown_time(double seconds) { return std::round(1e6 * seconds) / 1e6; }
+
+std::array<double, 7> numbers_of(const Pose& p) {
+  return {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()};
+}
+
+/// The steps that move something, as in Timeline::steps.
+std::vector<const PlanStep*> moving_steps(const std::vector<PlanStep>& steps) {
+  std::vector<const PlanStep*> out;
+  for (const PlanStep& step : steps)
+    if (!step.moves.empty()) out.push_back(&step);
+  return out;
+}
+
+void append_rows(std::string& out, const char* animation, const std::vector<PlanStep>& all, const Assembly& assembly) {
+  const Timeline line = timeline(all, assembly);
+  const auto steps = moving_steps(all);
+  for (std::size_t s = 0; s < steps.size(); ++s)
+    for (const PlanMove& move : steps[s]->moves)
+      for (std::size_t k = 0; k < move.poses.size(); ++k) {
+        out += fmt::format("{},{},{},{},{}", animation, steps[s]->step, csv_field(move.part), k,
+                           number_text(shown_time(line.steps[s].pose_times[k])));
+        for (const double x : numbers_of(move.poses[k])) out += ',' + number_text(x);
+        out += '\n';
+      }
+}
+
+nlohmann::ordered_json poses_of(const std::vector<PlanStep>& all, const Assembly& assembly) {
+  const Timeline line = timeline(all, assembly);
+  const auto steps = moving_steps(all);
+  auto out = nlohmann::ordered_json::array();
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    auto times = nlohmann::ordered_json::array(), moves = nlohmann::ordered_json::array();
+    for (const double t : line.steps[s].pose_times) times.push_back(shown_time(t));
+    for (const PlanMove& move : steps[s]->moves) {
+      auto poses = nlohmann::ordered_json::array();
+      for (const Pose& pose : move.poses) poses.push_back(numbers_of(pose));
+      moves.push_back({{"part", move.part}, {"poses", std::move(poses)}});
+    }
+    out.push_back({{"step", steps[s]->step}, {"times", std::move(times)}, {"moves", std::move(moves)}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string poses_csv(const Plan& plan, const Assembly& assembly) {
+  std::string out = "animation,step,part,pose,time,x,y,z,qw,qx,qy,qz\n";
+  append_rows(out, "disassembly", plan.disassembly, assembly);
+  append_rows(out, "assembly", plan.assembly_steps, assembly);
+  return out;
+}
+
+std::string poses_json(const Plan& plan, const Assembly& assembly, const InputFrame& frame) {
+  nlohmann::ordered_json out = {{"format", "dismantle.poses"}, {"version", 1}, {"source", plan.assembly.source}};
+  out["unit"] = frame.unit_known ? nlohmann::ordered_json(frame.unit) : nlohmann::ordered_json(nullptr);
+  out["disassembly"] = poses_of(plan.disassembly, assembly);
+  out["assembly"] = poses_of(plan.assembly_steps, assembly);
+  return json_text(out) + "\n";
+}
+
+}  // namespace dismantle

@@ -1,0 +1,136 @@
+#include "dismantle/plan_io/motion_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dismantle/errors.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kOneAxis = 0.996;   // cosine of 5 degrees: within, a direction is that of an axis
+constexpr double kNoticeable = 0.2;  // share of a unit direction below which an axis is not named
+constexpr double kTurned = 1.0;      // degrees below which a turn is not told
+constexpr std::size_t kManyLegs = 4;
+
+/// Appends the kept points of points[begin..end], without the first.
+void simplify(const std::vector<Eigen::Vector3d>& points, std::size_t begin, std::size_t end, double tolerance,
+              std::vector<Eigen::Vector3d>& kept) {
+  const Eigen::Vector3d a = points[begin], d = points[end] - a;
+  std::size_t furthest = begin;
+  double distance = tolerance;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const double u = d.squaredNorm() > 0 ? std::clamp((points[i] - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+    const double off = (points[i] - a - u * d).norm();
+    if (off > distance) {
+      distance = off;
+      furthest = i;
+    }
+  }
+  if (furthest == begin) {
+    kept.push_back(points[end]);
+    return;
+  }
+  simplify(points, begin, furthest, tolerance, kept);
+  simplify(points, furthest, end, tolerance, kept);
+}
+
+std::string turn_words(double turn) {
+  const double degrees = turn * 180 / std::numbers::pi;
+  if (degrees >= 719.5) return fmt::format("{} turns", figure_text(degrees / 360));
+  return fmt::format("{:.0f}°", degrees);
+}
+
+}  // namespace
+
+std::string figure_text(double x) {
+  if (x == 0) return "0";
+  const double size = std::abs(x);
+  if (size >= 1e6 || size < 1e-4) return fmt::format("{:.3g}", x);
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
+  std::string out = fmt::format("{:.{}f}", x, decimals);
+  if (out.find('.') != std::string::npos) {
+    out.erase(out.find_last_not_of('0') + 1);
+    if (out.back() == '.') out.pop_back();
+  }
+  return out;
+}
+
+MotionSummary summarize_motion(const std::vector<Pose>& poses, const Eigen::Vector3d& point, double tolerance) {
+  MotionSummary out;
+  if (poses.size() < 2) return out;
+  std::vector<Eigen::Vector3d> points;
+  for (const Pose& pose : poses) points.push_back(pose * point);
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+  double gross = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    out.length += (points[i] - points[i - 1]).norm();
+    const Eigen::Vector3d w = rotation_vector((poses[i].q * poses[i - 1].q.conjugate()).normalized());
+    turned += w;
+    gross += w.norm();
+  }
+  out.displacement = points.back() - points.front();
+  // Turns that take each other back are no turn.
+  out.turn = turned.norm();
+  if (out.turn > 1e-3 * gross && out.turn > 0) out.axis = turned / out.turn;
+  std::vector<Eigen::Vector3d> kept{points.front()};
+  simplify(points, 0, points.size() - 1, tolerance, kept);
+  for (std::size_t i = 1; i < kept.size(); ++i)
+    if (const Eigen::Vector3d leg = kept[i] - kept[i - 1]; leg.norm() > tolerance || kept.size() > 2)
+      out.legs.push_back(leg);
+  if (out.legs.empty() && out.displacement.norm() > 0 && !(out.turn * 180 / std::numbers::pi > kTurned))
+    out.legs.push_back(out.displacement);  // short, but all that there is
+  return out;
+}
+
+std::string direction_words(const Eigen::Vector3d& direction, bool y_up) {
+  const double length = direction.norm();
+  if (!(length > 0) || !std::isfinite(length)) throw Error("a direction without length has no words");
+  const Eigen::Vector3d d = direction / length;
+  // Right, back, up: for Z up seen from -Y, for Y up seen from +Z.
+  struct Axis {
+    Eigen::Index k;
+    const char *plus, *minus;
+  };
+  const Axis axes[3] = {{y_up ? 1 : 2, "up", "down"},
+                        {0, "right", "left"},
+                        {y_up ? 2 : 1, y_up ? "to the front" : "to the back", y_up ? "to the back" : "to the front"}};
+  for (const Axis& axis : axes)
+    if (std::abs(d[axis.k]) > kOneAxis)
+      return fmt::format("{} ({}{})", d[axis.k] > 0 ? axis.plus : axis.minus, d[axis.k] > 0 ? '+' : '-', "XYZ"[axis.k]);
+  std::string words;
+  for (const Axis& axis : axes)
+    if (std::abs(d[axis.k]) > kNoticeable)
+      words += (words.empty() ? "" : " and ") + std::string(d[axis.k] > 0 ? axis.plus : axis.minus);
+  const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
+  return fmt::format("{} ({}, {}, {})", words, rounded(d.x()), rounded(d.y()), rounded(d.z()));
+}
+
+std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up) {
+  const std::string of_unit = unit.empty() ? "" : " " + unit;
+  std::string out;
+  if (motion.legs.size() > kManyLegs) {
+    out = fmt::format("along the line that is drawn, {}{} in all", figure_text(motion.length), of_unit);
+    if (motion.displacement.norm() > 1e-3 * motion.length)
+      out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,
+                         direction_words(motion.displacement, y_up));
+  } else {
+    for (const Eigen::Vector3d& leg : motion.legs)
+      out += fmt::format("{}{}{} {}", out.empty() ? "" : ", then ", figure_text(leg.norm()), of_unit,
+                         direction_words(leg, y_up));
+  }
+  if (motion.turn * 180 / std::numbers::pi < kTurned) return out.empty() ? "in its place" : out;
+  const bool straight = motion.legs.size() == 1;
+  const double along = straight ? motion.axis.dot(motion.legs.front().normalized()) : 0;
+  const std::string turn = turn_words(motion.turn);
+  if (std::abs(along) > kOneAxis)
+    return out + fmt::format(", turning {} by {}", along > 0 ? "clockwise" : "counter-clockwise", turn);
+  const std::string about =
+      fmt::format("by {} clockwise about the axis that points {}", turn, direction_words(motion.axis, y_up));
+  return out.empty() ? "in its place, turning " + about : out + ", turning " + about;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,255 @@
+// Groups, motions in words, and the texts that are made of them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/groups.h"
+#include "dismantle/plan_io/input_frame.h"
+#include "dismantle/plan_io/motion_words.h"
+#include "dismantle/testing/shapes.h"
+
+namespace dismantle {
+namespace {
+
+using ExportJson = nlohmann::json;
+
+struct RandomDisassembly {
+  Plan plan;
+  Assembly assembly;
+};
+
+/// Takes random groups apart until every part is alone. Names have all that formats have to quote.
+RandomDisassembly random_disassembly(std::mt19937& random, std::size_t count) {
+  RandomDisassembly out;
+  Plan& plan = out.plan;
+  plan.assembly.source = "a|b<c>";
+  plan.assembly.box = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(10, 10, 10)};
+  out.assembly.input_box = plan.assembly.box;
+  std::vector<std::vector<std::string>> groups(1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = "p,\"" + std::to_string(i) + "\"<&|\\";
+    plan.assembly.parts.push_back({static_cast<unsigned>(i), name, "x.obj", {}, {}});
+    Part part;
+    part.id = static_cast<PartId>(i);
+    part.name = name;
+    part.mesh = part.surface = std::make_shared<Mesh>(shapes::box({double(i), 0, 0}, {i + 1.0, 1, 1}));
+    out.assembly.parts.push_back(part);
+    groups[0].push_back(name);
+  }
+  std::map<std::string, Pose> now;
+  while (std::ranges::any_of(groups, [](const auto& g) { return g.size() > 1; })) {
+    const std::size_t g = random() % groups.size();
+    if (groups[g].size() < 2) continue;
+    PlanStep step;
+    step.step = static_cast<unsigned>(plan.disassembly.size() + 1);
+    step.layer = step.step;
+    if (step.step > 1) step.after = {step.step - 1};
+    std::ranges::shuffle(groups[g], random);
+    const std::size_t taken = 1 + random() % (groups[g].size() - 1);
+    step.separates.emplace_back(groups[g].begin(), groups[g].begin() + static_cast<std::ptrdiff_t>(taken));
+    groups[g].erase(groups[g].begin(), groups[g].begin() + static_cast<std::ptrdiff_t>(taken));
+    for (const std::string& name : step.separates[0]) {
+      const Pose begin = now[name], end{begin.t + Eigen::Vector3d(0, 0, 2), begin.q};
+      step.moves.push_back({name, {begin, end}});
+      now[name] = end;
+    }
+    groups.push_back(step.separates[0]);
+    plan.disassembly.push_back(std::move(step));
+  }
+  plan.status = PlanStatus::complete;
+  return out;
+}
+
+TEST(Groups, EachStepSplitsOneGroupIntoWhatStaysAndWhatGoes) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 60; ++trial) {
+    const Plan plan = random_disassembly(random, 2 + trial % 12).plan;
+    const auto splits = follow_groups(plan);
+    ASSERT_EQ(splits.size(), plan.disassembly.size());
+    std::set<std::vector<std::size_t>> exist;
+    std::vector<std::size_t> all(plan.assembly.parts.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    exist.insert(all);
+    for (const auto& step : splits) {
+      ASSERT_EQ(step.size(), 1u);
+      const GroupSplit& split = step[0];
+      EXPECT_EQ(exist.erase(split.whole), 1u) << "only what exists can be taken apart";
+      std::vector<std::size_t> pieces = split.rest;
+      for (const auto& piece : split.out) {
+        pieces.insert(pieces.end(), piece.begin(), piece.end());
+        exist.insert(piece);
+      }
+      exist.insert(split.rest);
+      std::ranges::sort(pieces);
+      EXPECT_EQ(pieces, split.whole);
+    }
+    EXPECT_EQ(exist.size(), all.size()) << "in the end each part is alone";
+  }
+}
+
+TEST(Groups, WhenAllIsNamedWhatDoesNotMoveStays) {
+  Plan plan;
+  for (const char* name : {"a", "b", "c"}) plan.assembly.parts.push_back({0, name, "x", {}, {}});
+  PlanStep step;
+  step.moves = {{"a", {Pose{}, Pose{}}}, {"b", {Pose{}, Pose{}}}};
+  step.separates = {{"a", "b"}, {"c"}};
+  plan.disassembly = {step};
+  const auto splits = follow_groups(plan);
+  EXPECT_EQ(splits[0][0].rest, std::vector<std::size_t>{2});
+  plan.disassembly[0].separates = {{"ghost"}};
+  EXPECT_THROW(follow_groups(plan), InputError);
+}
+
+TEST(Exports, TheAndOrGraphIsATreeDownToTheParts) {
+  std::mt19937 random(2);
+  for (int trial = 0; trial < 30; ++trial) {
+    const auto [plan, assembly] = random_disassembly(random, 2 + trial % 10);
+    const ExportJson graph = ExportJson::parse(and_or_json(plan));
+    const std::size_t n = plan.assembly.parts.size();
+    EXPECT_EQ(graph["nodes"].size(), 2 * n - 1);
+    EXPECT_EQ(graph["arcs"].size(), n - 1);
+    std::set<std::size_t> reached{0};
+    for (const ExportJson& arc : graph["arcs"]) {
+      EXPECT_TRUE(reached.contains(arc["from"].get<std::size_t>())) << "arcs come in the order of the steps";
+      std::size_t parts = 0;
+      for (const ExportJson& to : arc["to"]) {
+        EXPECT_TRUE(reached.insert(to.get<std::size_t>()).second);
+        parts += graph["nodes"][to.get<std::size_t>()]["parts"].size();
+      }
+      EXPECT_EQ(parts, graph["nodes"][arc["from"].get<std::size_t>()]["parts"].size());
+    }
+    EXPECT_EQ(reached.size(), graph["nodes"].size());
+  }
+}
+
+TEST(Exports, PosesHaveTheTimesOfTheAnimation) {
+  std::mt19937 random(3);
+  const auto [plan, assembly] = random_disassembly(random, 6);
+  const ExportJson poses = ExportJson::parse(poses_json(plan, assembly, input_frame(plan.assembly)));
+  ASSERT_EQ(poses["disassembly"].size(), plan.disassembly.size());
+  EXPECT_TRUE(poses["unit"].is_null());
+  double before = 0;
+  std::size_t rows = 0;
+  for (std::size_t s = 0; s < plan.disassembly.size(); ++s) {
+    const ExportJson& step = poses["disassembly"][s];
+    EXPECT_GT(step["times"].front().get<double>(), before) << "steps follow each other";
+    before = step["times"].back().get<double>();
+    EXPECT_GE(before - step["times"].front().get<double>(), 1 - 1e-5) << "a step takes a second or more";
+    for (std::size_t m = 0; m < step["moves"].size(); ++m) {
+      EXPECT_EQ(step["moves"][m]["poses"].size(), step["times"].size());
+      EXPECT_EQ(step["moves"][m]["poses"].back()[2], plan.disassembly[s].moves[m].poses.back().t.z());
+      rows += step["times"].size();
+    }
+  }
+  const std::string csv = poses_csv(plan, assembly);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')), 1 + rows);
+  EXPECT_NE(csv.find("\"p,\"\""), std::string::npos) << "quotes are doubled";
+  EXPECT_EQ(csv, poses_csv(plan, assembly));
+}
+
+TEST(Exports, GraphsOfStepsHaveEveryStepAndEveryReason) {
+  std::mt19937 random(4);
+  auto [plan, assembly] = random_disassembly(random, 7);
+  const auto count = [](const std::string& text, const std::string& what) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+    return n;
+  };
+  const std::string xml = step_order_graphml(plan), dot = step_order_dot(plan);
+  EXPECT_EQ(count(xml, "<node id="), plan.disassembly.size());
+  EXPECT_EQ(count(xml, "<edge source="), plan.disassembly.size() - 1);
+  EXPECT_EQ(count(dot, "[label="), plan.disassembly.size());
+  EXPECT_EQ(count(dot, " -> "), plan.disassembly.size() - 1 + 1) << "and the comment";
+  plan.disassembly[0].layer = 0;
+  EXPECT_THROW(step_order_graphml(plan), InputError) << "a plan that does not say must not look as if nothing waited";
+  EXPECT_THROW(step_order_dot(plan), InputError);
+}
+
+TEST(Exports, MarkdownHasARowPerStepAndNoMarkupOfNames) {
+  std::mt19937 random(5);
+  const auto [plan, assembly] = random_disassembly(random, 5);
+  std::istringstream lines(steps_markdown(plan, input_frame(plan.assembly)));
+  std::size_t rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("| ") || line.starts_with("| step")) continue;
+    ++rows;
+    std::size_t bars = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) bars += line[i] == '|' && (i == 0 || line[i - 1] != '\\');
+    EXPECT_EQ(bars, 7u) << line;
+    EXPECT_NE(line.find("2 units up"), std::string::npos) << line;
+  }
+  EXPECT_EQ(rows, plan.disassembly.size());
+}
+
+TEST(MotionWords, LegsOfAPathAreFoundAgain) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Pose> poses{Pose{}};
+    std::vector<Eigen::Vector3d> legs;
+    for (int l = 0; l < 3; ++l) {
+      Eigen::Vector3d leg = Eigen::Vector3d::Zero();
+      leg[(trial + l) % 3] = 5 + 3 * any(random);
+      for (int k = 1; k <= 20; ++k) poses.push_back({poses.back().t + leg / 20, Eigen::Quaterniond::Identity()});
+      legs.push_back(leg);
+    }
+    const MotionSummary motion = summarize_motion(poses, {any(random), 0, 0}, 0.05);
+    ASSERT_EQ(motion.legs.size(), 3u);
+    double length = 0;
+    for (int l = 0; l < 3; ++l) {
+      EXPECT_LT((motion.legs[static_cast<std::size_t>(l)] - legs[static_cast<std::size_t>(l)]).norm(), 1e-9);
+      length += legs[static_cast<std::size_t>(l)].norm();
+    }
+    EXPECT_NEAR(motion.length, length, 1e-9);
+    EXPECT_EQ(motion.turn, 0);
+  }
+}
+
+TEST(MotionWords, AScrewIsToldByItsTurnsAndItsSense) {
+  for (const double turns : {0.25, 1.5, 7.0})
+    for (const int hand : {1, -1}) {
+      std::vector<Pose> poses;
+      for (int k = 0; k <= 100; ++k) {
+        const double u = k / 100.0;
+        poses.push_back({{0, 0, -3 * u},
+                         Eigen::Quaterniond(
+                             Eigen::AngleAxisd(-hand * 2 * std::numbers::pi * turns * u, Eigen::Vector3d::UnitZ()))});
+      }
+      const MotionSummary motion = summarize_motion(poses, {0, 0, 1}, 0.01);
+      EXPECT_NEAR(motion.turn, 2 * std::numbers::pi * turns, 1e-9);
+      const std::string words = motion_words(motion, "mm", false);
+      // A right-hand screw that goes in turns clockwise when seen along its motion.
+      EXPECT_NE(words.find(hand > 0 ? " clockwise" : "counter-clockwise"), std::string::npos) << words;
+      EXPECT_EQ(words.find("3 mm down (-Z)"), 0u) << words;
+    }
+}
+
+TEST(MotionWords, DirectionsAreThoseOfSomeoneBeforeTheAssembly) {
+  EXPECT_EQ(direction_words({0, 0, 2}, false), "up (+Z)");
+  EXPECT_EQ(direction_words({0, 2, 0}, true), "up (+Y)");
+  EXPECT_EQ(direction_words({0, -1, 0}, false), "to the front (-Y)");
+  EXPECT_EQ(direction_words({0, 0, 1}, true), "to the front (+Z)");
+  EXPECT_EQ(direction_words({-1, 0, -1}, false), "down and left (-0.71, 0, -0.71)");
+  EXPECT_THROW(direction_words({0, 0, 0}, false), Error);
+}
+
+TEST(InputFrame, UnitsOfImportersAreKnownAndOthersNamed) {
+  EXPECT_EQ(metres_in("inch"), 0.0254);
+  EXPECT_THROW(metres_in("ell"), InputError);
+  PlanAssembly a;
+  EXPECT_EQ(input_frame(a).unit, "mm");
+  a.parts = {{0, "a", "a.GLB", {}, {}}};
+  EXPECT_TRUE(input_frame(a).y_up);
+  EXPECT_EQ(input_frame(a).metres, 1);
+  a.parts.push_back({1, "b", "b.stl", {}, {}});
+  EXPECT_FALSE(input_frame(a).y_up);
+}
+
+}  // namespace
+}  // namespace dismantle
