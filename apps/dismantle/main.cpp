@@ -6,15 +6,17 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dismantle/colour.h"
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/stopped.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/stopped.h"
 
 namespace dismantle::app {
 namespace {
@@ -30,7 +32,7 @@ bool asks_for_json(int argc, char** argv) {
 }
 
 int report_failure(bool json, int status, const std::string& message) {
-  fmt::print(stderr, "dismantle: error: {}\n", message);
+  fmt::print(stderr, "dismantle: {} {}\n", coloured(stderr, Colour::red, "error:"), message);
   if (json)
     fmt::print("{}", result_line({{"status", status == kInterrupted ? "interrupted" : "error"}, {"message", message}}));
   return status;
@@ -109,6 +111,15 @@ void open_standard_streams() {
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
 }
 
+/// The first line is the program's own version; DISMANTLE_BUILT_WITH is a list that the build makes.
+std::string version_text() {
+  std::string out = "dismantle " DISMANTLE_VERSION "\nbuilt with";
+  std::istringstream libraries(DISMANTLE_BUILT_WITH);
+  bool first = true;
+  for (std::string library; std::getline(libraries, library, ','); first = false) out += (first ? " " : ", ") + library;
+  return out;
+}
+
 /// What did not reach standard output was not done.
 int flushed(int status) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
@@ -123,7 +134,7 @@ int main(int argc, char** argv) {
   using namespace dismantle::app;
   open_standard_streams();
   CLI::App app("Takes assemblies apart, to find out how to put them together.", "dismantle");
-  app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
+  app.set_version_flag("--version", version_text(), "Print the version, and those of the libraries it was built with");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -131,7 +142,8 @@ int main(int argc, char** argv) {
       "  dismantle plan gearbox/ -c configs/paper.yaml -o out\n"
       "  dismantle verify out/plan.json\n"
       "  dismantle bench configs/bench/smoke.yaml -o smoke && dismantle report smoke\n"
-      "Exit status: 0 complete, 1 not all parts came out, 2 usage or configuration, 3 unusable input,\n"
+      "Exit status: 0 complete, 1 not all parts came out or some could not be used, 2 usage or configuration, 3 "
+      "unusable input,\n"
       "4 a plugin failed, 130 interrupted.");
   Action action;
   add_plan(app, action);
@@ -144,5 +156,6 @@ int main(int argc, char** argv) {
   add_sample(app, action);
   add_bench(app, action);
   add_report(app, action);
+  add_completion(app, action);
   return flushed(run(app, action, argc, argv));
 }

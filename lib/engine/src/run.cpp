@@ -164,6 +164,32 @@ void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left
   }
 }
 
+/// Where a part that is left touches others at its best pose, as the simulator sees it.
+ContactsOf contacts_of(const Assembly& assembly, const Prepared& prepared, const Simulator& simulator,
+                       const StepLedger& ledger, const RunContext& context) {
+  if (!simulator.capabilities().contacts) return {};
+  return [&](PartId part, const Pose& at) {
+    std::vector<Contact> deepest;
+    if (context.should_stop()) return deepest;
+    try {
+      const Cast scene{{{part, at}}, ledger.around(part)};
+      const std::unique_ptr<World> world = simulator.world(assembly, prepared, scene, MotionSpace::rigid);
+      std::vector<Contact> all;
+      world->contacts(world->initial_state(), all);
+      std::ranges::stable_sort(all, [](const Contact& a, const Contact& b) {
+        return a.other != b.other ? a.other < b.other : a.depth > b.depth;
+      });
+      for (const Contact& c : all)
+        if (deepest.empty() || deepest.back().other != c.other) deepest.push_back(c);
+    } catch (const std::exception& e) {
+      context.log(LogLevel::warning,
+                  fmt::format("where '{}' is blocked is not known: {}", assembly.parts[part].name, e.what()));
+      deepest.clear();
+    }
+    return deepest;
+  };
+}
+
 /// What the sequence planner says of the parts that are left, completed and without what cannot be.
 std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
   const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
@@ -228,10 +254,12 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
   else
     sequence = plan_sequence(assembly, *ingredients.sequence_planner, oracle, booking, own);
 
+  const ContactsOf places =
+      prepared ? contacts_of(assembly, *prepared, *ingredients.simulator, ledger, own) : ContactsOf{};
   result.outcome = sequence.outcome;
   result.sequence_counts = sequence.counts;
   if (only_one) {
-    ledger.set_unsolved(sequence.unsolved);
+    ledger.set_unsolved(sequence.unsolved, places);
   } else if (ledger.fulfilled()) {
     result.outcome = Outcome::solved;
   } else {
@@ -242,7 +270,7 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
     }
     std::vector<Unsolved> unsolved = reasons(sequence, ledger.left());
     prove_left(unsolved, ledger.left(), oracle, own);
-    ledger.set_unsolved(unsolved);
+    ledger.set_unsolved(unsolved, places);
   }
   AssemblyPlan back;
   const bool puts_together =

@@ -290,7 +290,8 @@ std::vector<PlanStep> read_steps(const Place& place, StepKind kind, const Names&
 }
 
 PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
-  place.object({"part", "outcome", "blocked_by", "best_pose", "message"}, {"certificate"});
+  place.object({"part", "outcome", "blocked_by", "best_pose", "message"},
+               {"certificate", "planner", "attempts", "seconds", "depth", "places"});
   PlanUnsolved u;
   u.part = read_part(place.at("part"), parts);
   const std::string outcome = place.at("outcome").text();
@@ -301,6 +302,15 @@ PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
   u.best_pose = read_pose(place.at("best_pose"));
   u.message = place.at("message").text();
   if (place.has("certificate")) u.certificate = place.at("certificate").count();
+  if (place.has("planner")) u.planner = place.at("planner").text();
+  if (place.has("attempts")) u.attempts = place.at("attempts").small_count();
+  if (place.has("seconds")) u.seconds = place.at("seconds").number_from_zero();
+  if (place.has("depth")) u.depth = place.at("depth").small_count();
+  if (place.has("places"))
+    for (const Place& item : place.at("places").items()) {
+      item.object({"part", "at"});
+      u.places.push_back({read_part(item.at("part"), parts), read_vector(item.at("at"))});
+    }
   return u;
 }
 

@@ -45,7 +45,7 @@ class Loader {
       check_provers();
     }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
-      config_.constraints = read_constraints(*section, problems_);
+      config_.constraints = read_constraints(*section, config_.constraint_names, problems_);
     check_capabilities();
     return std::move(config_);
   }
@@ -215,7 +215,8 @@ class Loader {
       const std::string& id = type->type.id;
       const ConfigMember* member = section == nullptr ? nullptr : section->find(id);
       if (type->type.params.empty() && member == nullptr) continue;
-      const std::string source = fmt::format("{} {}, {}", id, type->file->version, type->file->path.filename().string());
+      const std::string source =
+          fmt::format("{} {}, {}", id, type->file->version, type->file->path.filename().string());
       config_.importers[id] = bind_section(type->type.params, member == nullptr ? nullptr : &member->value,
                                            {"importers." + id, "", source}, homes_, config_.origins, problems_);
     }

@@ -8,7 +8,8 @@ Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
   out.path_planner = [&registry, choice = config.path_planner] {
     return registry.create<PathPlanner>(choice.type, choice.parameters);
   };
-  out.sequence_planner = registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
+  out.sequence_planner =
+      registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
   out.path_planner_id = config.path_planner.type;
   if (config.layout.enabled) {
     out.transfer_planner = [&registry, choice = config.transfer_planner] {
