@@ -56,7 +56,7 @@ struct PlanUnsolved {
   std::string planner{};                     ///< id of the path planner that searched; empty: no search was made
   unsigned attempts = 0;                     ///< searches in which the part was to leave, alone or with others
   double seconds = 0;                        ///< of these, together
-  unsigned depth = 0;                        ///< deepest level that one of them reached
+  unsigned depth = 0;                        ///< the largest depth that was allowed; 0: none of them had a limit
   std::vector<PlanPlace> places{};  ///< what the part touches at `best_pose`: the deepest contact with each other part
 };
 

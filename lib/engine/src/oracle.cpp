@@ -252,8 +252,9 @@ SearchEffort Oracle::effort_on(PartId part) const {
     const auto key = keys_.find(&answer);
     if (!moves || key == keys_.end() || is_success(answer.result.outcome()) || !answers_.contains(key->second))
       continue;
+    if (answer.certificate != nullptr && answer.seconds == 0) continue;  // proved, so that no search was made
     ++effort.attempts;
-    effort.depth = std::max(effort.depth, answer.result.depth);
+    effort.depth = std::max({effort.depth, answer.result.depth, answer.attempt.max_depth});
     effort.seconds += answer.seconds;
   }
   return effort;

@@ -29,7 +29,7 @@ struct LoggedAttempt {
 /// What searches cost together.
 struct SearchEffort {
   unsigned attempts = 0;
-  unsigned depth = 0;  ///< deepest level that one of them reached
+  unsigned depth = 0;  ///< the largest depth that was allowed; 0: none of them had a limit
   double seconds = 0;
 };
 

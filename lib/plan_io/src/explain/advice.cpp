@@ -102,10 +102,10 @@ class Advisor {
 
   void leave_out() {
     const std::string& name = reason_.parts.front().part;
-    add(
-        fmt::format("Plan without it: `--set constraints.ignore=[\"{}\"]`; or keep what holds together as one: "
-                    "`constraints: {{together: [[...]]}}`.",
-                    name));
+    add(fmt::format(
+        "Plan without one of them: `--set 'constraints.ignore=[\"{}\"]'`; or keep what holds together as one: "
+        "`constraints: {{together: [[...]]}}`.",
+        name));
   }
 
   void on_outcome() {

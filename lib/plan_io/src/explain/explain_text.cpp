@@ -28,8 +28,8 @@ std::string travel_text(const Plan& plan, const LeftPart& part) {
 
 std::string search_text(const LeftPart& part) {
   if (part.attempts == 0) return "no search on record";
-  return fmt::format("{} {} by {}, to depth {}, {:.1f} s", part.attempts, part.attempts == 1 ? "search" : "searches",
-                     part.planner, part.depth, part.seconds);
+  return fmt::format("{} {} by {}{}, {:.1f} s", part.attempts, part.attempts == 1 ? "search" : "searches", part.planner,
+                     part.depth > 0 ? fmt::format(" to depth {}", part.depth) : "", part.seconds);
 }
 
 std::string blockers_text(const Plan& plan, const LeftPart& part) {

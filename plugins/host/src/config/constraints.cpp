@@ -82,6 +82,17 @@ class Contradictions {
     }
   }
 
+  /// At the place where the two names stand one after the other.
+  void link_problem(const std::pair<std::string, std::string>& link, const std::string& message) {
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+      if (places_[i].key != "before" || places_[i].name != link.first || places_[i + 1].name != link.second) continue;
+      Diagnostic out = places_[i].place;
+      out.message = message;
+      problems_.push_back(std::move(out));
+      return;
+    }
+  }
+
   /// Parts that are to stay together leave as one.
   std::string group_of(const std::string& name) const {
     std::set<std::string> reached{name};
@@ -117,7 +128,7 @@ class Contradictions {
     if (at != chain.end()) {
       std::string text = fmt::format("'{}'", at->first);
       for (auto link = at; link != chain.end(); ++link) text += fmt::format(" before '{}'", link->second);
-      problem("before", chain.back().first, "constraints.before contradicts itself: " + text);
+      link_problem(chain.back(), "constraints.before contradicts itself: " + text);
       return true;
     }
     if (done.contains(group)) return false;
