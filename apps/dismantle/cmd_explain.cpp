@@ -72,7 +72,7 @@ void add_explain(CLI::App& app, Action& action) {
   add_format(*command, options->console);
   command->footer(
       "Lengths are in the unit of the input. Values of the run are read from resolved.yaml beside the plan.\n"
-      "Example:\n  dismantle explain out/plan.json --part shaft");
+      "Example:\n  dismantle explain out/plan.json --part shaft_1");
   command->callback([&action, options] { action = [options] { return explain_plan(*options); }; });
 }
 

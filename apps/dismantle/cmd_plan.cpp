@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -59,7 +61,11 @@ nlohmann::ordered_json counters_json(const RunResult& result) {
                                 {"remembered", result.counts.memoised},
                                 {"proposed", result.counts.proposed},
                                 {"refused", result.counts.refused}};
-  for (const auto& [name, count] : result.sequence_counts) out[name] = count;
+  for (const auto& [name, count] : result.sequence_counts)
+    if (count == std::floor(count) && std::abs(count) < 1e15)
+      out[name] = static_cast<std::int64_t>(count);
+    else
+      out[name] = count;
   return out;
 }
 
@@ -233,7 +239,7 @@ void add_plan(CLI::App& app, Action& action) {
       "Examples:\n"
       "  dismantle sample machine -o gearbox\n"
       "  dismantle plan gearbox/\n"
-      "  dismantle plan gearbox/ --part shaft_1 --set path_planner.of.contact_search.motion=translation -o shaft\n"
+      "  dismantle plan gearbox/ --part cap_2 --set path_planner.of.contact_search.motion=translation -o shaft\n"
       "  dismantle plan gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return plan(*options); }; });
 }

@@ -41,7 +41,7 @@ std::string footer_text(const std::string& footer) {
 std::string command_text(const CommandNode& node) {
   std::string out = fmt::format(".SS {}", roff(node.name()));
   for (const CommandOption& argument : node.arguments) out += " " + roff(argument.names.front());
-  out += fmt::format("\n{}.\n", roff(node.help));
+  out += fmt::format("\n{}{}\n", roff(node.help), node.help.ends_with('?') ? "" : ".");
   for (const CommandOption& argument : node.arguments) out += option_text(argument, true);
   for (const CommandOption& option : node.options)
     if (option.names.back() != "--help") out += option_text(option, false);
