@@ -239,7 +239,7 @@ void add_plan(CLI::App& app, Action& action) {
       "Examples:\n"
       "  dismantle sample machine -o gearbox\n"
       "  dismantle plan gearbox/\n"
-      "  dismantle plan gearbox/ --part cap_2 --set path_planner.of.contact_search.motion=translation -o shaft\n"
+      "  dismantle plan gearbox/ --part washer_1_4 --set path_planner.of.contact_search.motion=translation -o washer\n"
       "  dismantle plan gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return plan(*options); }; });
 }
