@@ -1,4 +1,4 @@
-/// What the command line offers, read from the parser itself: completion and the manual page never differ from it.
+/// The commands and options, read from the parser itself: completion and the manual page never differ from it.
 #pragma once
 
 #include <CLI/CLI.hpp>

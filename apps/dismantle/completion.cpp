@@ -32,7 +32,7 @@ std::string in_brackets(const std::string& text) {
 
 std::string pattern_of(const CommandOption& option) { return fmt::format("{}", fmt::join(option.names, "|")); }
 
-/// What bash offers within one command.
+/// The words that bash completes within one command.
 std::string bash_case(const CommandNode& node) {
   std::vector<std::string> words;
   std::string values;
