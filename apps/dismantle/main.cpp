@@ -47,6 +47,14 @@ int report_diagnostics(bool json, const ConfigError& e) {
   return kUsage;
 }
 
+/// Those that the help shows.
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  return names;
+}
+
 /// What is wrong with the names of the command and its sub-command, or nothing: the parser would only say that one
 /// is missing.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
@@ -54,12 +62,10 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
     const auto commands = at->get_subcommands([](const CLI::App*) { return true; });
     if (commands.empty()) break;
-    std::vector<std::string> names;
+    const std::vector<std::string> names = commands_of(*at);  // the others are for ourselves
     const CLI::App* next = nullptr;
-    for (const CLI::App* command : commands) {
-      if (!command->get_group().empty()) names.push_back(command->get_name());  // the others are for ourselves
+    for (const CLI::App* command : commands)
       if (command->get_name() == argv[i]) next = command;
-    }
     if (next == nullptr) {
       const auto near = nearest(argv[i], names);
       return fmt::format("{} has no command '{}'{}; its commands are {}", at->get_name(), argv[i],
@@ -68,6 +74,25 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
     at = next;
   }
   return "";
+}
+
+/// What is wrong with the arguments, with what to do next.
+std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const CLI::App* at = &app;
+  std::string path = app.get_name();
+  for (int i = 1; i < argc; ++i) {
+    const auto below = at->get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[i]; });
+    if (below.empty()) break;
+    at = below.front();
+    path += " " + at->get_name();
+  }
+  std::string what = error.what();
+  const auto commands = commands_of(*at);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !commands.empty())
+    what = fmt::format("a command is missing; the commands of '{}' are {}", path, fmt::join(commands, ", "));
+  else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && what.ends_with(" missing"))
+    what = fmt::format("{} needs a value", what.substr(0, what.find(':')));
+  return fmt::format("{}\nTry '{} --help'.", what, path);
 }
 
 int run(CLI::App& app, Action& action, int argc, char** argv) {
@@ -79,9 +104,7 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   } catch (const CLI::Success& e) {  // --help and --version
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    const int status = report_failure(json, kUsage, e.what());
-    fmt::print(stderr, "Try 'dismantle --help' or 'dismantle COMMAND --help'.\n");
-    return status;
+    return report_failure(json, kUsage, usage_problem(app, e, argc, argv));
   }
   try {
     return action();

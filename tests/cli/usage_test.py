@@ -7,7 +7,15 @@ from program import CliTest, box, text_of_plan
 
 class Usage(CliTest):
     def test_no_arguments(self):
-        self.assert_fails(2, "subcommand")
+        self.assert_fails(2, "a command is missing; the commands of 'dismantle' are plan, ")
+        self.assert_fails(2, "the commands of 'dismantle plugins' are list, describe, check", "plugins")
+
+    def test_what_to_do_next(self):
+        self.assert_fails(2, "INPUT is required\nTry 'dismantle plan --help'.", "plan")
+        self.assert_fails(2, "--part needs a value\nTry 'dismantle plan --help'.", "plan", "x", "--part")
+        self.assert_fails(2, "Try 'dismantle plugins describe --help'.", "plugins", "describe", "x", "--nonsense")
+        self.assert_fails(2, "cannot read 'nope.yaml': No such file or directory", "plan", "x", "-c", "nope.yaml")
+        self.assert_fails(3, "'dismantle plan INPUT -o DIR' writes DIR/plan.json", "explain", "nope.json")
 
     def test_unknown_command_and_option(self):
         self.assert_fails(2, "'dissemble'", "dissemble")

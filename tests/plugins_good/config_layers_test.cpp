@@ -47,7 +47,7 @@ TEST_F(Layers, Cycles) {
 
 TEST_F(Layers, MissingBase) {
   EXPECT_EQ(errors_of("schema: 1\nextends: gone.yaml\nrun: {sed: 1}\n"),
-            "run.yaml:2:10: error: cannot read 'gone.yaml'\n"
+            "run.yaml:2:10: error: cannot read 'gone.yaml': No such file or directory\n"
             "run.yaml:3:7: error: unknown key 'sed' in run; did you mean 'seed'?\n");
   EXPECT_EQ(errors_of("schema: 1\nextends: [a, b]\n"), "run.yaml:2:10: error: extends must be the name of a file\n");
 }

@@ -6,10 +6,12 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace dismantle {
@@ -226,9 +228,10 @@ bool read_yaml(const std::string& file, ConfigNode& node, std::vector<Diagnostic
     unreadable = fmt::format("'{}' is a folder, not a YAML file", file);
     return false;
   }
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    unreadable = fmt::format("cannot read '{}'", file);
+    unreadable = fmt::format("cannot read '{}': {}", file, std::generic_category().message(errno));
     return false;
   }
   std::string text;
