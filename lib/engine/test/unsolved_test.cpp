@@ -42,8 +42,12 @@ class TouchingWorld final : public World {
   Cast cast_;
 };
 
-class TouchingPhysics final : public fake::Physics {
+class TouchingPhysics final : public Simulator {
  public:
+  Capabilities capabilities() const noexcept override { return {true, true, true, 4}; }
+  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override {
+    return std::make_shared<Prepared>();
+  }
   std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace) const override {
     return std::make_unique<TouchingWorld>(cast);
   }
