@@ -94,7 +94,7 @@ int bench_suite(const BenchOptions& options) {
   if (options.launcher == "slurm") return run_by_slurm(options, campaign, console);
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   campaign.plan_command = {program, "bench-trial"};
-  campaign.judge_command = {program, "bench-trial", "--judge"};
+  campaign.verify_command = {program, "bench-trial", "--verify"};
   return run_locally(suite, campaign, console);
 }
 
@@ -132,12 +132,12 @@ void add_bench(CLI::App& app, Action& action) {
 
   auto* trial = app.add_subcommand("bench-trial", "One trial, for `bench`")->group("");
   auto folder = std::make_shared<std::string>();
-  auto judge = std::make_shared<bool>(false);
+  auto verify = std::make_shared<bool>(false);
   trial->add_option("FOLDER", *folder, "Folder with request.json")->required();
-  trial->add_flag("--judge", *judge, "Judge the plan that is there");
-  trial->callback([&action, folder, judge] {
-    action = [folder, judge] {
-      *judge ? bench::judge_trial(*folder) : bench::plan_trial(*folder);
+  trial->add_flag("--verify", *verify, "Verify the plan that is there");
+  trial->callback([&action, folder, verify] {
+    action = [folder, verify] {
+      *verify ? bench::verify_trial(*folder) : bench::plan_trial(*folder);
       return kComplete;
     };
   });

@@ -14,7 +14,7 @@
 #include "dismantle/console.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_files.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
@@ -166,7 +166,7 @@ int plan(const PlanOptions& options) {
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
   warn_of_problems(registry, console);
-  const Ingredients ingredients = ingredients_of(config, registry);
+  const PlanningSetup setup = planning_setup_of(config, registry);
   RunContext context = context_of(config.run, console);
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
@@ -178,7 +178,7 @@ int plan(const PlanOptions& options) {
   const Assembly assembly = load_assembly(options.input, config, registry, context, report, options.part);
   RunOptions run_options = run_options_of(config, options.part);
   run_options.constraints = constraints_of(config.constraints, assembly);
-  if (!run_options.constraints.empty() && options.part.empty() && !ingredients.sequence_planner->keeps_constraints())
+  if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->keeps_constraints())
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                             config.sequence_planner.type));
   open_output_folder(folder);
@@ -186,7 +186,7 @@ int plan(const PlanOptions& options) {
 
   Saver saver(folder / "plan.json", plan_before_first_step(assembly, run_options), console);
   give_up.has(assembly, saver);
-  const RunResult result = run(assembly, ingredients, run_options, context, std::ref(saver));
+  const RunResult result = run(assembly, setup, run_options, context, std::ref(saver));
   watchdog.reset();  // what follows is no plugin
   const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
@@ -222,7 +222,7 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--simulator", "simulator.type", "ID", "Simulator");
   options->config.add_key(*command, "--path-planner", "path_planner.type", "ID", "Path planner");
   options->config.add_key(*command, "--sequence-planner", "sequence_planner.type", "ID", "Sequence planner");
-  command->add_option("--part", options->part, "Plan just this part's path, all other parts still")
+  command->add_option("--part", options->part, "Plan just this part's path, all other parts fixed")
       ->option_text("NAME");
   options->config.add_key(*command, "--seed", "run.seed", "N", "Seed");
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");

@@ -24,8 +24,9 @@ struct Verify {
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration;
   if (plan.verified_max_penetration > most)
-    console.warning(fmt::format("the plan was made with a tolerance of {:.3g}; it is judged by {:.3g} assembly units",
-                                plan.verified_max_penetration, most));
+    console.warning(
+        fmt::format("the plan was made with a tolerance of {:.3g}; it is verified with {:.3g} assembly units",
+                    plan.verified_max_penetration, most));
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff();
   if (std::abs(size - 10) > 1e-6)
     console.warning(
@@ -44,7 +45,7 @@ int verify(const Verify& options) {
   tolerance.max_penetration = tolerance_of(plan, assembly, console);
   if (const SurfaceRepair& r = plan.assembly.repair; r != SurfaceRepair{})
     console.warning(fmt::format(
-        "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are judged as repaired with these",
+        "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are verified as repaired with these",
         r.weld, r.repair, r.max_hole));
   const ProverOfKind prover_of = [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
     if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
@@ -18,8 +18,7 @@ RunContext context_for_reading(Registry& registry, Console& console) {
   return context_of(settings, console);
 }
 
-LoadedPlan load_plan(const std::string& file, const std::string& input, const Registry& registry,
-                     RunContext& context) {
+LoadedPlan load_plan(const std::string& file, const std::string& input, const Registry& registry, RunContext& context) {
   LoadedPlan loaded;
   loaded.plan = read_plan(file);
   const std::string source = source_of(loaded.plan, file, input);

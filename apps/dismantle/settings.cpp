@@ -11,7 +11,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/interrupt.h"
 #include "dismantle/stopped.h"

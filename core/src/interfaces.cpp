@@ -11,12 +11,12 @@
 namespace dismantle {
 
 World::~World() = default;
-bool World::leaves(const State& state, std::size_t body) {
-  if (cast().moving.size() != 1 || body != 0)
-    throw std::logic_error("a simulator that moves several parts at once has to override World::leaves");
+bool World::body_separated(const State& state, std::size_t body) {
+  if (scene().moving.size() != 1 || body != 0)
+    throw std::logic_error("a simulator that moves several parts at once has to override World::body_separated");
   return separated(state);
 }
-Prepared::~Prepared() = default;
+PreparedAssembly::~PreparedAssembly() = default;
 Simulator::~Simulator() = default;
 
 PathOracle::~PathOracle() = default;

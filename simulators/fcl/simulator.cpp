@@ -17,8 +17,8 @@ constexpr double kSameShape = 1e-7;
 
 }  // namespace
 
-std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, double /*tolerance*/,
-                                                      RunContext& context) {
+std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& assembly, double /*tolerance*/,
+                                                              RunContext& context) {
   auto prepared = std::make_shared<PreparedBodies>();
   const std::size_t n = assembly.parts.size();
   prepared->placed.resize(n);
@@ -58,16 +58,16 @@ std::shared_ptr<const Prepared> FclSimulator::prepare(const Assembly& assembly, 
   return prepared;
 }
 
-std::unique_ptr<World> FclSimulator::world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
-                                           MotionSpace space) const {
+std::unique_ptr<World> FclSimulator::world(const Assembly& assembly, const PreparedAssembly& prepared,
+                                           const Scene& scene, MotionSpace space) const {
   const auto& bodies = dynamic_cast<const PreparedBodies&>(prepared);
-  for (const auto* group : {&cast.moving, &cast.still})
+  for (const auto* group : {&scene.moving, &scene.fixed})
     for (const PlacedPart& p : *group)
       if (p.part >= bodies.placed.size() || !bodies.placed[p.part].body)
         throw InputError(
             p.part < assembly.parts.size() ? assembly.parts[p.part].name : "part " + std::to_string(p.part),
             "was not prepared (the preparation was interrupted)");
-  return std::make_unique<MeshWorld>(bodies, cast, space, parameters_);
+  return std::make_unique<MeshWorld>(bodies, scene, space, parameters_);
 }
 
 }  // namespace dismantle::mesh_collision

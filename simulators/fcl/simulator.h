@@ -15,8 +15,9 @@ class FclSimulator final : public Simulator {
   explicit FclSimulator(const Parameters& parameters) : parameters_(parameters) {}
 
   Capabilities capabilities() const noexcept override { return kProvides; }
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override;
-  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
+                                                  RunContext& context) override;
+  std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,
                                MotionSpace space) const override;
 
  private:

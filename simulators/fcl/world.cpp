@@ -13,21 +13,22 @@ constexpr double kSeparationGap = 1e-4;
 
 }  // namespace
 
-MeshWorld::MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters)
-    : cast_(cast), space_(space), depth_limit_(parameters.depth_limit), check_(parameters) {
-  if (cast.moving.empty()) throw std::invalid_argument("a world needs a part that moves");
+MeshWorld::MeshWorld(const PreparedBodies& prepared, const Scene& scene, MotionSpace space,
+                     const Parameters& parameters)
+    : scene_(scene), space_(space), depth_limit_(parameters.depth_limit), check_(parameters) {
+  if (scene.moving.empty()) throw std::invalid_argument("a world needs a part that moves");
   const auto member = [&](const PlacedPart& p) {
     const PlacedBody& placed = prepared.placed[p.part];
     const Pose pose = p.pose * placed.rest;
     return Member{p.part, &placed, pose, moved_box(placed.body->box, pose)};
   };
-  for (const auto& m : cast.moving) moving_.push_back(member(m));
-  for (const auto& s : cast.still) still_.push_back(member(s));
+  for (const auto& m : scene.moving) moving_.push_back(member(m));
+  for (const auto& s : scene.fixed) fixed_.push_back(member(s));
   for (const auto& m : moving_) {
-    for (const auto& s : still_) allowed_.push_back(prepared.overlap(m.part, s.part));
+    for (const auto& s : fixed_) allowed_.push_back(prepared.overlap(m.part, s.part));
     for (const auto& n : moving_) allowed_.push_back(prepared.overlap(m.part, n.part));
   }
-  for (const auto& s : still_)
+  for (const auto& s : fixed_)
     for (const auto& corner : s.placed->body->hull) {
       rest_hull_.push_back(s.pose * corner);
       rest_box_.extend(rest_hull_.back());
@@ -36,7 +37,7 @@ MeshWorld::MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpa
 
 State MeshWorld::initial_state() const {
   State s;
-  for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  for (const auto& m : scene_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   return s;
 }
 
@@ -59,7 +60,7 @@ void MeshWorld::place(const State& state) {
 double MeshWorld::penetration(const State& state) {
   place(state);
   double deepest = 0;
-  const std::size_t others = still_.size() + moving_.size();
+  const std::size_t others = fixed_.size() + moving_.size();
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const Member& m = moving_[i];
     const auto against = [&](const Member& other, std::size_t column) {
@@ -67,8 +68,8 @@ double MeshWorld::penetration(const State& state) {
       deepest = std::max(deepest, check_.depth(*m.placed->body, m.pose, *other.placed->body, other.pose,
                                                allowed_[i * others + column]));
     };
-    for (std::size_t s = 0; s < still_.size(); ++s) against(still_[s], s);
-    for (std::size_t n = i + 1; n < moving_.size(); ++n) against(moving_[n], still_.size() + n);
+    for (std::size_t s = 0; s < fixed_.size(); ++s) against(fixed_[s], s);
+    for (std::size_t n = i + 1; n < moving_.size(); ++n) against(moving_[n], fixed_.size() + n);
   }
   return deepest;
 }
@@ -87,7 +88,7 @@ bool MeshWorld::separated(const State& state) {
   return separate(moving_hull_, rest_hull_, kSeparationGap).has_value();
 }
 
-bool MeshWorld::leaves(const State& state, std::size_t body) {
+bool MeshWorld::body_separated(const State& state, std::size_t body) {
   place(state);
   std::vector<Eigen::Vector3d> others = rest_hull_;
   moving_hull_.clear();

@@ -12,7 +12,7 @@
 
 namespace dismantle::mesh_collision {
 
-class PreparedBodies final : public Prepared {
+class PreparedBodies final : public PreparedAssembly {
  public:
   std::vector<PlacedBody> placed;                        ///< by part
   std::map<std::pair<PartId, PartId>, double> overlaps;  ///< a < b: depth when assembled, as measured here or by the
@@ -51,9 +51,9 @@ class PairCheck {
 
 class MeshWorld final : public World {
  public:
-  MeshWorld(const PreparedBodies& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters);
+  MeshWorld(const PreparedBodies& prepared, const Scene& scene, MotionSpace space, const Parameters& parameters);
 
-  const Cast& cast() const override { return cast_; }
+  const Scene& scene() const override { return scene_; }
   MotionSpace space() const override { return space_; }
   State initial_state() const override;
   Eigen::Vector3d center(std::size_t body) const override {
@@ -65,23 +65,24 @@ class MeshWorld final : public World {
   double penetration(const State& state) override;
   [[noreturn]] void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
-  bool leaves(const State& state, std::size_t body) override;
-  void learn(PartId, PartId, const Eigen::Vector3d&) override {}  // nothing is sampled that could be added to
+  bool body_separated(const State& state, std::size_t body) override;
+  void add_contact_sample(PartId, PartId, const Eigen::Vector3d&) override {
+  }  // nothing is sampled that could be added to
 
  private:
   struct Member {
     PartId part = 0;
     const PlacedBody* placed = nullptr;
-    Pose pose;  ///< shape frame to world: now (moving) or for good (still)
+    Pose pose;  ///< shape frame to world: now (moving) or for good (fixed)
     Aabb box;   ///< world, likewise
   };
   void place(const State& state);
 
-  Cast cast_;
+  Scene scene_;
   MotionSpace space_;
   double depth_limit_ = 0;
   PairCheck check_;
-  std::vector<Member> moving_, still_;
+  std::vector<Member> moving_, fixed_;
   std::vector<double> allowed_;  ///< [moving * (still + moving) + other]
   std::vector<Eigen::Vector3d> rest_hull_;
   Aabb rest_box_;

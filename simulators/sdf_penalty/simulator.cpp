@@ -12,16 +12,17 @@ class PenaltySimulator final : public Simulator {
 
   Capabilities capabilities() const noexcept override { return offered(); }
 
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override {
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
+                                                  RunContext& context) override {
     sdf::ShapeOptions options = sdf::shape_options(parameters_);
     if (parameters_.distance == sdf::DistanceModel::grid)
       options.grid = {.cell = parameters_.cell, .cells_per_edge = static_cast<int>(parameters_.cells_per_edge)};
     return sdf::prepare_shapes(assembly, options, tolerance, context);
   }
 
-  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+  std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,
                                MotionSpace space) const override {
-    return std::make_unique<PenaltyWorld>(sdf::shapes_of(prepared, assembly, cast), cast, space, parameters_);
+    return std::make_unique<PenaltyWorld>(sdf::shapes_of(prepared, assembly, scene), scene, space, parameters_);
   }
 
  private:

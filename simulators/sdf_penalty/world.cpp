@@ -11,7 +11,7 @@ namespace {
 constexpr double kMarginFactor = 1.25;
 /// Deeper than this after a step means that the linearised contact was too far off: solve again in place.
 constexpr double kSettleDepth = 2e-4;
-/// A step that covers less than this share of a free one counts as standing still.
+/// A step that covers less than this share of a free one counts as standing fixed.
 constexpr double kStallShare = 0.1;
 constexpr int kStallSteps = 3;
 /// ... and less than this share is standing still for good: there is no inertia that could change it.
@@ -28,11 +28,11 @@ sdf::ContactOptions contact_options(const Parameters& p) {
 
 }  // namespace
 
-PenaltyWorld::PenaltyWorld(const sdf::PreparedShapes& prepared, const Cast& cast, MotionSpace space,
+PenaltyWorld::PenaltyWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
                            const Parameters& parameters)
-    : BodyWorld(prepared, cast, space, contact_options(parameters)), parameters_(parameters) {
-  for (std::size_t i = 0; i < cast.moving.size(); ++i) {
-    const sdf::Placed& placed = prepared.placed[cast.moving[i].part];
+    : BodyWorld(prepared, scene, space, contact_options(parameters)), parameters_(parameters) {
+  for (std::size_t i = 0; i < scene.moving.size(); ++i) {
+    const sdf::Placed& placed = prepared.placed[scene.moving[i].part];
     const sdf::MassProperties& mass = placed.shape->mass;
     Inertia inertia;
     if (parameters.dynamics == Dynamics::density) {
@@ -73,7 +73,7 @@ double PenaltyWorld::way_from_rest(const Action& action, double duration) const 
 template <int Dof>
 PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, double* travel) {
   using Solver = sdf::StepSolver<Dof>;
-  const bool still_water = parameters_.dynamics == Dynamics::quasi_static;
+  const bool fixed_water = parameters_.dynamics == Dynamics::quasi_static;
   const auto n = dof();
   typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
   typename Solver::Vector target = Solver::Vector::Zero(n);
@@ -83,11 +83,11 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     const sdf::MovingBody& body = bodies()[i];
     const BodyState& s = state.bodies[i];
     Wrench wrench = action.wrenches[i];
-    if (action.turns_along) wrench = {s.pose.q * wrench.force, s.pose.q * wrench.torque};
+    if (action.in_body_frame) wrench = {s.pose.q * wrench.force, s.pose.q * wrench.torque};
     const double r2 = body.radius * body.radius;
     largest_force = std::max(largest_force, wrench.force.norm() + wrench.torque.norm() / body.radius);
     Eigen::Vector3d shift, turn = Eigen::Vector3d::Zero();
-    if (still_water) {
+    if (fixed_water) {
       weight.template block<3, 3>(at, at).diagonal().setConstant(parameters_.drag / dt);
       shift = dt / parameters_.drag * wrench.force;
       if (per_body() == 6) {
@@ -119,7 +119,7 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     return Moved::stalled;
   }
   *travel = displace<Dof>(state, x);
-  if (!still_water)
+  if (!fixed_water)
     for (std::size_t i = 0; i < bodies().size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i) * per_body();
       state.bodies[i].velocity = x.template segment<3>(at) / dt;
@@ -127,7 +127,7 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     }
   follow_contacts<Dof>(state, x, *travel);
   if (*travel < kStuckShare * free_travel) return Moved::not_at_all;
-  if (still_water) settle<Dof>(state, kSettleDepth + largest_force / parameters_.contact_stiffness);
+  if (fixed_water) settle<Dof>(state, kSettleDepth + largest_force / parameters_.contact_stiffness);
   return *travel < kStallShare * free_travel ? Moved::stalled : Moved::freely;
 }
 
@@ -175,7 +175,7 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // To and fro in place is standing still, too.
+  // To and fro in place is standing fixed, too.
   const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
   if (report.travel < kStallShare * free) report.stalled = true;
   return report;

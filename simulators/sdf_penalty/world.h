@@ -10,7 +10,8 @@ namespace dismantle::sdf_penalty {
 
 class PenaltyWorld final : public sdf::BodyWorld {
  public:
-  PenaltyWorld(const sdf::PreparedShapes& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters);
+  PenaltyWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
+               const Parameters& parameters);
 
   StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;
 

@@ -12,13 +12,14 @@ class VelocitySimulator final : public Simulator {
 
   Capabilities capabilities() const noexcept override { return offered(); }
 
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override {
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
+                                                  RunContext& context) override {
     return sdf::prepare_shapes(assembly, sdf::shape_options(parameters_), tolerance, context);
   }
 
-  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+  std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,
                                MotionSpace space) const override {
-    return std::make_unique<VelocityWorld>(sdf::shapes_of(prepared, assembly, cast), cast, space, parameters_);
+    return std::make_unique<VelocityWorld>(sdf::shapes_of(prepared, assembly, scene), scene, space, parameters_);
   }
 
  private:

@@ -6,7 +6,7 @@
 namespace dismantle::sdf_velocity {
 namespace {
 
-/// An advance that gets less far than this share of the free way counts as standing still.
+/// An advance that gets less far than this share of the free way counts as standing fixed.
 constexpr double kStallShare = 0.02;
 /// A step that covers less than this share of the free one leads nowhere: without inertia the next would be the same.
 constexpr double kStuckShare = 2e-3;
@@ -23,9 +23,9 @@ sdf::ContactOptions contact_options(const Parameters& p) {
 
 }  // namespace
 
-VelocityWorld::VelocityWorld(const sdf::PreparedShapes& prepared, const Cast& cast, MotionSpace space,
+VelocityWorld::VelocityWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
                              const Parameters& parameters)
-    : BodyWorld(prepared, cast, space, contact_options(parameters)), parameters_(parameters) {
+    : BodyWorld(prepared, scene, space, contact_options(parameters)), parameters_(parameters) {
   for (const auto& body : bodies()) radii_.push_back(body.radius);
 }
 
@@ -35,7 +35,7 @@ VelocityWorld::Vector VelocityWorld::free_motion(const State& state, const Actio
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i) * per_body();
     Wrench wrench = action.wrenches[i];
-    if (action.turns_along) {
+    if (action.in_body_frame) {
       const auto& q = state.bodies[i].pose.q;
       wrench = {q * wrench.force, q * wrench.torque};
     }
@@ -131,7 +131,7 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // To and fro in place is standing still, too.
+  // To and fro in place is standing fixed, too.
   if (report.travel < kStallShare * free) report.stalled = true;
   return report;
 }

@@ -13,7 +13,8 @@ namespace dismantle::sdf_velocity {
 /// nearest to that.
 class VelocityWorld final : public sdf::BodyWorld {
  public:
-  VelocityWorld(const sdf::PreparedShapes& prepared, const Cast& cast, MotionSpace space, const Parameters& parameters);
+  VelocityWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
+                const Parameters& parameters);
 
   StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;
 

@@ -1,4 +1,4 @@
-// Algorithm 3 on whole plans: each part comes from the layout, ends in its place, and the judge agrees.
+// Algorithm 3 on whole plans: each part comes from the layout, ends in its place, and the verifier agrees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,21 +33,21 @@ Planned plan(const std::string& sample, const ParamSet& parameters, Settings set
   PrepareReport report;
   Planned out;
   out.assembly = prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
-  Ingredients ingredients;
-  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
-  ingredients.path_planner = [&] { return registry.create<PathPlanner>("mv_t_rrt", config.path_planner.parameters); };
-  ingredients.sequence_planner =
+  PlanningSetup setup;
+  setup.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
+  setup.path_planner = [&] { return registry.create<PathPlanner>("mv_t_rrt", config.path_planner.parameters); };
+  setup.sequence_planner =
       registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
-  ingredients.path_planner_id = "mv_t_rrt";
-  ingredients.transfer_planner = [&] {
+  setup.path_planner_id = "mv_t_rrt";
+  setup.transfer_planner = [&] {
     return registry.create<TransferPlanner>(config.transfer_planner.type, config.transfer_planner.parameters);
   };
-  ingredients.transfer_planner_id = config.transfer_planner.type;
+  setup.transfer_planner_id = config.transfer_planner.type;
   RunOptions options;
   options.path_timeout = 0;
   options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
   options.layout = config.layout;
-  out.run = run(out.assembly, ingredients, options, context);
+  out.run = run(out.assembly, setup, options, context);
   return out;
 }
 
@@ -177,10 +177,10 @@ class PairFirst final : public SequencePlanner {
     SequenceResult result;
     result.outcome = Outcome::solved;
     std::vector<Pose> at(4);
-    const auto take = [&](const std::vector<PartId>& moving, const std::vector<PartId>& still) {
+    const auto take = [&](const std::vector<PartId>& moving, const std::vector<PartId>& fixed) {
       Attempt attempt;
       for (const PartId id : moving) attempt.moving.push_back({id, at[id]});
-      for (const PartId id : still) attempt.still.push_back({id, at[id]});
+      for (const PartId id : fixed) attempt.fixed.push_back({id, at[id]});
       const AttemptResult& answer = oracle.attempt(attempt, context);
       ASSERT_TRUE(is_success(answer.result.outcome())) << answer.result.message;
       result.removals.push_back({moving, &answer});
@@ -199,11 +199,11 @@ TEST(AssemblySteps, SubAssembliesArePutTogetherFirst) {
   Registry registry;
   registry.scan();
   const Assembly assembly = fake::tube_with_blocks(3);
-  Ingredients ingredients = fake::ingredients(fake::push, std::make_shared<PairFirst>());
-  ingredients.transfer_planner = [&] { return registry.create<TransferPlanner>("rrt_connect"); };
-  ingredients.transfer_planner_id = "rrt_connect";
+  PlanningSetup setup = fake::setup(fake::push, std::make_shared<PairFirst>());
+  setup.transfer_planner = [&] { return registry.create<TransferPlanner>("rrt_connect"); };
+  setup.transfer_planner_id = "rrt_connect";
   RunContext context;
-  const Plan plan = run(assembly, ingredients, RunOptions{}, context).plan;
+  const Plan plan = run(assembly, setup, RunOptions{}, context).plan;
   ASSERT_EQ(plan.status, PlanStatus::complete);
   ASSERT_EQ(plan.assembly_status, AssemblyStatus::complete) << plan.assembly_message;
   ASSERT_EQ(plan.assembly_steps.size(), 3u);

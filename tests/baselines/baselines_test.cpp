@@ -32,20 +32,20 @@ RunResult plan(const std::string& sample, const ParamSet& parameters, const std:
   PrepareReport report;
   const Assembly assembly =
       prepare_assembly(samples::make(sample, parameters), sample, "", config.assembly, context, report);
-  Ingredients ingredients;
-  ingredients.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
-  ingredients.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.parameters); };
-  ingredients.sequence_planner =
+  PlanningSetup setup;
+  setup.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
+  setup.path_planner = [&] { return registry.create<PathPlanner>(planner, config.path_planner.parameters); };
+  setup.sequence_planner =
       registry.create<SequencePlanner>(config.sequence_planner.type, config.sequence_planner.parameters);
-  ingredients.path_planner_id = planner;
+  setup.path_planner_id = planner;
   for (const PluginChoice& choice : config.provers)
-    ingredients.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
+    setup.provers.push_back({choice.type, registry.create<ImmobilityProver>(choice.type, choice.parameters)});
   RunOptions options;
   options.path_timeout = 0;
   options.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
   options.seed = static_cast<std::uint64_t>(config.run.seed);
   context.rng = Rng(options.seed);
-  return run(assembly, ingredients, options, context);
+  return run(assembly, setup, options, context);
 }
 
 /// Blocked parts shall not cost a test much.

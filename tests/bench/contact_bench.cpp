@@ -43,7 +43,7 @@ struct Rig {
     shapes.placed = sdf::build_shapes(assembly, options, context);
     sdf_penalty::Parameters parameters;
     parameters.dynamics = dynamics;
-    world = std::make_unique<sdf_penalty::PenaltyWorld>(shapes, Cast{{{0, Pose{}}}, {{1, Pose{}}}}, space, parameters);
+    world = std::make_unique<sdf_penalty::PenaltyWorld>(shapes, Scene{{{0, Pose{}}}, {{1, Pose{}}}}, space, parameters);
   }
 };
 

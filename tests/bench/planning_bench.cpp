@@ -19,17 +19,17 @@ const Registry& registry() {
 
 struct Task {
   Assembly assembly;
-  Cast cast;
+  Scene scene;
   std::vector<PartId> moving;
   std::unique_ptr<Verifier> verifier;
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
   std::shared_ptr<PathPlanner> planner = registry().create<PathPlanner>("guided");
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
   double judging = 0;  ///< seconds
 
   Task(const char* name, const char* part) : assembly(sample(name)) {
     moving = {part_called(assembly, part)};
-    for (const auto& p : assembly.parts) (p.id == moving[0] ? cast.moving : cast.still).push_back({p.id, Pose{}});
+    for (const auto& p : assembly.parts) (p.id == moving[0] ? scene.moving : scene.fixed).push_back({p.id, Pose{}});
     prepare();
   }
   void prepare() {
@@ -41,11 +41,11 @@ struct Task {
     RunContext context;
     const fake::RuleChecker checker([&](const Path& path) {
       const auto begin = Deadline::Clock::now();
-      const fake::Ruling ruling = fake::ruling_of(verifier->check_motion(moving, cast.still, path));
+      const fake::Ruling ruling = fake::ruling_of(verifier->check_motion(moving, scene.fixed, path));
       judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
       return ruling;
     });
-    const PathQuery query{assembly, *simulator, *prepared, cast, {}, 0.01, checker};
+    const PathQuery query{assembly, *simulator, *prepared, scene, {}, 0.01, checker};
     return plan_path(*planner, query, context);
   }
 };
@@ -74,7 +74,7 @@ void VerifyPath(benchmark::State& state, const char* name, const char* part) {
   if (result.outcome() != Outcome::solved) state.SkipWithError("not solved");
   MotionCheck check;
   for (auto _ : state) {
-    check = task.verifier->check_motion(task.moving, task.cast.still, result.path()->poses());
+    check = task.verifier->check_motion(task.moving, task.scene.fixed, result.path()->poses());
     benchmark::DoNotOptimize(check.valid);
   }
   std::size_t triangles = 0;

@@ -45,7 +45,7 @@ class Isolation(BenchTest):
         self.assertEqual(self.bench()["solved"], 0)
         row, = self.rows()
         self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 0, 0))
-        self.assertIn("step 1", row["judgement"])
+        self.assertIn("step 1", row["verification"])
 
     def test_input_that_cannot_be_read_is_a_row(self):
         self.write("broken/a.obj", "no mesh\n")

@@ -10,8 +10,8 @@ using namespace dismantle;  // NOLINT: a file of its own
 class NoSimulator : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return {}; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override { return nullptr; }
-  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast&, MotionSpace) const override {
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly&, double, RunContext&) override { return nullptr; }
+  std::unique_ptr<World> world(const Assembly&, const PreparedAssembly&, const Scene&, MotionSpace) const override {
     return nullptr;
   }
 };

@@ -21,7 +21,7 @@ namespace dismantle {
 using PartId = std::uint32_t;
 
 /// One rigid part. `mesh` holds the original triangles (welded, oriented, repaired), scaled to assembly
-/// units: it is what the verifier judges. `surface` is the same surface with no edge longer than the
+/// units: it is what the verifier verifies. `surface` is the same surface with no edge longer than the
 /// `subdivide` parameter (appendix B.1, step 9): where simulators take their contact points.
 struct Part {
   PartId id = 0;
@@ -29,7 +29,7 @@ struct Part {
   std::string file;  ///< file name (not path) that it came from
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const Mesh> surface;
-  double volume = 0;  ///< assembly units cubed, > 0
+  double volume = 0;                 ///< assembly units cubed, > 0
   std::optional<Rgba> colour;        ///< as in its file
   std::vector<std::string> parents;  ///< assemblies of its file that it is in, outermost first
 };
@@ -45,7 +45,7 @@ struct Normalization {
   Pose pose_to_internal(const Pose& p) const { return {scale * (p.t + p.q * center - center), p.q}; }
 };
 
-/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Whoever judges a plan has to
+/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Whoever verifies a plan has to
 /// look at the same surfaces.
 struct SurfaceRepair {
   double weld = 1e-6;
@@ -70,13 +70,13 @@ struct InitialOverlap {
 };
 
 struct Assembly {
-  std::string source;   ///< as the user named it
-  std::string sha256;   ///< of the input files' bytes, in name order
+  std::string source;  ///< as the user named it
+  std::string sha256;  ///< of the input files' bytes, in name order
   Normalization normalization;
   SurfaceRepair repair;
   ImportParams import_params;
-  std::string unit;     ///< input unit ("mm", "inch", "m") if the files say so and agree; else empty
-  Aabb input_box;       ///< of all parts kept, input units
+  std::string unit;  ///< input unit ("mm", "inch", "m") if the files say so and agree; else empty
+  Aabb input_box;    ///< of all parts kept, input units
   std::vector<Part> parts;
   std::vector<ExcludedPart> excluded;
   std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles

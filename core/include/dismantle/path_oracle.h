@@ -18,13 +18,13 @@ namespace dismantle {
 /// "Can these parts leave while those are where they are, with this effort?" All other parts are gone.
 struct Attempt {
   std::vector<PlacedPart> moving;
-  std::vector<PlacedPart> still;
+  std::vector<PlacedPart> fixed;
   unsigned max_depth = 0;  ///< 0 = no limit
   Goal goal{};
   /// For attempt() and prefetch(): the search may resume the last one that was asked for with the same moving parts at
-  /// the same poses, the same goal, and at least these fixed parts at these poses; and a later one may resume this. That
-  /// saves time, and the answer then depends on which attempts were asked for before, in their order. False: it depends
-  /// on nothing but this question.
+  /// the same poses, the same goal, and at least these fixed parts at these poses; and a later one may resume this.
+  /// That saves time, and the answer then depends on which attempts were asked for before, in their order. False: it
+  /// depends on nothing but this question.
   bool resume = false;
 };
 
@@ -55,8 +55,8 @@ struct OracleCounts {
   std::uint64_t attempts = 0;   ///< answered by planning
   std::uint64_t memoised = 0;   ///< answered from memory
   std::uint64_t discarded = 0;  ///< computed ahead, never asked for
-  std::uint64_t proposed = 0;   ///< ways that the sequence planner found itself, put to the judge
-  std::uint64_t refused = 0;    ///< ... of which the judge refused so many
+  std::uint64_t proposed = 0;   ///< ways that the sequence planner found itself, put to the verifier
+  std::uint64_t refused = 0;    ///< ... of which the verifier refused so many
 };
 
 /// Memoises, counts and verifies. May compute prefetched attempts on other threads; answers do not depend on it.
@@ -64,14 +64,14 @@ class DISMANTLE_API PathOracle {
  public:
   virtual ~PathOracle();
   /// Reference stays valid for the life of the oracle.
-  /// @throws std::invalid_argument when the attempt makes no sense: no part moves, a part is unknown or listed twice, or
-  /// one of the goal does not move.
+  /// @throws std::invalid_argument when the attempt makes no sense: no part moves, a part is unknown or listed twice,
+  /// or one of the goal does not move.
   virtual const AttemptResult& attempt(const Attempt& attempt, RunContext& context) = 0;
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;
   /// Checks a path that the caller has found, in place of a search: `path` as PathResult::path, columns as
-  /// attempt.moving, which is in ascending order; it begins where the attempt has the moving parts. `solved`: valid, and the goal is
-  /// reached at its end; else `exhausted`, with the part that is in the way and what is wrong.
+  /// attempt.moving, which is in ascending order; it begins where the attempt has the moving parts. `solved`: valid,
+  /// and the goal is reached at its end; else `exhausted`, with the part that is in the way and what is wrong.
   virtual const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext& context) = 0;
   virtual OracleCounts counts() const = 0;
   /// Can these parts, as they are assembled, be separated at all? nullptr: not proved, by the provers of that effort.

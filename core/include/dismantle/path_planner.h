@@ -15,7 +15,7 @@
 
 namespace dismantle {
 
-/// Poses of the moving parts, instant by instant: path[k][i] is the pose of Cast::moving[i]. The first
+/// Poses of the moving parts, instant by instant: path[k][i] is the pose of Scene::moving[i]. The first
 /// entry is where they start. Between two instants each part moves by the joining screw motion.
 using Path = Trace;
 
@@ -90,7 +90,7 @@ class DISMANTLE_API SearchState {
 struct Goal {
   /// Empty: the moving parts move as one group until its convex hull is apart from that of the fixed parts. Else the
   /// parts move independently and simultaneously until one of these (they are among the moving ones) is apart from all
-  /// others, moving and fixed (World::leaves).
+  /// others, moving and fixed (World::body_separated).
   std::vector<PartId> any_of{};
   /// Intermediate placement, of proposed paths only (no query has it): the parts are moved and stay in their group. The
   /// path has to be valid, and to separate nothing. Not together with any_of.
@@ -102,8 +102,8 @@ struct Goal {
 struct PathQuery {
   const Assembly& assembly;
   const Simulator& simulator;
-  const Prepared& prepared;
-  Cast cast;
+  const PreparedAssembly& prepared;
+  Scene scene;
   Budget budget;
   /// Penetration above the initial overlap that the verifier tolerates (`verify.max_penetration`); assembly units, >=
   /// 0. Planners keep a share of it in reserve, because simulators see contact at samples only.

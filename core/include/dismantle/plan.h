@@ -112,7 +112,7 @@ struct Plan {
   PlanAssembly assembly;
   PlanStatus status = PlanStatus::partial;
   std::uint64_t seed = 0;
-  double verified_max_penetration = 0.01;  ///< the tolerance that every step was judged by
+  double verified_max_penetration = 0.01;  ///< the tolerance that every step was verified with
   std::vector<PlanStep> disassembly;
   std::vector<PlanStep> assembly_steps;
   AssemblyStatus assembly_status = AssemblyStatus::reversed;

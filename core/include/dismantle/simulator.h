@@ -34,11 +34,11 @@ struct PlacedPart {
   Pose pose;
 };
 
-/// Who takes part: `moving` are free, `still` are fixed where they are, all other parts are absent.
+/// Who takes part: `moving` are free, `fixed` are fixed where they are, all other parts are absent.
 /// Moving parts start at the poses given here.
-struct Cast {
+struct Scene {
   std::vector<PlacedPart> moving;
-  std::vector<PlacedPart> still;
+  std::vector<PlacedPart> fixed;
 };
 
 /// Velocity is that of the body's centre (see World::center), world axes.
@@ -48,7 +48,7 @@ struct BodyState {
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad / s
 };
 
-/// One entry per moving part, in the order of Cast::moving.
+/// One entry per moving part, in the order of Scene::moving.
 struct State {
   std::vector<BodyState> bodies;
 };
@@ -62,7 +62,7 @@ struct Wrench {
 /// One wrench per moving part.
 struct Action {
   std::vector<Wrench> wrenches;
-  bool turns_along = false;  ///< the wrenches turn with their bodies: given in the axes of the part, not of the world
+  bool in_body_frame = false;  ///< the wrenches turn with their bodies: given in the axes of the part, not of the world
 };
 
 struct Contact {
@@ -76,7 +76,7 @@ struct Contact {
 };
 
 /// Poses along an advance, dense enough that the motion between two of them is a screw motion to
-/// within the simulator's accuracy. One vector<Pose> per recorded instant, entries as Cast::moving.
+/// within the simulator's accuracy. One vector<Pose> per recorded instant, entries as Scene::moving.
 using Trace = std::vector<std::vector<Pose>>;
 
 struct StepReport {
@@ -86,7 +86,7 @@ struct StepReport {
   bool finite = true;       ///< false: the state blew up and was put back to where it began
 };
 
-/// One scene: some parts move, others stand still. One world per thread; may be reused for many states.
+/// One scene: some parts move, others stay fixed. One world per thread; may be reused for many states.
 class DISMANTLE_API World {
  public:
   virtual ~World();
@@ -94,9 +94,9 @@ class DISMANTLE_API World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  virtual const Cast& cast() const = 0;
+  virtual const Scene& scene() const = 0;
   virtual MotionSpace space() const = 0;
-  /// State with every moving part where the cast put it, at rest.
+  /// State with every moving part where the scene put it, at rest.
   virtual State initial_state() const = 0;
   /// Centre of moving part `body` in its assembled frame, and the largest distance of its points from it.
   virtual Eigen::Vector3d center(std::size_t body) const = 0;
@@ -112,28 +112,28 @@ class DISMANTLE_API World {
   virtual double penetration(const State& state) = 0;
   /// Moves the bodies, by as little as it takes, so that they keep `clearance` (assembly units, small) from what they
   /// would touch, or half of what room there is. A world that cannot leaves the state as it is.
-  virtual void retreat(State& state, double clearance) { (void)state, (void)clearance; }
+  virtual void project_to_clearance(State& state, double clearance) { (void)state, (void)clearance; }
   /// Replaces the content of `out`.
   virtual void contacts(const State& state, std::vector<Contact>& out) = 0;
-  /// True when the hulls of all moving parts together are apart from the hull of all still parts
-  /// (section 3). True when nothing stands still.
+  /// True when the hulls of all moving parts together are apart from the hull of all fixed parts
+  /// (section 3). True when nothing stay fixed.
   virtual bool separated(const State& state) = 0;
-  /// True when the hull of moving part `body` alone is apart from the hull of all others, moving and still. Worlds in
+  /// True when the hull of moving part `body` alone is apart from the hull of all others, moving and fixed. Worlds in
   /// which several parts move override it; for one part it is separated(). Else throws std::logic_error.
-  virtual bool leaves(const State& state, std::size_t body);
-  /// Tells the world of a place where the judge found it too permissive: `point` (assembled frame of
+  virtual bool body_separated(const State& state, std::size_t body);
+  /// Tells the world of a place where the verifier found it too permissive: `point` (assembled frame of
   /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
-  virtual void learn(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
-  /// A world may at first be stricter than the judge: where parts overlap when assembled, it may want them to
-  /// overlap only there. relax() grants all that the judge does, from then on.
+  virtual void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
+  /// A world may at first be stricter than the verifier: where parts overlap when assembled, it may want them to
+  /// overlap only there. relax() grants all that the verifier does, from then on.
   virtual bool strict() const { return false; }
   virtual void relax() {}
 };
 
 /// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.
-class DISMANTLE_API Prepared {
+class DISMANTLE_API PreparedAssembly {
  public:
-  virtual ~Prepared();
+  virtual ~PreparedAssembly();
 };
 
 /// Stateless factory; parameters are fixed at construction. Safe to call from several threads.
@@ -143,9 +143,10 @@ class DISMANTLE_API Simulator {
   virtual Capabilities capabilities() const noexcept = 0;
   /// `tolerance`: penetration above the initial overlap that the verifier lets pass, assembly units.
   /// @throws InputError naming the part that cannot be used.
-  virtual std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) = 0;
+  virtual std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
+                                                          RunContext& context) = 0;
   /// The assembly given to prepare() and `prepared` must outlive the world.
-  virtual std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+  virtual std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,
                                        MotionSpace space) const = 0;
 };
 

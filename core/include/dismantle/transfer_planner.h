@@ -12,9 +12,9 @@ namespace dismantle {
 struct TransferQuery {
   const Assembly& assembly;
   const Simulator& simulator;
-  const Prepared& prepared;
-  /// `moving` start where they lie and move as one rigid body; `still` are all others that are anywhere.
-  Cast cast;
+  const PreparedAssembly& prepared;
+  /// `moving` start where they lie and move as one rigid body; `fixed` are all others that are anywhere.
+  Scene scene;
   /// One pose per moving part: all are taken there by the same displacement of the group.
   std::vector<Pose> goal;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< unit; the side on which nothing lies

@@ -36,14 +36,14 @@ bool contains(const std::vector<PartId>& parts, PartId id) {
 /// Who is where. Group g > 0 was made by step g - 1. "Place" of a group: its displacement from where the disassembly
 /// has it.
 struct Assembler::Scenery {
-  const std::vector<BookedStep>& steps;
+  const std::vector<RecordedStep>& steps;
   std::vector<std::vector<Pose>> poses;          ///< [k][part]: after k steps of the disassembly
   std::vector<std::vector<std::size_t>> groups;  ///< [k][part]: likewise, its group
   std::vector<Pose> place;                       ///< [group]
   std::vector<std::string> missing;              ///< [group]: why it does not lie in the layout; empty: it does
 
-  Scenery(const std::vector<BookedStep>& booked, std::size_t parts)
-      : steps(booked), poses(1, std::vector<Pose>(parts)), groups(1, std::vector<std::size_t>(parts, 0)) {
+  Scenery(const std::vector<RecordedStep>& recorded, std::size_t parts)
+      : steps(recorded), poses(1, std::vector<Pose>(parts)), groups(1, std::vector<std::size_t>(parts, 0)) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       poses.push_back(poses.back());
       groups.push_back(groups.back());
@@ -88,11 +88,11 @@ struct Assembler::Way {
   std::vector<std::pair<LogLevel, std::string>> log;
 };
 
-Assembler::Assembler(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+Assembler::Assembler(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
                      const RunOptions& options, const Verifier& verifier)
     : assembly_(assembly),
       prepared_(prepared),
-      ingredients_(ingredients),
+      setup_(setup),
       options_(options),
       verifier_(verifier),
       normalizer_(assembly) {}
@@ -115,7 +115,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
     rooms[0].extend(box_of(static_cast<PartId>(p), scenery.poses[0][p]));
   const Aabb assembled = rooms[0];
   for (std::size_t i = 0; i < n; ++i) {
-    const BookedStep& step = scenery.steps[i];
+    const RecordedStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
       if (step.leaves(step.parts[k])) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
       Aabb swept;
@@ -185,14 +185,14 @@ void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const
 class Assembler::Checker final : public PathChecker {
  public:
   /// All outlive it. `context`: interrupts a check that is running.
-  Checker(const Assembler& assembler, const Cast& cast, const std::vector<Pose>& goal, const RunContext& context)
-      : assembler_(assembler), cast_(cast), goal_(goal), context_(context) {
-    for (const PlacedPart& p : cast_.moving) moving_.push_back(p.part);
+  Checker(const Assembler& assembler, const Scene& scene, const std::vector<Pose>& goal, const RunContext& context)
+      : assembler_(assembler), scene_(scene), goal_(goal), context_(context) {
+    for (const PlacedPart& p : scene_.moving) moving_.push_back(p.part);
   }
 
   PathCheck check(const Path& path) const override {
     PathCheck answer;
-    NormalizedPath written = assembler_.normalizer_.normalize(path, cast_.moving);
+    NormalizedPath written = assembler_.normalizer_.normalize(path, scene_.moving);
     answer.reason = written.problem;
     if (!answer.reason.empty()) return answer;
     for (std::size_t k = 0; k < goal_.size(); ++k) {
@@ -202,7 +202,7 @@ class Assembler::Checker final : public PathChecker {
       }
       written.path.back()[k] = goal_[k];
     }
-    const MotionCheck motion = assembler_.verifier_.check_motion(moving_, cast_.still, written.path, context_);
+    const MotionCheck motion = assembler_.verifier_.check_motion(moving_, scene_.fixed, written.path, context_);
     if (motion.valid) {
       answer.verified = accept(std::move(written.path), motion.max_penetration);
       return answer;
@@ -220,7 +220,7 @@ class Assembler::Checker final : public PathChecker {
 
  private:
   const Assembler& assembler_;
-  const Cast& cast_;
+  const Scene& scene_;
   const std::vector<Pose>& goal_;
   const RunContext& context_;
   std::vector<PartId> moving_;
@@ -228,16 +228,16 @@ class Assembler::Checker final : public PathChecker {
 
 Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, TransferPlanner& planner,
                                    const RunContext& context) const {
-  const BookedStep& step = scenery.steps[i];
-  Cast cast{{}, scenery.others(i)};
+  const RecordedStep& step = scenery.steps[i];
+  Scene scene{{}, scenery.others(i)};
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
     const Pose& out = scenery.poses[i + 1][id];
     if (!step.leaves(id)) {  // there, and waits
-      cast.still.push_back({id, scenery.place[step.from] * out});
+      scene.fixed.push_back({id, scenery.place[step.from] * out});
       continue;
     }
-    cast.moving.push_back({id, scenery.place[i + 1] * out});
+    scene.moving.push_back({id, scenery.place[i + 1] * out});
     goal.push_back(scenery.place[step.from] * out);
   }
 
@@ -248,11 +248,11 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   own.on_progress = nullptr;
   own.on_log = [&](LogLevel level, std::string_view text) { log.emplace_back(level, text); };
 
-  const Checker checker(*this, cast, goal, own);
+  const Checker checker(*this, scene, goal, own);
   const TransferQuery query{assembly_,
-                            *ingredients_.simulator,
+                            *setup_.simulator,
                             prepared_,
-                            cast,
+                            scene,
                             goal,
                             options_.layout.up_axis(),
                             {.max_steps = options_.path_steps, .timeout = options_.path_timeout},
@@ -298,7 +298,7 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
   };
   const std::size_t threads = std::min<std::size_t>(std::max(1U, context.threads), ways.size());
   while (planners_.size() < threads) {
-    planners_.push_back(ingredients_.transfer_planner());
+    planners_.push_back(setup_.transfer_planner());
     if (!planners_.back()) throw PluginError("transfer_planner", "nothing was made");
   }
   std::atomic<std::size_t> next{0};
@@ -312,10 +312,10 @@ std::vector<Assembler::Way> Assembler::transfers(const Scenery& scenery, std::si
 }
 
 PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& way, const PlanStep& there) const {
-  const BookedStep& step = scenery.steps[i];
+  const RecordedStep& step = scenery.steps[i];
   PlanStep back = reversed(there);
   back.max_penetration = std::max(there.max_penetration, way.max_penetration);
-  back.planner = way.path.empty() ? "" : ingredients_.transfer_planner_id;
+  back.planner = way.path.empty() ? "" : setup_.transfer_planner_id;
   back.seconds = way.seconds;
   back.depth = way.depth;
   back.transfer = way.path.empty() ? 0 : way.path.size() - 1;
@@ -337,7 +337,7 @@ PlanStep Assembler::to_step(const Scenery& scenery, std::size_t i, const Way& wa
   return back;
 }
 
-AssemblyPlan Assembler::put_together(const std::vector<BookedStep>& steps, const std::vector<PlanStep>& written,
+AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, const std::vector<PlanStep>& written,
                                      const RunContext& context) {
   AssemblyPlan plan;
   std::vector<std::string> problems;

@@ -7,7 +7,7 @@
 
 #include "dismantle/engine/run.h"
 #include "path_normalizer.h"
-#include "step_ledger.h"
+#include "plan_builder.h"
 
 namespace dismantle {
 
@@ -20,17 +20,17 @@ struct AssemblyPlan {
 /// Each step of the disassembly makes a group, and each group has a place in the layout: a displacement from where the
 /// disassembly left it. A group that is taken apart by later steps is put together at its place, and then moves in as
 /// a whole. What was shifted part-way is shifted back where it is. So at every time each part is at one known place,
-/// and what moves is judged against all others.
+/// and what moves is verified against all others.
 ///
 /// A group for which there is no way is left out of the layout: its step begins where the disassembly left it.
 class Assembler {
  public:
   /// All references must outlive the assembler.
-  Assembler(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+  Assembler(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
             const RunOptions& options, const Verifier& verifier);
 
   /// `written` are the same steps as the plan has them.
-  AssemblyPlan put_together(const std::vector<BookedStep>& steps, const std::vector<PlanStep>& written,
+  AssemblyPlan put_together(const std::vector<RecordedStep>& steps, const std::vector<PlanStep>& written,
                             const RunContext& context);
 
  private:
@@ -45,8 +45,8 @@ class Assembler {
   Aabb box_of(PartId part, const Pose& pose) const;
 
   const Assembly& assembly_;
-  const Prepared& prepared_;
-  const Ingredients& ingredients_;
+  const PreparedAssembly& prepared_;
+  const PlanningSetup& setup_;
   const RunOptions& options_;
   const Verifier& verifier_;
   PathNormalizer normalizer_;

@@ -54,8 +54,8 @@ void append(std::string& bytes, const Goal& goal) {
   for (const PartId id : goal.any_of) append(bytes, id);
 }
 
-CastDigest sha256(const std::string& bytes) {
-  CastDigest digest{};
+SceneDigest sha256(const std::string& bytes) {
+  SceneDigest digest{};
   unsigned length = 0;
   if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1 ||
       length != digest.size())
@@ -70,7 +70,7 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   Attempt result = attempt;
   std::vector<bool> seen(part_count, false);
   canonicalise(result.moving, seen);
-  canonicalise(result.still, seen);
+  canonicalise(result.fixed, seen);
   if (result.goal.any_of.empty()) return result;
   if (result.goal.placement || result.moving.size() < 2)
     throw std::invalid_argument("attempt in which one of several parts is to leave, but only one moves or all stay");
@@ -82,26 +82,26 @@ Attempt canonical(const Attempt& attempt, std::size_t part_count) {
   return result;
 }
 
-CastDigest digest_of(const Attempt& canonical_attempt) {
+SceneDigest digest_of(const Attempt& canonical_attempt) {
   std::string bytes;
-  bytes.reserve(64 * (canonical_attempt.moving.size() + canonical_attempt.still.size()) + 16);
+  bytes.reserve(64 * (canonical_attempt.moving.size() + canonical_attempt.fixed.size()) + 16);
   append(bytes, canonical_attempt.moving);
-  append(bytes, canonical_attempt.still);
+  append(bytes, canonical_attempt.fixed);
   append(bytes, canonical_attempt.goal);
   return sha256(bytes);
 }
 
-CastDigest digest_of_moving(const Attempt& canonical_attempt) {
+SceneDigest digest_of_moving(const Attempt& canonical_attempt) {
   std::string bytes;
   append(bytes, canonical_attempt.moving);
   append(bytes, canonical_attempt.goal);
   return sha256(bytes);
 }
 
-CastDigest digest_of(const AttemptKey& key) {
-  std::string bytes(key.cast.begin(), key.cast.end());
+SceneDigest digest_of(const AttemptKey& key) {
+  std::string bytes(key.scene.begin(), key.scene.end());
   append(bytes, key.max_depth);
-  if (key.after != CastDigest{}) bytes.append(key.after.begin(), key.after.end());
+  if (key.after != SceneDigest{}) bytes.append(key.after.begin(), key.after.end());
   return sha256(bytes);
 }
 
@@ -112,14 +112,14 @@ bool may_follow(const Attempt& now, const Attempt& earlier) {
   const auto before = [](const PlacedPart& p, PartId id) { return p.part < id; };
   return now.goal == earlier.goal &&
          std::equal(now.moving.begin(), now.moving.end(), earlier.moving.begin(), earlier.moving.end(), same) &&
-         std::all_of(now.still.begin(), now.still.end(), [&](const PlacedPart& s) {
-           const auto then = std::lower_bound(earlier.still.begin(), earlier.still.end(), s.part, before);
-           return then != earlier.still.end() && same(*then, s);
+         std::all_of(now.fixed.begin(), now.fixed.end(), [&](const PlacedPart& s) {
+           const auto then = std::lower_bound(earlier.fixed.begin(), earlier.fixed.end(), s.part, before);
+           return then != earlier.fixed.end() && same(*then, s);
          });
 }
 
 std::uint64_t stream_of(const AttemptKey& key) {
-  const CastDigest digest = digest_of(AttemptKey{key.cast, key.max_depth, {}});
+  const SceneDigest digest = digest_of(AttemptKey{key.scene, key.max_depth, {}});
   std::uint64_t stream = 0;
   for (int i = 0; i < 8; ++i) stream |= static_cast<std::uint64_t>(digest[static_cast<std::size_t>(i)]) << (8 * i);
   return stream;

@@ -11,33 +11,33 @@
 
 namespace dismantle {
 
-/// SHA-256 of who moves and who stands still, and where, and the goal; without the depth.
-using CastDigest = std::array<unsigned char, 32>;
+/// SHA-256 of who moves and who stay fixed, and where, and the goal; without the depth.
+using SceneDigest = std::array<unsigned char, 32>;
 
 struct AttemptKey {
-  CastDigest cast{};
+  SceneDigest scene{};
   unsigned max_depth = 0;
-  CastDigest after{};  ///< of the question whose search is gone on with; zero: it begins anew
+  SceneDigest after{};  ///< of the question whose search is gone on with; zero: it begins anew
   auto operator<=>(const AttemptKey&) const = default;
 };
 
-/// Moving and still parts by ascending id, those of the goal too, quaternions with the sign that makes them unique, no
+/// Moving and fixed parts by ascending id, those of the goal too, quaternions with the sign that makes them unique, no
 /// negative zeros.
 /// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, a pose is not
 /// finite, or one of the goal does not move or moves alone.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
-/// Digest of a canonical cast.
-CastDigest digest_of(const Attempt& canonical_attempt);
+/// Digest of a canonical scene.
+SceneDigest digest_of(const Attempt& canonical_attempt);
 
 /// Digest of a question as a whole, for those that go on where it ended.
-CastDigest digest_of(const AttemptKey& key);
+SceneDigest digest_of(const AttemptKey& key);
 
 /// Digest of what two attempts have in common of which one may resume the other: the moving parts and the goal.
-CastDigest digest_of_moving(const Attempt& canonical_attempt);
+SceneDigest digest_of_moving(const Attempt& canonical_attempt);
 
 /// May the search for `now` go on from what the one for `earlier` has reached? Both canonical: the same parts move from
-/// the same places, to the same end, and whoever stands still now stood there then.
+/// the same places, to the same end, and whoever stay fixed now stood there then.
 bool may_follow(const Attempt& now, const Attempt& earlier);
 
 /// Number of the random stream that belongs to the question: the same on every machine and in any order of asking, and

@@ -25,7 +25,7 @@ void drop_nonsense(PathResult& result, const Attempt& attempt) {
   std::vector<PartId> blockers;
   for (const PartId id : result.blocked_by) {
     const bool stands =
-        std::any_of(attempt.still.begin(), attempt.still.end(), [id](const PlacedPart& p) { return p.part == id; });
+        std::any_of(attempt.fixed.begin(), attempt.fixed.end(), [id](const PlacedPart& p) { return p.part == id; });
     if (stands && std::find(blockers.begin(), blockers.end(), id) == blockers.end()) blockers.push_back(id);
   }
   result.blocked_by = std::move(blockers);
@@ -50,7 +50,7 @@ class AttemptRunner::Checker final : public PathChecker {
     answer.reason = written.problem;
     if (!answer.reason.empty()) return answer;
     const MotionCheck motion =
-        runner_.verifier_.check_motion(ids_of(attempt_.moving), attempt_.still, written.path, context_);
+        runner_.verifier_.check_motion(ids_of(attempt_.moving), attempt_.fixed, written.path, context_);
     if (!motion.valid) {
       runner_.explain(motion, written, answer);
       return answer;
@@ -62,7 +62,7 @@ class AttemptRunner::Checker final : public PathChecker {
       released = runner_.first_out(attempt_, group);
       if (!attempt_.goal.any_of.empty() && !released)
         answer.reason = "the path ends before any part that is to leave is apart from all others";
-      else if (attempt_.goal.any_of.empty() && !runner_.verifier_.apart(group, attempt_.still))
+      else if (attempt_.goal.any_of.empty() && !runner_.verifier_.apart(group, attempt_.fixed))
         answer.reason = "the path ends before the convex hulls are apart";
       if (!answer.reason.empty()) return answer;
     }
@@ -74,7 +74,7 @@ class AttemptRunner::Checker final : public PathChecker {
   std::optional<VerifiedPath> rest() const {
     const std::optional<PartId> released = runner_.first_out(attempt_, attempt_.moving);
     const bool is_apart = attempt_.goal.any_of.empty()
-                              ? attempt_.still.empty() || runner_.verifier_.apart(attempt_.moving, attempt_.still)
+                              ? attempt_.fixed.empty() || runner_.verifier_.apart(attempt_.moving, attempt_.fixed)
                               : released.has_value();
     if (!is_apart) return std::nullopt;
     std::vector<Pose> start;
@@ -88,13 +88,13 @@ class AttemptRunner::Checker final : public PathChecker {
   const RunContext& context_;
 };
 
-AttemptRunner::AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+AttemptRunner::AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
                              const RunOptions& options, const Verifier& verifier, const Rng& rng)
     : assembly_(assembly),
       prepared_(prepared),
-      simulator_(*ingredients.simulator),
+      simulator_(*setup.simulator),
       verifier_(verifier),
-      planner_id_(ingredients.path_planner_id),
+      planner_id_(setup.path_planner_id),
       path_timeout_(options.path_timeout),
       path_steps_(options.path_steps),
       rng_(rng),
@@ -117,7 +117,7 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
 /// them.
 std::optional<PartId> AttemptRunner::first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const {
   for (const PartId id : attempt.goal.any_of) {
-    std::vector<PlacedPart> alone, others = attempt.still;
+    std::vector<PlacedPart> alone, others = attempt.fixed;
     for (const PlacedPart& p : group) (p.part == id ? alone : others).push_back(p);
     if (verifier_.apart(alone, others)) return id;
   }
@@ -168,7 +168,7 @@ ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path
   } else {
     result.fail(Outcome::exhausted, check.reason);
     result.depth = 1;
-    if (check.has_witness) result.blocked_by = {holds(attempt.still, check.other) ? check.other : check.part};
+    if (check.has_witness) result.blocked_by = {holds(attempt.fixed, check.other) ? check.other : check.part};
   }
   drop_nonsense(result, attempt);
   computed.interrupted = !is_success(result.outcome()) && context.should_stop();
@@ -188,7 +188,7 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
   const PathQuery query{assembly_,
                         simulator_,
                         prepared_,
-                        {attempt.moving, attempt.still},
+                        {attempt.moving, attempt.fixed},
                         {attempt.max_depth, path_steps_, path_timeout_},
                         verifier_.options().max_penetration,
                         checker,
@@ -209,7 +209,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   // A path that was found just in time is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
   try {
-    if (attempt.still.empty() && attempt.goal.any_of.empty()) {
+    if (attempt.fixed.empty() && attempt.goal.any_of.empty()) {
       result.start_is_goal();  // nothing left to be apart from
     } else {
       result = plan(planner, attempt, resumed, own, checker);

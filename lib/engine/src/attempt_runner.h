@@ -20,7 +20,7 @@ struct ComputedAttempt {
 class AttemptRunner {
  public:
   /// All references must outlive the runner. `rng` is the run's generator.
-  AttemptRunner(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+  AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
                 const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
@@ -43,7 +43,7 @@ class AttemptRunner {
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 
   const Assembly& assembly_;
-  const Prepared& prepared_;
+  const PreparedAssembly& prepared_;
   const Simulator& simulator_;
   const Verifier& verifier_;
   std::string planner_id_;

@@ -26,21 +26,21 @@ bool holds_for_all(Outcome o) {
   return o == Outcome::start_is_goal || o == Outcome::invalid_start || o == Outcome::unsupported;
 }
 
-void check(const Ingredients& ingredients) {
-  if (!ingredients.simulator) throw std::invalid_argument("no simulator given");
-  if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
+void check(const PlanningSetup& setup) {
+  if (!setup.simulator) throw std::invalid_argument("no simulator given");
+  if (!setup.path_planner) throw std::invalid_argument("no path planner given");
 }
 
 }  // namespace
 
-Oracle::Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients,
+Oracle::Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
                const RunOptions& options, const Verifier& verifier, const RunContext& context)
-    : part_count_((check(ingredients), assembly.parts.size())),
+    : part_count_((check(setup), assembly.parts.size())),
       verifier_(verifier),
       constraints_(options.constraints),
-      make_planner_(ingredients.path_planner),
-      runner_(assembly, prepared, ingredients, options, verifier, context.rng),
-      proofs_(assembly, verifier, ingredients.provers, context),
+      make_planner_(setup.path_planner),
+      runner_(assembly, prepared, setup, options, verifier, context.rng),
+      proofs_(assembly, verifier, setup.provers, context),
       computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
 
 std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
@@ -124,7 +124,7 @@ const AttemptResult& Oracle::keep(AttemptResult result) { return results_.emplac
 
 const AttemptResult* Oracle::remembered(const AttemptKey& key) {
   if (const auto known = answers_.find(key); known != answers_.end()) return known->second;
-  const auto known = finals_.find(key.cast);
+  const auto known = finals_.find(key.scene);
   if (known == finals_.end()) return nullptr;
   const auto& [depth, answer] = known->second;
   if (!holds_for_all(answer->result.outcome()) && !is_deeper(key.max_depth, depth)) return nullptr;
@@ -149,7 +149,7 @@ Oracle::Question Oracle::question_of(const Attempt& attempt) const {
   const AttemptResult* last = last_resumable(question.attempt);
   if (last == nullptr) return question;
   const AttemptKey& key = keys_.at(last);
-  if (key.cast == question.key.cast && key.max_depth == question.key.max_depth) {
+  if (key.scene == question.key.scene && key.max_depth == question.key.max_depth) {
     question.key = key;
   } else if (last->result.state) {
     question.resumed = last;
@@ -186,7 +186,7 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
   keys_.emplace(&result, question.key);
   const Outcome outcome = result.result.outcome();
   if (holds_for_all(outcome) || holds_for_deeper(outcome))
-    finals_.try_emplace(question.key.cast, Final{question.key.max_depth, &result});
+    finals_.try_emplace(question.key.scene, Final{question.key.max_depth, &result});
   if (attempt.resume && !is_success(outcome)) unsuccessful_[digest_of_moving(result.attempt)].push_back(&result);
   return result;
 }
@@ -260,10 +260,10 @@ SearchEffort Oracle::effort_on(PartId part) const {
   return effort;
 }
 
-std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const Prepared& prepared,
-                                        const Ingredients& ingredients, const RunOptions& options,
-                                        const Verifier& verifier, RunContext& context) {
-  return std::make_unique<Oracle>(assembly, prepared, ingredients, options, verifier, context);
+std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,
+                                        const PlanningSetup& setup, const RunOptions& options, const Verifier& verifier,
+                                        RunContext& context) {
+  return std::make_unique<Oracle>(assembly, prepared, setup, options, verifier, context);
 }
 
 }  // namespace dismantle

@@ -35,8 +35,8 @@ struct SearchEffort {
 
 class Oracle final : public PathOracle {
  public:
-  Oracle(const Assembly& assembly, const Prepared& prepared, const Ingredients& ingredients, const RunOptions& options,
-         const Verifier& verifier, const RunContext& context);
+  Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
+         const RunOptions& options, const Verifier& verifier, const RunContext& context);
 
   const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
@@ -91,9 +91,9 @@ class Oracle final : public PathOracle {
   std::mutex ask_mutex_;  ///< one question at a time
   std::deque<AttemptResult> results_;
   std::map<AttemptKey, const AttemptResult*> answers_;
-  std::map<CastDigest, Final> finals_;
+  std::map<SceneDigest, Final> finals_;
   std::map<const AttemptResult*, AttemptKey> keys_;
-  std::map<CastDigest, std::vector<const AttemptResult*>> unsuccessful_;  ///< by digest_of_moving, in order of asking
+  std::map<SceneDigest, std::vector<const AttemptResult*>> unsuccessful_;  ///< by digest_of_moving, in order of asking
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
   std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads

@@ -16,7 +16,7 @@ namespace {
 // on their way to input units and back.
 constexpr double kTravelShare = 0.01 * 0.99;
 // How far an instant may lie off the screw motion through its neighbours to be left out. A four-hundredth of the
-// tightest fit that we know (clearance 4e-5 of the size), so leaving it out spoils no good path. What is judged is
+// tightest fit that we know (clearance 4e-5 of the size), so leaving it out spoils no good path. What is verified is
 // the result anyway.
 constexpr double kToleranceShare = 1e-7;
 constexpr double kStartTolerance = 1e-9;  // of a pose's coefficients, assembly units or 1

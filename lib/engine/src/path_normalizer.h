@@ -1,4 +1,4 @@
-/// Brings a planner's path into the form that is judged and written.
+/// Brings a planner's path into the form that is verified and written.
 #pragma once
 
 #include <string>
@@ -33,7 +33,7 @@ class PathNormalizer {
 
   /// Same motion with as few instants as describe it to within tolerance(), yet so many that no point of a part
   /// travels further than max_travel() from one to the next. At least two instants. The first is exactly the pose
-  /// of the cast. Refuses paths that are not finite, have the wrong width or start elsewhere.
+  /// of the scene. Refuses paths that are not finite, have the wrong width or start elsewhere.
   NormalizedPath normalize(const Path& path, const std::vector<PlacedPart>& moving) const;
 
   double max_travel() const { return max_travel_; }  ///< assembly units

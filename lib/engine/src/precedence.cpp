@@ -17,7 +17,7 @@ struct Before {
   std::vector<std::size_t> groups;  // by part
 };
 
-std::vector<Before> befores(const std::vector<BookedStep>& steps, std::size_t part_count) {
+std::vector<Before> befores(const std::vector<RecordedStep>& steps, std::size_t part_count) {
   std::vector<Before> list{{std::vector<Pose>(part_count), std::vector<std::size_t>(part_count, 0)}};
   for (std::size_t i = 0; i < steps.size(); ++i) {
     Before next = list.back();
@@ -40,7 +40,7 @@ bool is_straight(const std::vector<Pose>& way) {
   return true;
 }
 
-bool needs(const BookedStep& b, const BookedStep& a, const Before& before, const Verifier& verifier) {
+bool needs(const RecordedStep& b, const RecordedStep& a, const Before& before, const Verifier& verifier) {
   for (const PartId id : b.parts)
     if (holds(a.parts, id)) return true;
   // Parted before that: nothing that a did was in b's way.
@@ -57,7 +57,7 @@ bool needs(const BookedStep& b, const BookedStep& a, const Before& before, const
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<BookedStep>& steps, std::size_t part_count,
+std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, std::size_t part_count,
                                                    const Verifier& verifier, const RunContext& context) {
   const std::vector<Before> before = befores(steps, part_count);
   const std::size_t n = steps.size();
@@ -84,7 +84,7 @@ std::vector<unsigned> layers_of(const std::vector<std::vector<std::size_t>>& nee
   return layers;
 }
 
-std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<BookedStep>& steps,
+std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<RecordedStep>& steps,
                                                        const std::vector<std::vector<std::size_t>>& needed) {
   // A part leaves with its last removal; shifts before that are part of it.
   std::map<PartId, std::size_t> leaves;

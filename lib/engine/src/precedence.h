@@ -6,23 +6,23 @@
 #include <vector>
 
 #include "dismantle/verification/verifier.h"
-#include "step_ledger.h"
+#include "plan_builder.h"
 
 namespace dismantle {
 
 /// Step b needs the earlier step a when it moves a part that a moved, or when its way would cut into the parts of a
-/// where they were before a, as far as the judge can tell with little effort, pair by pair. Steps that do not need each
-/// other may be done in either order or at once; only how far a part has to be taken until its hull is apart depends on
-/// what is still there. [b]: those that it needs, ascending, without those that follow from others. Steps from the one
-/// on at which `context` says to stop are taken to need all before them.
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<BookedStep>& steps, std::size_t part_count,
+/// where they were before a, as far as the verifier can tell with little effort, pair by pair. Steps that do not need
+/// each other may be done in either order or at once; only how far a part has to be taken until its hull is apart
+/// depends on what is still there. [b]: those that it needs, ascending, without those that follow from others. Steps
+/// from the one on at which `context` says to stop are taken to need all before them.
+std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, std::size_t part_count,
                                                    const Verifier& verifier, const RunContext& context);
 
 /// 1 for steps that need no other, else one more than the highest layer among those needed.
 std::vector<unsigned> layers_of(const std::vector<std::vector<std::size_t>>& needed);
 
 /// (a, b) for parts: b leaves in a step that needs the one in which a leaves. In the order of the steps.
-std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<BookedStep>& steps,
+std::vector<std::pair<PartId, PartId>> part_precedence(const std::vector<RecordedStep>& steps,
                                                        const std::vector<std::vector<std::size_t>>& needed);
 
 }  // namespace dismantle

@@ -33,7 +33,7 @@ bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome
 PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt) {
   PathResult result = PathResult::failure(Outcome::infeasible, certificate.text);
   for (const PartId id : certificate.parts)
-    if (has_part(attempt.still, id)) result.blocked_by.push_back(id);
+    if (has_part(attempt.fixed, id)) result.blocked_by.push_back(id);
   return result;
 }
 
@@ -116,7 +116,7 @@ const Certificate* ProofSchedule::prove(const SeparationQuestion& question, cons
 }
 
 const Certificate* ProofSchedule::prove_placed(const Attempt& attempt, const RunContext& context) {
-  const std::size_t parts = attempt.moving.size() + attempt.still.size();
+  const std::size_t parts = attempt.moving.size() + attempt.fixed.size();
   if (std::none_of(provers_.begin(), provers_.end(),
                    [&](const Prover& p) { return asks(p, ProofEffort::low, true, parts); }))
     return nullptr;
@@ -125,7 +125,7 @@ const Certificate* ProofSchedule::prove_placed(const Attempt& attempt, const Run
     const std::scoped_lock lock(mutex_);
     entry = &placed_answers_[digest_of(attempt)];
   }
-  const SeparationQuery query{assembly_, attempt.moving, attempt.still, tolerance_, 1, memo_};
+  const SeparationQuery query{assembly_, attempt.moving, attempt.fixed, tolerance_, 1, memo_};
   const Answer* answer = entry->get(context, [&] { return ask(query, ProofEffort::low, true, context); });
   return answer != nullptr && *answer ? &**answer : nullptr;
 }
@@ -134,7 +134,7 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
   if (!attempt.goal.any_of.empty()) {
     const Certificate* found = nullptr;
     for (const PartId id : attempt.goal.any_of) {
-      const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.still, other); };
+      const auto here = [&](PartId other) { return has_part(attempt.moving, other) || has_part(attempt.fixed, other); };
       const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
         return (c->parts[0] == id && here(c->parts[1])) || (c->parts[1] == id && here(c->parts[0]));
       });
@@ -144,8 +144,8 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
     return found;
   }
   const auto lock = std::find_if(locks_.begin(), locks_.end(), [&](const Certificate* c) {
-    return (has_part(attempt.moving, c->parts[0]) && has_part(attempt.still, c->parts[1])) ||
-           (has_part(attempt.moving, c->parts[1]) && has_part(attempt.still, c->parts[0]));
+    return (has_part(attempt.moving, c->parts[0]) && has_part(attempt.fixed, c->parts[1])) ||
+           (has_part(attempt.moving, c->parts[1]) && has_part(attempt.fixed, c->parts[0]));
   });
   return lock == locks_.end() ? nullptr : *lock;
 }
@@ -153,10 +153,10 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
 const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContext& context) {
   if (provers_.empty() || attempt.goal.placement) return nullptr;
   if (const Certificate* lock = locked(attempt)) return lock;
-  if (!attempt.goal.any_of.empty() || attempt.still.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
+  if (!attempt.goal.any_of.empty() || attempt.fixed.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
   if (const Certificate* found = prove_placed(attempt, context)) return found;
-  if (attempt.moving.size() != 1 || attempt.still.size() != 1) return nullptr;
-  return prove({{attempt.moving.front().part, attempt.still.front().part}, ProofEffort::low, 1}, context);
+  if (attempt.moving.size() != 1 || attempt.fixed.size() != 1) return nullptr;
+  return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
 }
 
 /// `for_half`: also for half of the tolerance, with which more is proved.
@@ -170,10 +170,10 @@ const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool for_half, 
 /// most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
-      attempt.moving.size() != 1 || attempt.still.size() != 1 || !as_deep(attempt, kDepthForHigh))
+      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, kDepthForHigh))
     return nullptr;
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
-  return prove_pair(attempt.moving.front().part, attempt.still.front().part, last, context);
+  return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, last, context);
 }
 
 const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,

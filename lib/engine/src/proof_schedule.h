@@ -68,7 +68,7 @@ class ProofSchedule {
   PartMemo memo_;
   std::mutex mutex_;  // of the maps; answers are computed without it
   std::map<SeparationQuestion, ComputedOnce<Answer>> answers_;
-  std::map<CastDigest, ComputedOnce<Answer>> placed_answers_;
+  std::map<SceneDigest, ComputedOnce<Answer>> placed_answers_;
   std::vector<const Certificate*> locks_;
   std::atomic<std::uint64_t> nanoseconds_{0};
 };

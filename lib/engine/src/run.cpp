@@ -13,8 +13,8 @@
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
 #include "oracle.h"
+#include "plan_builder.h"
 #include "precedence.h"
-#include "step_ledger.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -30,16 +30,15 @@ Outcome why_stopped(const RunContext& context) {
   return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
 }
 
-void check(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options) {
+void check(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options) {
   if (assembly.parts.empty()) throw InputError(assembly.source, "has no parts");
   for (std::size_t i = 0; i < assembly.parts.size(); ++i)
     if (assembly.parts[i].id != i || !assembly.parts[i].mesh)
       throw std::invalid_argument("parts of an assembly are numbered by their place and have meshes");
-  if (!ingredients.simulator) throw std::invalid_argument("no simulator given");
-  if (!ingredients.path_planner) throw std::invalid_argument("no path planner given");
-  if (options.only_part.empty() && !ingredients.sequence_planner)
-    throw std::invalid_argument("no sequence planner given");
-  if (options.only_part.empty() && !options.constraints.empty() && !ingredients.sequence_planner->keeps_constraints())
+  if (!setup.simulator) throw std::invalid_argument("no simulator given");
+  if (!setup.path_planner) throw std::invalid_argument("no path planner given");
+  if (options.only_part.empty() && !setup.sequence_planner) throw std::invalid_argument("no sequence planner given");
+  if (options.only_part.empty() && !options.constraints.empty() && !setup.sequence_planner->keeps_constraints())
     throw std::invalid_argument("there are constraints, and the sequence planner does not say that it keeps them");
 }
 
@@ -52,9 +51,9 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
 }
 
 /// Nothing when the run was stopped meanwhile.
-std::shared_ptr<const Prepared> prepare(Simulator& simulator, const Assembly& assembly, double tolerance,
-                                        RunContext& context) {
-  std::shared_ptr<const Prepared> prepared;
+std::shared_ptr<const PreparedAssembly> prepare(Simulator& simulator, const Assembly& assembly, double tolerance,
+                                                RunContext& context) {
+  std::shared_ptr<const PreparedAssembly> prepared;
   try {
     prepared = simulator.prepare(assembly, tolerance, context);
   } catch (const Error&) {
@@ -71,23 +70,23 @@ std::shared_ptr<const Prepared> prepare(Simulator& simulator, const Assembly& as
 }
 
 /// Books each removal as it comes and passes the plan so far on.
-class Booking final : public SequenceObserver {
+class RemovalRecorder final : public SequenceObserver {
  public:
-  Booking(StepLedger& ledger, const std::function<void(const Plan&)>& on_step, const RunContext& context)
-      : ledger_(ledger), on_step_(on_step), context_(context) {}
+  RemovalRecorder(PlanBuilder& builder, const std::function<void(const Plan&)>& on_step, const RunContext& context)
+      : builder_(builder), on_step_(on_step), context_(context) {}
 
   /// Throws std::logic_error at a removal that does not hold; the sequence planner is stopped by it.
   void removed(const Removal& removal, std::size_t /*parts_left*/) override {
     if (!problem_.empty()) throw std::logic_error(problem_);  // after an error that was caught and ignored
     try {
-      ledger_.book(removal);
+      builder_.record(removal);
     } catch (const std::logic_error& e) {
       problem_ = e.what();
       throw;
     }
     if (!on_step_) return;
     try {
-      on_step_(ledger_.plan());
+      on_step_(builder_.plan());
     } catch (const std::exception& e) {  // the run is worth more than one saving; the next step tries again
       context_.log(LogLevel::error, fmt::format("the plan so far could not be passed on: {}", e.what()));
     }
@@ -95,21 +94,21 @@ class Booking final : public SequenceObserver {
   const std::string& problem() const { return problem_; }
 
  private:
-  StepLedger& ledger_;
+  PlanBuilder& builder_;
   const std::function<void(const Plan&)>& on_step_;
   const RunContext& context_;
   std::string problem_;
 };
 
-SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner, Oracle& oracle, Booking& booking,
-                             const RunContext& context) {
+SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner, Oracle& oracle,
+                             RemovalRecorder& recorder, const RunContext& context) {
   RunContext own = context;
   own.rng = context.rng.fork(kSequenceStream);
   SequenceResult result;
   std::string problem;
   try {
-    result = planner.plan(assembly, oracle, booking, own);
-    problem = booking.problem();
+    result = planner.plan(assembly, oracle, recorder, own);
+    problem = recorder.problem();
   } catch (const std::exception& e) {
     problem = e.what();
   } catch (...) {
@@ -123,11 +122,12 @@ SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner,
   return result;
 }
 
-SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, Booking& booking, RunContext context) {
+SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, RemovalRecorder& recorder,
+                        RunContext context) {
   Attempt attempt;
-  for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.still).push_back({p.id, Pose{}});
+  for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.fixed).push_back({p.id, Pose{}});
   SequenceResult result;
-  if (attempt.still.empty()) {
+  if (attempt.fixed.empty()) {
     result.outcome = Outcome::start_is_goal;
     return result;
   }
@@ -136,7 +136,7 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, B
   result.outcome = answer.result.outcome();
   if (is_success(result.outcome)) {
     result.removals.push_back({{part}, &answer});
-    booking.removed(result.removals.back(), assembly.parts.size() - 1);
+    recorder.removed(result.removals.back(), assembly.parts.size() - 1);
     context.progress("sequence", 1, 1, assembly.parts[part].name);
   } else {
     result.unsolved.push_back({part, result.outcome, answer.result.blocked_by, answer.result.best_pose,
@@ -165,14 +165,14 @@ void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left
 }
 
 /// Where a part that is left touches others at its best pose, as the simulator sees it.
-ContactsOf contacts_of(const Assembly& assembly, const Prepared& prepared, const Simulator& simulator,
-                       const StepLedger& ledger, const RunContext& context) {
+ContactsOf contacts_of(const Assembly& assembly, const PreparedAssembly& prepared, const Simulator& simulator,
+                       const PlanBuilder& builder, const RunContext& context) {
   if (!simulator.capabilities().contacts) return {};
   return [&](PartId part, const Pose& at) {
     std::vector<Contact> deepest;
     if (context.should_stop()) return deepest;
     try {
-      const Cast scene{{{part, at}}, ledger.around(part)};
+      const Scene scene{{{part, at}}, builder.around(part)};
       const std::unique_ptr<World> world = simulator.world(assembly, prepared, scene, MotionSpace::rigid);
       std::vector<Contact> all;
       world->contacts(world->initial_state(), all);
@@ -221,12 +221,12 @@ std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<Part
 
 }  // namespace
 
-RunResult run(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options, RunContext& context,
+RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options, RunContext& context,
               const std::function<void(const Plan&)>& on_step) {
-  check(assembly, ingredients, options);
+  check(assembly, setup, options);
   const bool only_one = !options.only_part.empty();
   const PartId part = only_one ? part_named(assembly, options.only_part) : 0;
-  if (ingredients.transfer_planner && options.layout.enabled)
+  if (setup.transfer_planner && options.layout.enabled)
     for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
@@ -234,64 +234,63 @@ RunResult run(const Assembly& assembly, const Ingredients& ingredients, const Ru
 
   RunResult result;
   Clock::time_point begin = Clock::now();
-  const std::shared_ptr<const Prepared> prepared =
-      prepare(*ingredients.simulator, assembly, options.verify.max_penetration, own);
+  const std::shared_ptr<const PreparedAssembly> prepared =
+      prepare(*setup.simulator, assembly, options.verify.max_penetration, own);
   result.prepare_seconds = seconds_since(begin);
 
   begin = Clock::now();
   const Verifier verifier(assembly, options.verify, own.executor.get());
-  struct Nothing final : Prepared {};
+  struct Nothing final : PreparedAssembly {};
   const Nothing nothing;
   if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
-  Oracle oracle(assembly, prepared ? *prepared : nothing, ingredients, options, verifier, own);
-  StepLedger ledger(assembly, oracle, options, ingredients.path_planner_id);
-  Booking booking(ledger, on_step, own);
+  Oracle oracle(assembly, prepared ? *prepared : nothing, setup, options, verifier, own);
+  PlanBuilder builder(assembly, oracle, options, setup.path_planner_id);
+  RemovalRecorder recorder(builder, on_step, own);
   SequenceResult sequence;
   if (!prepared)
     sequence.outcome = why_stopped(own);
   else if (only_one)
-    sequence = plan_one(assembly, part, oracle, booking, own);
+    sequence = plan_one(assembly, part, oracle, recorder, own);
   else
-    sequence = plan_sequence(assembly, *ingredients.sequence_planner, oracle, booking, own);
+    sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
 
-  const ContactsOf places =
-      prepared ? contacts_of(assembly, *prepared, *ingredients.simulator, ledger, own) : ContactsOf{};
+  const ContactsOf places = prepared ? contacts_of(assembly, *prepared, *setup.simulator, builder, own) : ContactsOf{};
   result.outcome = sequence.outcome;
   result.sequence_counts = sequence.counts;
   if (only_one) {
-    ledger.set_unsolved(sequence.unsolved, places);
-  } else if (ledger.fulfilled()) {
+    builder.set_unsolved(sequence.unsolved, places);
+  } else if (builder.fulfilled()) {
     result.outcome = Outcome::solved;
   } else {
     if (is_success(sequence.outcome)) {
       result.outcome = Outcome::crashed;
       own.log(LogLevel::error,
-              fmt::format("the sequence planner reports success with {} parts still together", ledger.left().size()));
+              fmt::format("the sequence planner reports success with {} parts still together", builder.left().size()));
     }
-    std::vector<Unsolved> unsolved = reasons(sequence, ledger.left());
-    prove_left(unsolved, ledger.left(), oracle, own);
-    ledger.set_unsolved(unsolved, places);
+    std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
+    prove_left(unsolved, builder.left(), oracle, own);
+    builder.set_unsolved(unsolved, places);
   }
   AssemblyPlan back;
   const bool puts_together =
-      prepared && ingredients.transfer_planner && options.layout.enabled && !ledger.booked().empty();
+      prepared && setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
   const auto put_together = [&] {
     if (!puts_together) return;
     RunContext putting = own;
     putting.rng = Rng(options.seed).fork(kTransferStream);
-    back = Assembler(assembly, *prepared, ingredients, options, verifier)
-               .put_together(ledger.booked(), ledger.plan().disassembly, putting);
+    back = Assembler(assembly, *prepared, setup, options, verifier)
+               .put_together(builder.recorded(), builder.plan().disassembly, putting);
   };
   std::vector<std::vector<std::size_t>> needed;
-  const auto find_needed = [&] { needed = needed_steps(ledger.booked(), assembly.parts.size(), verifier, own); };
+  const auto find_needed = [&] { needed = needed_steps(builder.recorded(), assembly.parts.size(), verifier, own); };
   // Neither uses a result of the other.
   parallel_for(
       2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
-  ledger.set_needed(needed);
-  for (const auto& [a, b] : part_precedence(ledger.booked(), needed))
+  builder.set_needed(needed);
+  for (const auto& [a, b] : part_precedence(builder.recorded(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
-  if (puts_together) ledger.set_assembly(std::move(back.steps), back.status, std::move(back.message));
-  result.plan = ledger.plan();
+  if (puts_together) builder.set_assembly(std::move(back.steps), back.status, std::move(back.message));
+  result.plan = builder.plan();
   result.counts = oracle.counts();
   result.planner_counts = oracle.planner_counts();
   result.plan_seconds = seconds_since(begin);

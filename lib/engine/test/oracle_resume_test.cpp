@@ -18,7 +18,7 @@ Attempt resuming(const Assembly& assembly, PartId part, unsigned max_depth = 0) 
 }
 
 Attempt without(Attempt attempt, PartId out) {
-  std::erase_if(attempt.still, [&](const PlacedPart& p) { return p.part == out; });
+  std::erase_if(attempt.fixed, [&](const PlacedPart& p) { return p.part == out; });
   return attempt;
 }
 
@@ -44,7 +44,7 @@ PathResult in_vain(const PathQuery& query, RunContext& context) {
 }
 
 TEST(OracleResume, ThePlannerIsGivenTheStateOfTheLastSearch) {
-  Rig s(fake::row(4), fake::ingredients(in_vain));
+  Rig s(fake::row(4), fake::setup(in_vain));
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 1))), 1);
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 2))), 2);
   EXPECT_EQ(length(s.ask(without(resuming(s.assembly, 0, 2), 3))), 3);
@@ -52,7 +52,7 @@ TEST(OracleResume, ThePlannerIsGivenTheStateOfTheLastSearch) {
 }
 
 TEST(OracleResume, TheSameAttemptAgainHasTheSameAnswer) {
-  Rig s(fake::row(4), fake::ingredients(in_vain));
+  Rig s(fake::row(4), fake::setup(in_vain));
   const AttemptResult& one = s.ask(resuming(s.assembly, 0, 1));
   EXPECT_EQ(&s.ask(resuming(s.assembly, 0, 1)), &one);
   const AttemptResult& two = s.ask(resuming(s.assembly, 0, 2));
@@ -65,7 +65,7 @@ TEST(OracleResume, TheSameAttemptAgainHasTheSameAnswer) {
 }
 
 TEST(OracleResume, AttemptsThatDoNotAskForItBeginAnewAndLeaveNothing) {
-  Rig s(fake::row(4), fake::ingredients(in_vain));
+  Rig s(fake::row(4), fake::setup(in_vain));
   const AttemptResult& first = s.ask(fake::leave(s.assembly, 0, 1));
   EXPECT_EQ(first.result.state, nullptr);
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 0, 2))), 1);
@@ -78,7 +78,7 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
     EXPECT_EQ(query.resume_from, nullptr);
     return fake::outcome(Outcome::depth_limit);
   };
-  Rig s(fake::row(4), fake::ingredients(keeps_nothing));
+  Rig s(fake::row(4), fake::setup(keeps_nothing));
   s.ask(resuming(s.assembly, 0, 1));
   const AttemptResult& deeper = s.ask(resuming(s.assembly, 0, 2));
   EXPECT_EQ(&s.ask(fake::leave(s.assembly, 0, 2)), &deeper);
@@ -86,7 +86,7 @@ TEST(OracleResume, WhereNothingWasKeptItIsTheQuestionFromTheStart) {
 
 /// Of several the last is resumed that had at least the fixed parts of now, where they are now.
 TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
-  Rig s(fake::row(4), fake::ingredients(in_vain));
+  Rig s(fake::row(4), fake::setup(in_vain));
   const Attempt all = resuming(s.assembly, 0, 1);
   EXPECT_EQ(length(s.ask(all)), 1);
   EXPECT_EQ(length(s.ask(without(all, 2))), 2);
@@ -98,7 +98,7 @@ TEST(OracleResume, OnlyStatesThatCanStillBeReachedAreTakenOver) {
   EXPECT_EQ(length(s.ask(now)), 3) << "from the last that had part 2";
   EXPECT_EQ(length(s.ask(resuming(s.assembly, 1, 1))), 1) << "another part";
   now = all;
-  now.still[0].pose.t.x() += 0.25;
+  now.fixed[0].pose.t.x() += 0.25;
   EXPECT_EQ(length(s.ask(now)), 1) << "one that is elsewhere now";
   now = all;
   now.moving[0].pose.t.x() += 0.25;
@@ -112,7 +112,7 @@ TEST(OracleResume, SuccessLeavesNothingToResume) {
     EXPECT_EQ(query.resume_from, nullptr);
     return r;
   };
-  Rig s(fake::row(3), fake::ingredients(finds));
+  Rig s(fake::row(3), fake::setup(finds));
   const AttemptResult& out = s.ask(resuming(s.assembly, 0, 1));
   ASSERT_EQ(out.result.outcome(), Outcome::solved);
   EXPECT_EQ(out.result.state, nullptr);
@@ -124,7 +124,7 @@ TEST(OracleResume, SuccessLeavesNothingToResume) {
 TEST(OracleResume, TheSameOnAnyNumberOfThreads) {
   const Assembly assembly = fake::row(6);
   const auto chains = [&](unsigned threads, bool hint, bool backwards) {
-    Rig s(assembly, fake::ingredients(in_vain), threads);
+    Rig s(assembly, fake::setup(in_vain), threads);
     std::vector<double> drawn(5, 0);
     std::vector<const AttemptResult*> last(5, nullptr);
     const auto question = [&](PartId part, unsigned depth) {

@@ -26,7 +26,7 @@ double largest_way(const Mesh& mesh, const Pose& a, const Pose& b) {
 }
 
 TEST(Oracle, PathIsDenseExactAtTheStartAndEndsWhereThePlannerSaid) {
-  Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
+  Rig s(fake::tube_with_blocks(2), fake::setup(fake::push));
   const AttemptResult& r = s.ask(leave(s.assembly, 2));
   ASSERT_EQ(r.result.outcome(), Outcome::solved);
   const Path& path = r.result.path()->poses();
@@ -36,16 +36,16 @@ TEST(Oracle, PathIsDenseExactAtTheStartAndEndsWhereThePlannerSaid) {
   const double limit = 0.01 * s.assembly.input_box.size().maxCoeff();
   for (std::size_t k = 1; k < path.size(); ++k)
     EXPECT_LE(largest_way(*s.assembly.parts[2].mesh, path[k - 1][0], path[k][0]), limit);
-  EXPECT_TRUE(s.verifier.check_motion({2}, leave(s.assembly, 2).still, path).valid);
+  EXPECT_TRUE(s.verifier.check_motion({2}, leave(s.assembly, 2).fixed, path).valid);
 }
 
 TEST(Oracle, LeavesOutInstantsThatSayNothingNew) {
   const auto crawl = [](const PathQuery& q, RunContext&) {  // straight up in 50 000 steps
     Path path;
-    for (int k = 0; k <= 50000; ++k) path.push_back(fake::straight(q.cast, {0, 0, k * 2e-4})[1]);
+    for (int k = 0; k <= 50000; ++k) path.push_back(fake::straight(q.scene, {0, 0, k * 2e-4})[1]);
     return fake::shown(q, path);
   };
-  Rig s(fake::tube_with_blocks(1), fake::ingredients(crawl));
+  Rig s(fake::tube_with_blocks(1), fake::setup(crawl));
   const AttemptResult& r = s.ask(leave(s.assembly, 1));
   ASSERT_EQ(r.result.outcome(), Outcome::solved);
   EXPECT_LT(r.result.path()->poses().size(), 300u);  // 10 units at 0.04 a piece
@@ -55,13 +55,13 @@ TEST(Oracle, LeavesOutInstantsThatSayNothingNew) {
 TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
   for (const bool asks_first : {false, true}) {
     const auto liar = [asks_first](const PathQuery& q, RunContext&) {
-      const Path path = fake::straight(q.cast, {30, 0, 0});
+      const Path path = fake::straight(q.scene, {30, 0, 0});
       if (asks_first) {
         EXPECT_FALSE(q.checker.check(path).accepted());
       }
       return fake::forged(path);
     };
-    Rig s(fake::tube_with_blocks(1), fake::ingredients(liar));
+    Rig s(fake::tube_with_blocks(1), fake::setup(liar));
     const AttemptResult& r = s.ask(leave(s.assembly, 1));
     EXPECT_EQ(r.result.outcome(), Outcome::crashed);
     EXPECT_FALSE(r.result.path());
@@ -75,14 +75,14 @@ TEST(Oracle, APlannerCannotTalkAPathThroughAWall) {
 TEST(Oracle, APathThatWasVerifiedForAnotherAttemptIsRefused) {
   std::optional<VerifiedPath> kept;
   const auto keeps = [&kept](const PathQuery& q, RunContext&) {
-    PathResult r = kept ? PathResult{} : fake::shown(q, fake::straight(q.cast, {0, 0, 30}));
+    PathResult r = kept ? PathResult{} : fake::shown(q, fake::straight(q.scene, {0, 0, 30}));
     if (kept)
       r.solve(*kept, 1);
     else
       kept = r.path();
     return r;
   };
-  Rig s(fake::tube_with_blocks(1), fake::ingredients(keeps));
+  Rig s(fake::tube_with_blocks(1), fake::setup(keeps));
   Attempt question = leave(s.assembly, 1);
   EXPECT_EQ(s.ask(question).result.outcome(), Outcome::solved);
   question.moving[0].pose.t.z() = 0.01;
@@ -92,12 +92,12 @@ TEST(Oracle, APathThatWasVerifiedForAnotherAttemptIsRefused) {
 TEST(Oracle, TheJudgeSaysWhere) {
   PathCheck said;
   const auto once = [&said](const PathQuery& q, RunContext&) {
-    Path path = fake::straight(q.cast, {0, 0, -0.05});
-    path.push_back(fake::straight(q.cast, {0, 0, -30})[1]);
+    Path path = fake::straight(q.scene, {0, 0, -0.05});
+    path.push_back(fake::straight(q.scene, {0, 0, -30})[1]);
     said = q.checker.check(path);
     return outcome(Outcome::exhausted);
   };
-  Rig s(fake::tube_with_blocks(1), fake::ingredients(once));
+  Rig s(fake::tube_with_blocks(1), fake::setup(once));
   s.ask(leave(s.assembly, 1));
   EXPECT_FALSE(said.accepted());
   ASSERT_TRUE(said.has_witness);
@@ -116,7 +116,7 @@ TEST(Oracle, RefusesPathsThatAreNoPaths) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](std::function<void(Path&)> spoil) {
     return [spoil](const PathQuery& q, RunContext&) {
-      Path path = fake::straight(q.cast, {0, 0, 30});
+      Path path = fake::straight(q.scene, {0, 0, 30});
       spoil(path);
       EXPECT_FALSE(q.checker.check(path).accepted());
       return fake::forged(path);
@@ -133,34 +133,34 @@ TEST(Oracle, RefusesPathsThatAreNoPaths) {
       [](Path& p) { p.resize(1); },            // goes nowhere
   };
   for (std::size_t i = 0; i < spoilt.size(); ++i) {
-    Rig s(fake::tube_with_blocks(1), fake::ingredients(with(spoilt[i])));
+    Rig s(fake::tube_with_blocks(1), fake::setup(with(spoilt[i])));
     EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome(), Outcome::crashed) << "case " << i;
   }
 }
 
 TEST(Oracle, StartIsGoalHasToBeTrue) {
   const auto lazy = [](const PathQuery&, RunContext&) { return outcome(Outcome::start_is_goal); };
-  Rig apart(fake::row(2), fake::ingredients(lazy));
+  Rig apart(fake::row(2), fake::setup(lazy));
   const AttemptResult& yes = apart.ask(leave(apart.assembly, 0));
   EXPECT_EQ(yes.result.outcome(), Outcome::start_is_goal);
   EXPECT_EQ(yes.result.path()->poses().size(), 2u);
-  Rig inside(fake::tube_with_blocks(1), fake::ingredients(lazy));
+  Rig inside(fake::tube_with_blocks(1), fake::setup(lazy));
   EXPECT_EQ(inside.ask(leave(inside.assembly, 1)).result.outcome(), Outcome::crashed);
 }
 
 TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   const auto throws = [](const PathQuery& q, RunContext&) -> PathResult {
-    if (q.cast.moving[0].part == 0) throw std::runtime_error("index out of range");
+    if (q.scene.moving[0].part == 0) throw std::runtime_error("index out of range");
     throw 42;
   };
-  Rig s(fake::row(2), fake::ingredients(throws));
+  Rig s(fake::row(2), fake::setup(throws));
   const AttemptResult& known = s.ask(leave(s.assembly, 0));
   EXPECT_EQ(known.result.outcome(), Outcome::crashed);
   EXPECT_NE(known.result.message.find("index out of range"), std::string::npos);
   EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome(), Outcome::crashed);
   EXPECT_EQ(s.errors.size(), 2u);
 
-  Ingredients broken = fake::ingredients(fake::push);
+  PlanningSetup broken = fake::setup(fake::push);
   broken.path_planner = []() -> std::shared_ptr<PathPlanner> { throw std::runtime_error("no licence"); };
   Rig t(fake::row(2), broken);
   EXPECT_EQ(t.ask(leave(t.assembly, 0)).result.outcome(), Outcome::crashed);
@@ -169,12 +169,12 @@ TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
 
 TEST(Oracle, StoppingUnaskedIsABug) {
   const auto quits = [](const PathQuery&, RunContext&) { return outcome(Outcome::cancelled); };
-  Rig s(fake::row(2), fake::ingredients(quits));
+  Rig s(fake::row(2), fake::setup(quits));
   EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::crashed);
 }
 
 TEST(Oracle, SaysWhatTheSimulatorLacks) {
-  Ingredients parts = fake::ingredients(fake::push);
+  PlanningSetup parts = fake::setup(fake::push);
   auto simulator = std::make_shared<fake::Physics>();
   simulator->has = {.dynamics = false, .max_moving = 1};
   parts.simulator = simulator;
@@ -185,14 +185,14 @@ TEST(Oracle, SaysWhatTheSimulatorLacks) {
   simulator->has.dynamics = true;
   Attempt two;
   two.moving = {{0, Pose{}}, {1, Pose{}}};
-  two.still = {{2, Pose{}}};
+  two.fixed = {{2, Pose{}}};
   EXPECT_EQ(s.ask(two).result.outcome(), Outcome::unsupported);
 }
 
 TEST(Oracle, QuestionsWithoutSenseAreErrorsOfTheCaller) {
-  Rig s(fake::row(3), fake::ingredients(fake::push));
+  Rig s(fake::row(3), fake::setup(fake::push));
   Attempt a = leave(s.assembly, 0);
-  a.still.push_back({0, Pose{}});
+  a.fixed.push_back({0, Pose{}});
   EXPECT_THROW(s.ask(a), std::invalid_argument);
   a = leave(s.assembly, 0);
   a.moving[0].part = 9;
@@ -200,12 +200,12 @@ TEST(Oracle, QuestionsWithoutSenseAreErrorsOfTheCaller) {
   a.moving.clear();
   EXPECT_THROW(s.ask(a), std::invalid_argument);
   a = leave(s.assembly, 0);
-  a.still[0].pose.t.x() = std::numeric_limits<double>::infinity();
+  a.fixed[0].pose.t.x() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(s.ask(a), std::invalid_argument);
 }
 
 TEST(Oracle, NobodyLeftIsApartFromNobody) {
-  Rig s(fake::row(1), fake::ingredients(fake::push));
+  Rig s(fake::row(1), fake::setup(fake::push));
   EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::start_is_goal);
 }
 
@@ -216,7 +216,7 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
     r.best_pose = {Pose{}, Pose{}};
     return r;
   };
-  Rig s(fake::row(3), fake::ingredients(babbles));
+  Rig s(fake::row(3), fake::setup(babbles));
   const AttemptResult& r = s.ask(leave(s.assembly, 0));
   EXPECT_EQ(r.result.blocked_by, (std::vector<PartId>{1, 2}));
   EXPECT_TRUE(r.result.best_pose.empty());
@@ -224,7 +224,7 @@ TEST(Oracle, NonsenseAboutBlockersIsDropped) {
 
 /// Two blocks in a tube go up, each by its own way: the first by 0.1.
 PathResult each_up(const PathQuery& q, double second) {
-  Path path = fake::straight(q.cast, {0, 0, 0.1});
+  Path path = fake::straight(q.scene, {0, 0, 0.1});
   path[1][1].t.z() = second;
   return fake::shown(q, path);
 }
@@ -232,14 +232,14 @@ PathResult each_up(const PathQuery& q, double second) {
 TEST(Oracle, OneOfThoseThatMoveAtOnceHasToBeOut) {
   std::size_t asked = 0;
   double second = 30;
-  Rig s(fake::tube_with_blocks(2), fake::ingredients([&](const PathQuery& q, RunContext&) {
+  Rig s(fake::tube_with_blocks(2), fake::setup([&](const PathQuery& q, RunContext&) {
           ++asked;
           EXPECT_FALSE(q.goal.any_of.empty());
           return each_up(q, second);
         }));
   Attempt both;
   both.moving = {{1, Pose{}}, {2, Pose{}}};
-  both.still = {{0, Pose{}}};
+  both.fixed = {{0, Pose{}}};
   both.goal.any_of = {2, 1};
   const AttemptResult& r = s.ask(both);
   EXPECT_EQ(r.result.outcome(), Outcome::solved) << r.result.message;
@@ -273,12 +273,12 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
     PathResult plan(const PathQuery&, RunContext&) override { throw std::logic_error("not to be asked"); }
   };
   fake::Script none;
-  Ingredients ingredients = fake::ingredients(none);
-  ingredients.path_planner = [] { return std::make_shared<Groups>(); };
-  Rig s(fake::row(3), ingredients);
+  PlanningSetup setup = fake::setup(none);
+  setup.path_planner = [] { return std::make_shared<Groups>(); };
+  Rig s(fake::row(3), setup);
   Attempt both;
   both.moving = {{0, Pose{}}, {1, Pose{}}};
-  both.still = {{2, Pose{}}};
+  both.fixed = {{2, Pose{}}};
   both.goal.any_of = {0};
   const AttemptResult& r = s.ask(both);
   EXPECT_EQ(r.result.outcome(), Outcome::unsupported);
@@ -286,9 +286,9 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
 }
 
 TEST(Oracle, JudgesWaysThatItIsShown) {
-  Rig s(fake::tube_with_blocks(2), fake::ingredients(fake::push));
+  Rig s(fake::tube_with_blocks(2), fake::setup(fake::push));
   const auto up = [](const Attempt& a, double way) {
-    return fake::straight({a.moving, a.still}, Eigen::Vector3d(0, 0, way));
+    return fake::straight({a.moving, a.fixed}, Eigen::Vector3d(0, 0, way));
   };
   const Attempt top = leave(s.assembly, 2), low = leave(s.assembly, 1);
   const AttemptResult& out = s.oracle->propose(top, up(top, 3), s.context);

@@ -25,15 +25,15 @@ TEST(Oracle, TheSameQuestionIsPlannedOnce) {
     ++planned;
     return fake::push(q, c);
   };
-  Rig s(fake::row(4), fake::ingredients(counting));
+  Rig s(fake::row(4), fake::setup(counting));
   Attempt a = leave(s.assembly, 1);
   const AttemptResult& first = s.ask(a);
-  std::swap(a.still[0], a.still[2]);
-  a.still[1].pose.q.coeffs() *= -1;  // the same rotation
-  a.still[1].pose.t.x() = -0.0;
+  std::swap(a.fixed[0], a.fixed[2]);
+  a.fixed[1].pose.q.coeffs() *= -1;  // the same rotation
+  a.fixed[1].pose.t.x() = -0.0;
   EXPECT_EQ(&s.ask(a), &first);
   EXPECT_EQ(planned, 1);
-  a.still.pop_back();  // another question
+  a.fixed.pop_back();  // another question
   s.ask(a);
   EXPECT_EQ(planned, 2);
   EXPECT_EQ(s.oracle->counts().attempts, 2u);
@@ -42,14 +42,14 @@ TEST(Oracle, TheSameQuestionIsPlannedOnce) {
 
 TEST(Oracle, ColumnsAreInAscendingOrderHoweverPartsAreListed) {
   const auto fan = [](const PathQuery& q, RunContext&) {  // each part by its own way
-    Path path = fake::straight(q.cast, {0, 0, 0});
-    for (std::size_t i = 0; i < q.cast.moving.size(); ++i) path[1][i].t.z() = 10 + 10.0 * q.cast.moving[i].part;
+    Path path = fake::straight(q.scene, {0, 0, 0});
+    for (std::size_t i = 0; i < q.scene.moving.size(); ++i) path[1][i].t.z() = 10 + 10.0 * q.scene.moving[i].part;
     return fake::shown(q, path);
   };
-  Rig s(fake::row(3), fake::ingredients(fan));
+  Rig s(fake::row(3), fake::setup(fan));
   Attempt a;
   a.moving = {{0, Pose{}}, {1, Pose{}}};
-  a.still = {{2, Pose{}}};
+  a.fixed = {{2, Pose{}}};
   Attempt b = a;
   std::swap(b.moving[0], b.moving[1]);
   const AttemptResult& ra = s.ask(a);
@@ -75,7 +75,7 @@ TEST(Oracle, WhatMoreDepthCannotChangeIsRemembered) {
       ++planned;
       return outcome(said);
     };
-    Rig s(fake::row(2), fake::ingredients(fails));
+    Rig s(fake::row(2), fake::setup(fails));
     s.ask(leave(s.assembly, 0, 3));
     for (const unsigned depth : {4u, 5u, 0u}) EXPECT_EQ(s.ask(leave(s.assembly, 0, depth)).result.outcome(), said);
     EXPECT_EQ(planned, remembered ? 1 : 4);
@@ -90,7 +90,7 @@ TEST(Oracle, FailingDeepSaysNothingOfShallow) {
     ++planned;
     return outcome(Outcome::exhausted);
   };
-  Rig s(fake::row(2), fake::ingredients(fails));
+  Rig s(fake::row(2), fake::setup(fails));
   s.ask(leave(s.assembly, 0, 3));
   s.ask(leave(s.assembly, 0, 2));
   EXPECT_EQ(planned, 2);
@@ -106,7 +106,7 @@ TEST(Oracle, BudgetReachesThePlanner) {
     EXPECT_EQ(q.budget.timeout, 0);
     return outcome(Outcome::timeout);
   };
-  Rig s(fake::row(2), fake::ingredients(looks), 1, options);
+  Rig s(fake::row(2), fake::setup(looks), 1, options);
   EXPECT_EQ(s.ask(leave(s.assembly, 0, 5)).result.outcome(), Outcome::timeout);
 }
 
@@ -119,7 +119,7 @@ TEST(Oracle, InterruptionsAreNotAnswers) {
       if (c.should_stop()) return outcome(Outcome::exhausted);  // a sloppy planner
       return fake::push(q, c);
     };
-    Rig s(fake::row(2), fake::ingredients(interrupted), threads);
+    Rig s(fake::row(2), fake::setup(interrupted), threads);
     RunContext impatient = s.context;
     impatient.cancel = stop;
     EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), impatient).result.outcome(), Outcome::cancelled);
@@ -135,7 +135,7 @@ TEST(Oracle, AfterTheDeadlineNothingIsBegun) {
     ++planned;
     return fake::push(q, c);
   };
-  Rig s(fake::row(2), fake::ingredients(counting));
+  Rig s(fake::row(2), fake::setup(counting));
   RunContext late = s.context;
   late.deadline = Deadline::after_seconds(0);
   EXPECT_EQ(s.oracle->attempt(leave(s.assembly, 0), late).result.outcome(), Outcome::timeout);
@@ -157,13 +157,13 @@ TEST(Oracle, AnswersDependNeitherOnOrderNorOnThreads) {
     for (const unsigned depth : {1u, 2u, 3u}) questions.push_back(leave(assembly, id, depth));
   std::vector<double> expected;
   {
-    Rig s(assembly, fake::ingredients(draw));
+    Rig s(assembly, fake::setup(draw));
     for (const auto& q : questions) expected.push_back(s.ask(q).result.stats.extra.at("draw"));
     EXPECT_EQ(std::set<double>(expected.begin(), expected.end()).size(), expected.size());
   }
   for (const unsigned threads : {1u, 2u, 4u})
     for (const bool hint : {false, true}) {
-      Rig s(assembly, fake::ingredients(draw), threads);
+      Rig s(assembly, fake::setup(draw), threads);
       if (hint) s.oracle->prefetch(questions, s.context);
       for (std::size_t i = questions.size(); i-- > 0;) {
         EXPECT_EQ(s.ask(questions[i]).result.stats.extra.at("draw"), expected[i]);
@@ -194,7 +194,7 @@ TEST(Oracle, NeverMoreAttemptsAtOnceThanThreads) {
     --crowd.now;
     return r;
   };
-  Rig s(fake::row(8), fake::ingredients(busy), 3);
+  Rig s(fake::row(8), fake::setup(busy), 3);
   std::vector<Attempt> hints;
   for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
   s.oracle->prefetch(hints, s.context);
@@ -211,7 +211,7 @@ TEST(Oracle, LeavesAThreadToTheAskerWhoIsNotWaiting) {
     --crowd.now;
     return r;
   };
-  Rig s(fake::row(8), fake::ingredients(patient), 3);
+  Rig s(fake::row(8), fake::setup(patient), 3);
   std::vector<Attempt> hints;
   for (PartId id = 0; id < 8; ++id) hints.push_back(leave(s.assembly, id));
   s.oracle->prefetch(hints, s.context);
@@ -240,7 +240,7 @@ TEST(Oracle, AConcurrentPlannerServesAllThreads) {
       const bool concurrent_;
       Crowd& crowd_;
     };
-    Ingredients parts = fake::ingredients(fake::push);
+    PlanningSetup parts = fake::setup(fake::push);
     parts.path_planner = [&] {
       ++made;
       return std::make_shared<Patient>(concurrent, crowd);
@@ -260,13 +260,13 @@ TEST(Oracle, AConcurrentPlannerServesAllThreads) {
 
 /// Part 0 never ends by itself.
 PathResult endless(const PathQuery& q, RunContext& c) {
-  if (q.cast.moving[0].part != 0) return fake::push(q, c);
+  if (q.scene.moving[0].part != 0) return fake::push(q, c);
   while (!c.should_stop()) std::this_thread::yield();
   return outcome(Outcome::cancelled);
 }
 
 TEST(Oracle, WorkNobodyAskedForMakesWay) {
-  Rig s(fake::row(5), fake::ingredients(endless), 2);
+  Rig s(fake::row(5), fake::setup(endless), 2);
   std::vector<Attempt> hints;
   for (const unsigned depth : {1u, 2u, 3u, 4u}) hints.push_back(leave(s.assembly, 0, depth));
   s.oracle->prefetch(hints, s.context);  // both threads are stuck
@@ -278,7 +278,7 @@ TEST(Oracle, WorkNobodyAskedForMakesWay) {
 
 TEST(Oracle, EndsWhileThreadsWork) {
   for (int trial = 0; trial < 20; ++trial) {
-    Rig s(fake::row(4), fake::ingredients(endless), 3);
+    Rig s(fake::row(4), fake::setup(endless), 3);
     s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1), leave(s.assembly, 0, 1)},
                        s.context);
     s.oracle.reset();
@@ -292,7 +292,7 @@ TEST(Oracle, CountsWhatWasComputedAheadInVain) {
     ++ended;
     return r;
   };
-  Rig s(fake::row(3), fake::ingredients(counting), 2);
+  Rig s(fake::row(3), fake::setup(counting), 2);
   s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1)}, s.context);
   while (s.oracle->counts().discarded < 2) std::this_thread::yield();
   EXPECT_EQ(ended, 2);
@@ -305,10 +305,10 @@ TEST(Oracle, CountsWhatWasComputedAheadInVain) {
 
 TEST(Oracle, LogsOfWorkAheadAppearWhenAsked) {
   const auto talks = [](const PathQuery& q, RunContext& c) {
-    c.log(LogLevel::error, "part " + std::to_string(q.cast.moving[0].part));
+    c.log(LogLevel::error, "part " + std::to_string(q.scene.moving[0].part));
     return outcome(Outcome::exhausted);
   };
-  Rig s(fake::row(3), fake::ingredients(talks), 2);
+  Rig s(fake::row(3), fake::setup(talks), 2);
   s.oracle->prefetch(std::vector<Attempt>{leave(s.assembly, 0), leave(s.assembly, 1)}, s.context);
   while (s.oracle->counts().discarded < 2) std::this_thread::yield();
   EXPECT_TRUE(s.errors.empty());

@@ -49,9 +49,9 @@ auto touching(std::vector<PartId> blocked_by, int& searches, Outcome o = Outcome
   };
 }
 
-Ingredients with(Ingredients ingredients, std::vector<NamedProver> provers) {
-  ingredients.provers = std::move(provers);
-  return ingredients;
+PlanningSetup with(PlanningSetup setup, std::vector<NamedProver> provers) {
+  setup.provers = std::move(provers);
+  return setup;
 }
 
 TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
@@ -59,7 +59,7 @@ TEST(ProofSchedule, LocksOfOverlapsEndEveryAttemptAndProposal) {
   int searches = 0;
   Assembly assembly = row(3);
   assembly.overlaps = {{0, 1, 0.1}};
-  Rig s(assembly, with(fake::ingredients(touching({}, searches)), {lock.prover("lock", kTrivial)}));
+  Rig s(assembly, with(fake::setup(touching({}, searches)), {lock.prover("lock", kTrivial)}));
   EXPECT_EQ(lock.parts, (std::vector<std::vector<PartId>>{{0, 1}})) << "pairs that do not overlap are not asked about";
   for (const unsigned depth : {0U, 1U, 7U}) {
     const AttemptResult& r = s.ask(leave(s.assembly, 1, depth));
@@ -84,7 +84,7 @@ TEST(ProofSchedule, LowEffortComesBeforeSearchesOfSomeDepth) {
   for (const bool placed : {false, true}) {
     Asked low;
     int searches = 0;
-    Rig s(row(2), with(fake::ingredients(touching({}, searches)), {low.prover("low", placed ? kPlaced : kLow)}));
+    Rig s(row(2), with(fake::setup(touching({}, searches)), {low.prover("low", placed ? kPlaced : kLow)}));
     EXPECT_EQ(s.ask(leave(s.assembly, 0, 2)).result.outcome(), Outcome::depth_limit) << "a short search is cheaper";
     EXPECT_EQ(low.parts.size(), 0U);
     EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::infeasible);
@@ -98,7 +98,7 @@ TEST(ProofSchedule, HighEffortComesAfterDeepSearchesThatFoundNothing) {
   for (const ProverTraits& traits : {kMedium, kHigh}) {
     Asked costly;
     int searches = 0;
-    Rig s(row(2), with(fake::ingredients(touching({1}, searches)), {costly.prover("costly", traits)}));
+    Rig s(row(2), with(fake::setup(touching({1}, searches)), {costly.prover("costly", traits)}));
     EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
     EXPECT_EQ(costly.parts.size(), 0U);
     const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
@@ -117,7 +117,7 @@ TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
     costly.shares.push_back(q.share);
     return q.share < 1 ? std::optional(claim(q)) : std::nullopt;
   });
-  Rig s(row(2), with(fake::ingredients(touching({1}, searches, Outcome::exhausted)), {half}));
+  Rig s(row(2), with(fake::setup(touching({1}, searches, Outcome::exhausted)), {half}));
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 5));
   EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
   EXPECT_EQ(costly.shares, (std::vector<double>{1, 0.5}));
@@ -129,7 +129,7 @@ TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
 TEST(ProofSchedule, HowOneOfManyIsHeldIsNotAskedAfterEachSearch) {
   Asked pairs, groups;
   int searches = 0;
-  Rig s(row(3), with(fake::ingredients(touching({2}, searches, Outcome::exhausted)),
+  Rig s(row(3), with(fake::setup(touching({2}, searches, Outcome::exhausted)),
                      {pairs.prover("p", kHigh), groups.prover("g", kGroups)}));
   s.ask(leave(s.assembly, 0, 4));
   s.ask(leave(s.assembly, 1));
@@ -141,10 +141,9 @@ TEST(ProofSchedule, HowOneOfManyIsHeldIsNotAskedAfterEachSearch) {
 RunResult end_of_run(const std::vector<PartId>& blocked_by, std::vector<NamedProver> provers) {
   int searches = 0;
   RunContext context;
-  return run(
-      row(3),
-      with(fake::ingredients(touching(blocked_by, searches), std::make_shared<fake::InTurn>()), std::move(provers)),
-      RunOptions{}, context);
+  return run(row(3),
+             with(fake::setup(touching(blocked_by, searches), std::make_shared<fake::InTurn>()), std::move(provers)),
+             RunOptions{}, context);
 }
 
 TEST(ProofSchedule, PartsThatAreLeftAreProvedToBeHeldAtTheEnd) {
@@ -174,7 +173,7 @@ TEST(ProofSchedule, SeveralPartsThatAreLeftAreAskedAboutTogether) {
 
 TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
   Asked costly;
-  Rig s(row(2), with(fake::ingredients(fake::push), {costly.prover("m", kMedium), costly.prover("h", kHigh)}));
+  Rig s(row(2), with(fake::setup(fake::push), {costly.prover("m", kMedium), costly.prover("h", kHigh)}));
   EXPECT_EQ(s.ask(leave(s.assembly, 0)).result.outcome(), Outcome::solved);
   EXPECT_EQ(costly.parts.size(), 0U);
 }
@@ -190,7 +189,7 @@ TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {
   RunOptions options;
   options.path_timeout = kLimit;
   Rig s(row(2),
-        with(fake::ingredients([&](const PathQuery&, RunContext& c) {
+        with(fake::setup([&](const PathQuery&, RunContext& c) {
                in_time = c.deadline.seconds_left() > 0;
                return outcome(Outcome::exhausted);
              }),
@@ -205,7 +204,7 @@ TEST(ProofSchedule, WithoutProversNothingIsProved) {
   int searches = 0;
   Assembly assembly = row(3);
   assembly.overlaps = {{0, 1, 0.1}};
-  Rig s(assembly, fake::ingredients(touching({1}, searches)));
+  Rig s(assembly, fake::setup(touching({1}, searches)));
   const AttemptResult& r = s.ask(leave(s.assembly, 0));
   EXPECT_EQ(r.result.outcome(), Outcome::depth_limit);
   EXPECT_EQ(r.certificate, nullptr);
@@ -223,7 +222,7 @@ TEST(ProofSchedule, OneProofForAllThreadsThatAsk) {
   });
   for (int trial = 0; trial < 20; ++trial) {
     asked = 0;
-    Rig s(row(2), with(fake::ingredients(touching({}, searches)), {counted}));
+    Rig s(row(2), with(fake::setup(touching({}, searches)), {counted}));
     std::vector<const Certificate*> seen(4);
     {
       std::vector<std::jthread> threads;
@@ -244,7 +243,7 @@ TEST(ProofSchedule, AStoppedProofSaysNothing) {
   const NamedProver patient = fake::prover("patient", kLow, [](const SeparationQuery& q, const RunContext& c) {
     return c.should_stop() ? std::nullopt : std::optional(claim(q));
   });
-  Rig s(row(2), with(fake::ingredients(touching({}, searches)), {patient}));
+  Rig s(row(2), with(fake::setup(touching({}, searches)), {patient}));
   RunContext stopped;
   stopped.cancel.cancel();
   EXPECT_EQ(s.oracle->prove({{0, 1}, ProofEffort::low, 1}, stopped), nullptr);
@@ -259,7 +258,7 @@ TEST(ProofSchedule, AProverThatThrowsProvesNothingAndIsReported) {
       });
   Asked next;
   next.proves = false;
-  Rig s(row(2), with(fake::ingredients(touching({}, searches)), {broken, next.prover("next", kLow)}));
+  Rig s(row(2), with(fake::setup(touching({}, searches)), {broken, next.prover("next", kLow)}));
   EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
   ASSERT_EQ(s.errors.size(), 1U);
   EXPECT_NE(s.errors[0].find("no idea"), std::string::npos);
@@ -267,7 +266,7 @@ TEST(ProofSchedule, AProverThatThrowsProvesNothingAndIsReported) {
 }
 
 TEST(ProofSchedule, QuestionsThatMakeNoSense) {
-  Rig s(row(2), fake::ingredients(fake::push));
+  Rig s(row(2), fake::setup(fake::push));
   for (const std::vector<PartId>& parts : {std::vector<PartId>{}, {0}, {0, 0}, {0, 7}})
     EXPECT_THROW(s.oracle->prove({parts, ProofEffort::low, 1}, {}), std::invalid_argument);
   for (const double share : {0.0, -1.0, 1.5})

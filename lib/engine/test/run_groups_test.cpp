@@ -36,7 +36,7 @@ TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
       {"found with a part absent",
        [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
          Attempt without = leave(a, 1);
-         without.still.pop_back();
+         without.fixed.pop_back();
          observer.removed({{1}, &oracle.attempt(without, c)}, 2);
          return SequenceResult{};
        }},
@@ -70,8 +70,8 @@ TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
   };
   for (const auto& [name, steps] : cheats) {
     RunContext context;
-    const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(steps)),
-                            RunOptions{}, context);
+    const RunResult r =
+        run(fake::tube_with_blocks(2), fake::setup(fake::push, std::make_shared<Custom>(steps)), RunOptions{}, context);
     EXPECT_EQ(r.outcome, Outcome::crashed) << name;
     EXPECT_TRUE(r.plan.disassembly.empty()) << name;
     EXPECT_EQ(r.plan.unsolved.size(), 3u) << name;
@@ -79,18 +79,18 @@ TEST(Run, NoStepIsBookedThatTheOracleDidNotAllow) {
 }
 
 TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
-  const auto lift = [](const PathQuery& q, RunContext&) { return fake::shown(q, fake::straight(q.cast, {0, 0, 30})); };
+  const auto lift = [](const PathQuery& q, RunContext&) { return fake::shown(q, fake::straight(q.scene, {0, 0, 30})); };
   const auto in_groups = [](const Assembly&, PathOracle& oracle, SequenceObserver& observer, RunContext& c) {
     Attempt both;
     both.moving = {{1, Pose{}}, {2, Pose{}}};
-    both.still = {{0, Pose{}}};
+    both.fixed = {{0, Pose{}}};
     SequenceResult result;
     const AttemptResult& up = oracle.attempt(both, c);
     result.removals.push_back({{1, 2}, &up});
     observer.removed(result.removals.back(), 1);
     Attempt apart;
     apart.moving = {{2, up.result.path()->poses().back()[1]}};
-    apart.still = {{1, up.result.path()->poses().back()[0]}};
+    apart.fixed = {{1, up.result.path()->poses().back()[0]}};
     result.removals.push_back({{2}, &oracle.attempt(apart, c)});
     observer.removed(result.removals.back(), 1);
     result.outcome = Outcome::solved;
@@ -98,8 +98,8 @@ TEST(Run, AGroupComesOutWholeAndIsTakenApartLater) {
     return result;
   };
   RunContext context;
-  const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(lift, std::make_shared<Custom>(in_groups)),
-                          RunOptions{}, context);
+  const RunResult r =
+      run(fake::tube_with_blocks(2), fake::setup(lift, std::make_shared<Custom>(in_groups)), RunOptions{}, context);
   EXPECT_EQ(r.outcome, Outcome::solved);
   ASSERT_EQ(r.plan.disassembly.size(), 2u);
   EXPECT_EQ(r.plan.disassembly[0].separates, (std::vector<std::vector<std::string>>{{"block1", "block2"}}));
@@ -115,9 +115,9 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
       SequenceResult result;
       Attempt both;
       both.moving = {{1, Pose{}}, {2, Pose{}}};
-      both.still = {{0, Pose{}}};
+      both.fixed = {{0, Pose{}}};
       both.goal.any_of = {1, 2};
-      Path way = fake::straight({both.moving, both.still}, {0, 0, 30});
+      Path way = fake::straight({both.moving, both.fixed}, {0, 0, 30});
       way[1][0].t.z() = 0.5;
       RunContext c;
       const AttemptResult& r = oracle.propose(both, way, c);
@@ -125,7 +125,7 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
       observer.removed(result.removals.back(), 2);
       Attempt last;
       last.moving = {{1, honest ? r.result.path()->poses().back()[0] : Pose{}}};
-      last.still = {{0, Pose{}}};
+      last.fixed = {{0, Pose{}}};
       result.removals.push_back({{1}, &oracle.propose(last, fake::straight({last.moving, {}}, {0, 0, 30}), c)});
       observer.removed(result.removals.back(), 1);
       result.outcome = Outcome::solved;
@@ -133,7 +133,7 @@ TEST(Run, OneLeavesAndTheOtherStaysWhereItWasMoved) {
       return result;
     };
     RunContext context;
-    const RunResult r = run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(at_once)),
+    const RunResult r = run(fake::tube_with_blocks(2), fake::setup(fake::push, std::make_shared<Custom>(at_once)),
                             RunOptions{}, context);
     ASSERT_EQ(r.plan.disassembly.size(), honest ? 2u : 1u) << "the other is not where it was";
     const PlanStep& first = r.plan.disassembly[0];
@@ -166,8 +166,8 @@ RunResult in_bits(const std::vector<PartId>& order) {
       a.goal.placement = !last;
       a.moving = {{part, at[part]}};
       for (const auto& p : assembly.parts)
-        if (p.id != part && !gone[p.id]) a.still.push_back({p.id, at[p.id]});
-      const Path way = fake::straight({a.moving, a.still}, {0, 0, last ? 30 : 0.25});
+        if (p.id != part && !gone[p.id]) a.fixed.push_back({p.id, at[p.id]});
+      const Path way = fake::straight({a.moving, a.fixed}, {0, 0, last ? 30 : 0.25});
       const AttemptResult& r = oracle.propose(a, way, c);
       at[part] = r.result.path()->poses().back()[0];
       gone[part] = last;
@@ -178,8 +178,7 @@ RunResult in_bits(const std::vector<PartId>& order) {
     return result;
   };
   RunContext context;
-  return run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(bits)), RunOptions{},
-             context);
+  return run(fake::tube_with_blocks(2), fake::setup(fake::push, std::make_shared<Custom>(bits)), RunOptions{}, context);
 }
 
 TEST(Run, WhatMovesOnFromPartWayIsOneStep) {

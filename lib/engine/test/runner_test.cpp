@@ -25,7 +25,7 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 TEST(Run, TakesATubeApartFromTheTop) {
   const Assembly assembly = fake::tube_with_blocks(3);
   RunContext context;
-  const RunResult r = run(assembly, fake::ingredients(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
+  const RunResult r = run(assembly, fake::setup(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
   EXPECT_EQ(r.outcome, Outcome::solved);
   const Plan& plan = r.plan;
   EXPECT_EQ(plan.status, PlanStatus::complete);
@@ -83,7 +83,7 @@ TEST(Run, PosesAreInInputUnits) {
 TEST(Run, PrecedenceIsWhatTheWaysNeedAndNoMore) {
   const Assembly assembly = fake::tube_with_blocks(4);
   RunContext context;
-  const RunResult r = run(assembly, fake::ingredients(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
+  const RunResult r = run(assembly, fake::setup(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
   ASSERT_EQ(r.plan.disassembly.size(), 4u);
   // Each block needs the next one gone; what follows from that is left out, and nobody waits for the tube.
   EXPECT_EQ(r.precedence, (Pairs{{"block4", "block3"}, {"block3", "block2"}, {"block2", "block1"}}));
@@ -111,7 +111,7 @@ TEST(Run, SameSeedSamePlanOnAnyNumberOfThreads) {
 TEST(Run, TheSeedIsThatOfTheOptions) {
   const auto marks = [](const PathQuery& q, RunContext& c) {
     const double draw = c.rng.uniform();
-    return fake::shown(q, fake::straight(q.cast, {0, 0, 30 + draw}));
+    return fake::shown(q, fake::straight(q.scene, {0, 0, 30 + draw}));
   };
   const Assembly assembly = fake::tube_with_blocks(2);
   std::set<std::string> plans;
@@ -120,7 +120,7 @@ TEST(Run, TheSeedIsThatOfTheOptions) {
     context.rng = Rng(99 + plans.size());  // does not matter
     RunOptions options;
     options.seed = seed;
-    const RunResult r = run(assembly, fake::ingredients(marks, std::make_shared<InTurn>()), options, context);
+    const RunResult r = run(assembly, fake::setup(marks, std::make_shared<InTurn>()), options, context);
     EXPECT_EQ(r.plan.seed, seed);
     plans.insert(text_without_times(r.plan));
   }
@@ -140,8 +140,8 @@ TEST(Run, EachStepIsHandedOnAsItIsDone) {
   context.on_log = [&](LogLevel level, std::string_view text) {
     if (level == LogLevel::error) errors.emplace_back(text);
   };
-  const RunResult r = run(fake::tube_with_blocks(3), fake::ingredients(fake::push, std::make_shared<InTurn>()),
-                          RunOptions{}, context, keep);
+  const RunResult r =
+      run(fake::tube_with_blocks(3), fake::setup(fake::push, std::make_shared<InTurn>()), RunOptions{}, context, keep);
   EXPECT_EQ(r.outcome, Outcome::solved);
   EXPECT_EQ(seen, (std::vector<std::size_t>{1, 2, 3}));
   ASSERT_EQ(errors.size(), 1u);
@@ -155,7 +155,7 @@ TEST(Run, CancellationKeepsTheStepsDone) {
     const auto stop_after_two = [&](const Plan& plan) {
       if (plan.disassembly.size() == 2) context.cancel.cancel();
     };
-    const RunResult r = run(fake::tube_with_blocks(4), fake::ingredients(fake::push, std::make_shared<InTurn>()),
+    const RunResult r = run(fake::tube_with_blocks(4), fake::setup(fake::push, std::make_shared<InTurn>()),
                             RunOptions{}, context, stop_after_two);
     EXPECT_EQ(r.plan.disassembly.size(), 2u);
     EXPECT_EQ(r.plan.status, PlanStatus::partial);
@@ -180,7 +180,7 @@ TEST(Run, APlateNeverLeavesAClosedBox) {
   RunOptions options;
   options.only_part = "plate";
   RunContext context;
-  const RunResult r = run(fake::closed_box(), fake::ingredients(fake::push), options, context);
+  const RunResult r = run(fake::closed_box(), fake::setup(fake::push), options, context);
   EXPECT_EQ(r.outcome, Outcome::exhausted);
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   EXPECT_TRUE(r.plan.disassembly.empty());
@@ -191,7 +191,7 @@ TEST(Run, APlateNeverLeavesAClosedBox) {
 TEST(Run, OnePartOnly) {
   RunOptions options;
   options.only_part = "block2";
-  Ingredients parts = fake::ingredients(fake::push);  // no sequence planner needed
+  PlanningSetup parts = fake::setup(fake::push);  // no sequence planner needed
   RunContext context;
   const RunResult out = run(fake::tube_with_blocks(2), parts, options, context);
   EXPECT_EQ(out.outcome, Outcome::solved);
@@ -216,16 +216,15 @@ TEST(Run, AFailingSequencePlannerLosesNoStep) {
     throw std::runtime_error("ran out of ideas");
   };
   RunContext context;
-  const RunResult r =
-      run(fake::tube_with_blocks(2), fake::ingredients(fake::push, std::make_shared<Custom>(one_then_throw)),
-          RunOptions{}, context);
+  const RunResult r = run(fake::tube_with_blocks(2), fake::setup(fake::push, std::make_shared<Custom>(one_then_throw)),
+                          RunOptions{}, context);
   EXPECT_EQ(r.outcome, Outcome::crashed);
   EXPECT_EQ(r.plan.disassembly.size(), 1u);
   EXPECT_EQ(r.plan.unsolved.size(), 2u);
 }
 
 TEST(Run, ASimulatorThatCannotPrepare) {
-  Ingredients parts = fake::ingredients(fake::push, std::make_shared<InTurn>());
+  PlanningSetup parts = fake::setup(fake::push, std::make_shared<InTurn>());
   auto simulator = std::make_shared<fake::Physics>();
   parts.simulator = simulator;
   RunContext context;

@@ -7,15 +7,15 @@
 namespace dismantle {
 namespace {
 
-/// Each moving part touches every still part twice, the second time deeper; places depend on where the part is.
+/// Each moving part touches every fixed part twice, the second time deeper; places depend on where the part is.
 class TouchingWorld final : public World {
  public:
-  explicit TouchingWorld(Cast cast) : cast_(std::move(cast)) {}
-  const Cast& cast() const override { return cast_; }
+  explicit TouchingWorld(Scene scene) : scene_(std::move(scene)) {}
+  const Scene& scene() const override { return scene_; }
   MotionSpace space() const override { return MotionSpace::rigid; }
   State initial_state() const override {
     State state;
-    for (const auto& p : cast_.moving) state.bodies.push_back({p.pose});
+    for (const auto& p : scene_.moving) state.bodies.push_back({p.pose});
     return state;
   }
   Eigen::Vector3d center(std::size_t) const override { return Eigen::Vector3d::Zero(); }
@@ -25,31 +25,32 @@ class TouchingWorld final : public World {
   double penetration(const State&) override { return 0; }
   void contacts(const State& state, std::vector<Contact>& out) override {
     out.clear();
-    for (const auto& still : cast_.still)
+    for (const auto& fixed : scene_.fixed)
       for (const double depth : {0.1, 0.2}) {
         Contact c;
-        c.moving = cast_.moving[0].part;
-        c.other = still.part;
-        c.point = state.bodies[0].pose.t + Eigen::Vector3d(still.part, depth, 0);
+        c.moving = scene_.moving[0].part;
+        c.other = fixed.part;
+        c.point = state.bodies[0].pose.t + Eigen::Vector3d(fixed.part, depth, 0);
         c.depth = depth;
         out.push_back(c);
       }
   }
   bool separated(const State&) override { return false; }
-  void learn(PartId, PartId, const Eigen::Vector3d&) override {}
+  void add_contact_sample(PartId, PartId, const Eigen::Vector3d&) override {}
 
  private:
-  Cast cast_;
+  Scene scene_;
 };
 
 class TouchingPhysics final : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return {true, true, true, 4}; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override {
-    return std::make_shared<Prepared>();
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly&, double, RunContext&) override {
+    return std::make_shared<PreparedAssembly>();
   }
-  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace) const override {
-    return std::make_unique<TouchingWorld>(cast);
+  std::unique_ptr<World> world(const Assembly&, const PreparedAssembly&, const Scene& scene,
+                               MotionSpace) const override {
+    return std::make_unique<TouchingWorld>(scene);
   }
 };
 
@@ -58,8 +59,8 @@ const Eigen::Vector3d kReached(0, 0, 3);
 PathResult never(const PathQuery& query, RunContext&) {
   PathResult result = PathResult::failure(Outcome::depth_limit, "no");
   result.depth = 1;
-  result.blocked_by = {query.cast.still.front().part};
-  result.best_pose.assign(query.cast.moving.size(), Pose{kReached, Eigen::Quaterniond::Identity()});
+  result.blocked_by = {query.scene.fixed.front().part};
+  result.best_pose.assign(query.scene.moving.size(), Pose{kReached, Eigen::Quaterniond::Identity()});
   return result;
 }
 
@@ -82,7 +83,7 @@ RunResult tried(Assembly assembly, unsigned rounds, bool with_contacts) {
     }
     return result;
   };
-  Ingredients parts = fake::ingredients(never, std::make_shared<fake::Custom>(steps));
+  PlanningSetup parts = fake::setup(never, std::make_shared<fake::Custom>(steps));
   if (with_contacts) parts.simulator = std::make_shared<TouchingPhysics>();
   RunContext context;
   return run(assembly, parts, RunOptions{}, context);

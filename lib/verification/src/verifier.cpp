@@ -9,8 +9,8 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/geometry/hull.h"
-#include "dismantle/geometry/pair_check.h"
 #include "dismantle/geometry/motion_samples.h"
+#include "dismantle/geometry/pair_check.h"
 #include "verifier_impl.h"
 
 namespace dismantle {
@@ -225,12 +225,12 @@ const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodie
 
 const std::vector<geometry::Solid>& Verifier::solids(PartId part) const { return impl_->bodies.at(part).solids; }
 
-MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                                    const Path& path) const {
-  return check_motion(moving, still, path, RunContext{});
+  return check_motion(moving, fixed, path, RunContext{});
 }
 
-MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                                    const Path& path, const RunContext& context) const {
   if (path.size() < 2) throw std::invalid_argument("Verifier: a path needs two instants at least");
   for (const auto& row : path) {
@@ -246,7 +246,7 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
     actor.swept = box_along(impl_->bodies.at(moving[i]).box, actor.poses);
     movers.push_back(std::move(actor));
   }
-  for (const auto& s : still) {
+  for (const auto& s : fixed) {
     Impl::Actor actor{s.part, {{s.pose.t, s.pose.q.normalized()}}, {}};
     actor.swept = box_along(impl_->bodies.at(s.part).box, actor.poses);
     others.push_back(std::move(actor));
@@ -263,12 +263,12 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
   return result;
 }
 
-bool Verifier::passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const {
+bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const {
   Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
-  Impl::Actor b{still, {still_at}, box_along(impl_->bodies.at(still).box, {still_at})};
+  Impl::Actor b{fixed, {fixed_at}, box_along(impl_->bodies.at(fixed).box, {fixed_at})};
   if (!a.swept.overlaps(b.swept)) return true;
-  const verify::Limits limits{impl_->overlap(moving, still), impl_->options.max_penetration};
-  return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[still].solids, still_at, limits);
+  const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
+  return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[fixed].solids, fixed_at, limits);
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,

@@ -1,4 +1,4 @@
-// The judge on several threads, and told to stop.
+// The verifier on several threads, and told to stop.
 #include <gtest/gtest.h>
 
 #include "dismantle/executor.h"
@@ -21,12 +21,12 @@ struct Row {
       meshes.push_back(shapes::tube(radius, 1, k, k + 0.5, 40, 1, rng.uniform(0, 1)));
     }
     assembly = shapes::assembly_of(meshes);
-    for (PartId id = 1; id < meshes.size(); ++id) still.push_back({id, Pose{}});
+    for (PartId id = 1; id < meshes.size(); ++id) fixed.push_back({id, Pose{}});
     path = {{shapes::shift({0, 0, -1})}, {shapes::shift({0, 0, 5})}, {shapes::shift({0, 0, 14})}};
     if (in_one) path.erase(path.begin() + 1);
   }
   Assembly assembly;
-  std::vector<PlacedPart> still;
+  std::vector<PlacedPart> fixed;
   Path path;
 };
 
@@ -42,7 +42,7 @@ TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
       context.threads = threads;
       if (threads > 2) context.executor = std::make_shared<Executor>(threads);  // else threads of its own
       const Verifier verifier(row.assembly, {0.01}, context.executor.get());
-      const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
+      const MotionCheck check = verifier.check_motion({0}, row.fixed, row.path, context);
       if (threads == 1) {
         first = check;
         valid += check.valid ? 1 : 0;
@@ -71,7 +71,7 @@ TEST(Judging, ToldToStopItSaysSoAndNothingElse) {
       context.threads = threads;
       if (threads > 1) context.executor = std::make_shared<Executor>(threads);
       context.cancel.cancel();
-      const MotionCheck check = verifier.check_motion({0}, row.still, row.path, context);
+      const MotionCheck check = verifier.check_motion({0}, row.fixed, row.path, context);
       EXPECT_FALSE(check.valid);
       EXPECT_TRUE(check.interrupted);
       EXPECT_FALSE(check.violation);

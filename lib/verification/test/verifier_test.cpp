@@ -29,11 +29,11 @@ Path path_of(const std::vector<Pose>& poses) {
 }
 
 /// `moving` (part 0) along the poses, part 1 still at the origin.
-MotionCheck check(const Mesh& moving, const Mesh& still, const std::vector<Pose>& poses, double most = 0.01,
+MotionCheck check(const Mesh& moving, const Mesh& fixed, const std::vector<Pose>& poses, double most = 0.01,
                   double overlap = 0) {
   std::vector<InitialOverlap> overlaps;
   if (overlap > 0) overlaps.push_back({0, 1, overlap});
-  const Verifier verifier(assembly_of({moving, still}, overlaps), {most});
+  const Verifier verifier(assembly_of({moving, fixed}, overlaps), {most});
   return verifier.check_motion({0}, {{1, Pose{}}}, path_of(poses));
 }
 
@@ -235,7 +235,7 @@ TEST(Verifier, BuriedPlateSlidesOutAlongItsWalls) {
   const MotionCheck c = check(plate, walls, {Pose{}, shift({0.003, 2, 0.002})}, 0.01, depth);
   EXPECT_TRUE(c.valid);
   EXPECT_LE(c.max_penetration, 0.002);
-  EXPECT_LT(c.tests, 900'000u) << "pieces beside a ridge are judged whole: without that it takes 1.2 million";
+  EXPECT_LT(c.tests, 900'000u) << "pieces beside a ridge are verified whole: without that it takes 1.2 million";
 }
 
 TEST(Verifier, BuriedPlateDoesNotGoIntoAThickerWall) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dismantle/verification/verifier.h"
 #include "dismantle/testing/shapes.h"
+#include "dismantle/verification/verifier.h"
 
 namespace dismantle {
 namespace {
@@ -32,8 +32,8 @@ Path winding(const Screw& screw, const Pose& start, double angle, int poses) {
   return path;
 }
 
-MotionCheck check(const Verifier& verifier, PartId moving, PartId still, const Path& path) {
-  return verifier.check_motion({moving}, {{still, Pose{}}}, path);
+MotionCheck check(const Verifier& verifier, PartId moving, PartId fixed, const Path& path) {
+  return verifier.check_motion({moving}, {{fixed, Pose{}}}, path);
 }
 
 Mesh random_box(Rng& rng, const Vec3& at) {

@@ -10,7 +10,7 @@
 namespace dismantle::immobility {
 
 void ConfigurationCellsParams::describe(Schema<ConfigurationCellsParams>& s) {
-  s.add("walk_looks", &ConfigurationCellsParams::walk_looks,
+  s.add("walk_checks", &ConfigurationCellsParams::walk_checks,
         {.unit = "1",
          .min = 1,
          .doc = "Poses that a random walk looks at first: where it gets away there is nothing to prove."});
@@ -24,7 +24,7 @@ std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& quer
   // Turns of a small part move its points less, so its poses need fewer boxes.
   auto [a, b] = *pair;
   if (extent_of(query, b) < extent_of(query, a)) std::swap(a, b);
-  const PocketEffort effort{static_cast<std::size_t>(params_.walk_looks),
+  const PocketEffort effort{static_cast<std::size_t>(params_.walk_checks),
                             static_cast<std::size_t>(params_.max_divisions)};
   const auto found_in = pocket(solids_of(query, a), solids_of(query, b), depth_allowed(query, a, b), effort, context);
   if (!found_in) return std::nullopt;

@@ -9,7 +9,7 @@
 namespace dismantle::immobility {
 
 struct ConfigurationCellsParams {
-  std::int64_t walk_looks = 6000;
+  std::int64_t walk_checks = 6000;
   std::int64_t max_divisions = 100'000;
   static void describe(Schema<ConfigurationCellsParams>& s);
 };

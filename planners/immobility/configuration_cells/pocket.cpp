@@ -22,7 +22,7 @@ std::optional<Pocket> pocket(const std::vector<Solid>& a, const std::vector<Soli
   if (pinned.pins().empty()) return std::nullopt;
   const double far = std::max(kFar * pinned.radius(), kLeastFar);
   PinWalk walk(pinned, far);
-  walk.wander(effort.walk_looks, context);
+  walk.wander(effort.walk_checks, context);
   if (walk.away()) return std::nullopt;
   ForkJoin both(context);
   PoseFlood flood(pinned, walk, {0.5 * std::numbers::pi, 2 * far}, both);

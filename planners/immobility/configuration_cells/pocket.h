@@ -20,7 +20,7 @@ struct Pocket {
 
 /// How much is looked at before a proof is given up.
 struct PocketEffort {
-  std::size_t walk_looks = 6000;    ///< poses, of the random walk to begin with
+  std::size_t walk_checks = 6000;   ///< poses, of the random walk to begin with
   std::size_t divisions = 100'000;  ///< of cells, in all
 };
 

@@ -39,13 +39,13 @@ std::vector<PairRow> pair_rows(const Pinned& pinned, const Eigen::Quaterniond& a
 
     const Pinned::Faced& faced = pinned.faced(pin);
     const Mat3 to_local = (faced.to_local.q * axes).toRotationMatrix();
-    const Vec3 still = faced.to_local * Vec3(pin.at + pinned.center());
+    const Vec3 fixed = faced.to_local * Vec3(pin.at + pinned.center());
     const Eigen::Matrix<double, 3, 6> local = to_local * slope;
     const Vec3 local_rest = to_local.cwiseAbs() * rest;
-    const FreePart part = free_part(faced, still + local * middle, local.cwiseAbs() * half + local_rest);
+    const FreePart part = free_part(faced, fixed + local * middle, local.cwiseAbs() * half + local_rest);
     for (const HalfSpace& h : part.within)
       rows.push_back(
-          {-local.transpose() * h.normal, h.normal.dot(still) + h.normal.cwiseAbs().dot(local_rest) - h.least});
+          {-local.transpose() * h.normal, h.normal.dot(fixed) + h.normal.cwiseAbs().dot(local_rest) - h.least});
   }
   return rows;
 }

@@ -68,7 +68,7 @@ class BkRrtSearch final : public PathSearch {
                        .cost = static_cast<double>(tree->steps())};
       for (const auto& [part, times] : tree->touched()) touched[part] += times;
     }
-    result.blocked_by = path::most_touched(touched, query_.cast.moving);
+    result.blocked_by = path::most_touched(touched, query_.scene.moving);
     return result;
   }
 
@@ -103,7 +103,7 @@ class BkRrt final : public PathPlanner {
 
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || has.max_moving < query.cast.moving.size())
+    if (!has.dynamics || has.max_moving < query.scene.moving.size())
       return path::unsupported("needs a simulator with dynamics for all moving parts");
     return std::make_unique<BkRrtSearch>(parameters_, query, context);
   }

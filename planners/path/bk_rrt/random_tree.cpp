@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::bk_rrt {
 namespace {
@@ -24,13 +24,13 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
     : query_(query),
       parameters_(parameters),
       rng_(rng),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       sees_contacts_(query.simulator.capabilities().contacts) {
   const sampling::Surroundings around(query, *world_);
   // Several parts that move at once are told apart by the first of them: where it is draws the tree.
-  const sampling::Mover first{query.cast.moving[0].pose * world_->center(0), world_->radius(0)};
+  const sampling::Mover first{query.scene.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
-  for (std::size_t i = 0; i < query.cast.moving.size(); ++i)
+  for (std::size_t i = 0; i < query.scene.moving.size(); ++i)
     bodies_.push_back({world_->center(i), motion == MotionSpace::translation ? 0.0 : world_->radius(i)});
   add(world_->initial_state(), 0, {});
 }
@@ -42,7 +42,7 @@ std::vector<Pose> RandomTree::farthest() const { return poses_of(nodes_[farthest
 RandomTree::StateType RandomTree::place(const State& state) const {
   StateType s;
   s.center = state.bodies[0].pose * world_->center(0);
-  s.turn = (state.bodies[0].pose.q * query_.cast.moving[0].pose.q.conjugate()).normalized();
+  s.turn = (state.bodies[0].pose.q * query_.scene.moving[0].pose.q.conjugate()).normalized();
   return s;
 }
 
@@ -116,7 +116,7 @@ bool RandomTree::verified(std::uint32_t node, PathResult& result) {
     discard(node);
     return false;
   }
-  world_->learn(check.part, check.other, check.point);
+  world_->add_contact_sample(check.part, check.other, check.point);
   // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
   const auto& after = path[std::min(check.instant + 1, path.size() - 1)];
   std::size_t k = 1;

@@ -28,7 +28,7 @@ class RandomTree {
   std::size_t size() const { return nodes_.size(); }
   double farthest_way() const { return farthest_way_; }  ///< of the centre, assembly units
   std::vector<Pose> farthest() const;
-  /// How often each still part was touched at the end of an action.
+  /// How often each fixed part was touched at the end of an action.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 
  private:

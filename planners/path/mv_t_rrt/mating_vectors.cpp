@@ -45,12 +45,12 @@ std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach
                                             std::size_t most) {
   std::vector<Face> faces;
   Aabb near;
-  for (const auto& m : query.cast.moving) {
+  for (const auto& m : query.scene.moving) {
     near.extend(world_box(query.assembly, m));
     add_faces(*query.assembly.parts[m.part].mesh, m.pose.q, faces);
   }
   near.inflate(reach);
-  for (const auto& s : query.cast.still)
+  for (const auto& s : query.scene.fixed)
     if (world_box(query.assembly, s).overlaps(near)) add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
   std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.area > b.area; });
 

@@ -9,7 +9,7 @@
 
 namespace dismantle::mv_t_rrt {
 
-/// Distinct face normals, both ways, of what moves and of the still parts whose boxes come within `reach` (assembly
+/// Distinct face normals, both ways, of what moves and of the fixed parts whose boxes come within `reach` (assembly
 /// units) of it; unit, world. Normals closer than `merge_angle` (rad) to one of more area, or to its opposite, are
 /// taken for that one. Most area first, at most `most`.
 std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle, std::size_t most);

@@ -32,7 +32,7 @@ class MatingVectorTargetlessRrt final : public PathPlanner {
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     return sampling::start_trees(
         query, context, parameters_,
-        [](sampling::Scene& scene, Rng) { return std::make_unique<sampling::NearestExit>(scene); },
+        [](sampling::SamplingProblem& problem, Rng) { return std::make_unique<sampling::NearestExit>(problem); },
         [this](const PathQuery& q) {
           return mating_vectors(q, parameters_.neighbor_reach, parameters_.merge_angle,
                                 static_cast<std::size_t>(parameters_.max_vectors));

@@ -33,8 +33,8 @@ PortfolioSearch::PortfolioSearch(const Parameters& parameters,
 
 bool PortfolioSearch::is_large(const Member& member) {
   if (!diagonals_) {
-    const Aabb moving = path::box_of(query_.assembly, query_.cast.moving),
-               fixed = path::box_of(query_.assembly, query_.cast.still);
+    const Aabb moving = path::box_of(query_.assembly, query_.scene.moving),
+               fixed = path::box_of(query_.assembly, query_.scene.fixed);
     const bool known = !moving.empty() && !fixed.empty();
     diagonals_.emplace(known ? moving.size().norm() : 1, known ? fixed.size().norm() : 0);
   }
@@ -71,7 +71,7 @@ void PortfolioSearch::choose_members() {
 
 SearchStatus PortfolioSearch::run(const Budget& portion) {
   if (status_ != SearchStatus::paused) return status_;
-  if (query_.simulator.capabilities().max_moving < query_.cast.moving.size()) {
+  if (query_.simulator.capabilities().max_moving < query_.scene.moving.size()) {
     refusal_.fail(Outcome::unsupported, "the simulator cannot move so many parts at the same time");
     return status_ = SearchStatus::failed;
   }
@@ -121,7 +121,7 @@ bool PortfolioSearch::ready(const MemberSearch& m) {
 }
 
 void PortfolioSearch::begin(MemberSearch& m, const RunContext& context, const PathChecker& checker) {
-  PathQuery query{query_.assembly,  query_.simulator, query_.prepared, query_.cast, query_.budget,
+  PathQuery query{query_.assembly,  query_.simulator, query_.prepared, query_.scene, query_.budget,
                   query_.tolerance, checker,          query_.goal,     nullptr};
   if (was_refused(m)) query.budget.max_depth = 0;
   if (query_.budget.timeout > 0) query.budget.timeout = std::max(1e-9, deadline_.seconds_left());

@@ -6,7 +6,7 @@
 namespace dismantle::rrt {
 namespace {
 
-using sampling::Scene;
+using sampling::SamplingProblem;
 using sampling::TargetRule;
 using sampling::TargetTree;
 
@@ -19,7 +19,7 @@ struct Parameters : sampling::TreeParameters {
 /// One goal for the whole search (section 6.1), grown to from the node nearest to it.
 class OneGoal final : public TargetRule {
  public:
-  OneGoal(Scene& scene, Rng rng) : goal_(scene.draw_disassembled(rng)) {}
+  OneGoal(SamplingProblem& problem, Rng rng) : goal_(problem.draw_disassembled(rng)) {}
 
   std::optional<Target> target(TargetTree& tree, Rng&) override {
     if (!goal_) return std::nullopt;
@@ -39,8 +39,9 @@ class Rrt final : public PathPlanner {
   explicit Rrt(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
-    return sampling::start_trees(query, context, parameters_,
-                                 [](Scene& scene, Rng rng) { return std::make_unique<OneGoal>(scene, rng); });
+    return sampling::start_trees(query, context, parameters_, [](SamplingProblem& problem, Rng rng) {
+      return std::make_unique<OneGoal>(problem, rng);
+    });
   }
 
  private:

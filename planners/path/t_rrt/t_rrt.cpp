@@ -19,8 +19,8 @@ class TargetlessRrt final : public PathPlanner {
   explicit TargetlessRrt(const Parameters& parameters) : parameters_(parameters) {}
   PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kTreeNeeds}; }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
-    return sampling::start_trees(query, context, parameters_, [](sampling::Scene& scene, Rng) {
-      return std::make_unique<sampling::NearestExit>(scene);
+    return sampling::start_trees(query, context, parameters_, [](sampling::SamplingProblem& problem, Rng) {
+      return std::make_unique<sampling::NearestExit>(problem);
     });
   }
 

@@ -31,7 +31,7 @@ constexpr double kNearby = 0.25;
 
 std::vector<Pose> start_poses(const PathQuery& query) {
   std::vector<Pose> all;
-  for (const auto& m : query.cast.moving) all.push_back(m.pose);
+  for (const auto& m : query.scene.moving) all.push_back(m.pose);
   return all;
 }
 
@@ -49,19 +49,19 @@ Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& par
       parameters_(parameters),
       halted_(std::move(halted)),
       rng_(rng),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       rigid_(motion == MotionSpace::rigid),
       sees_contacts_(query.simulator.capabilities().contacts),
       guide_(*world_, parameters),
-      center_(query.cast.moving[0].pose * world_->center(0)),
+      center_(query.scene.moving[0].pose * world_->center(0)),
       arm_(rigid_ ? 0.5 * world_->radius(0) : 0.0),
       start_(start_poses(query)),
       map_(kCell, arm_) {
   Aabb moving;
-  for (const auto& m : query.cast.moving)
+  for (const auto& m : query.scene.moving)
     for (const auto& v : query.assembly.parts[m.part].mesh->vertices) moving.extend(m.pose * v);
   bounds_ = moving;
-  for (const auto& s : query.cast.still)
+  for (const auto& s : query.scene.fixed)
     for (const auto& v : query.assembly.parts[s.part].mesh->vertices) bounds_.extend(s.pose * v);
   bounds_.inflate(0.6 * moving.size().norm());
   map_.plant(node_of(world_->initial_state()));
@@ -83,21 +83,21 @@ std::vector<Pose> Forest::poses(const Target& target) const {
 }
 
 void Forest::look_for_tunnels() {
-  Mesh moving, still;
-  for (const auto& m : query_.cast.moving) append(moving, *query_.assembly.parts[m.part].mesh, m.pose);
+  Mesh moving, fixed;
+  for (const auto& m : query_.scene.moving) append(moving, *query_.assembly.parts[m.part].mesh, m.pose);
   if (moving.vertices.empty()) return;
   Aabb near = moving.box();
   near.inflate(kNearby * near.size().maxCoeff());
-  for (const auto& s : query_.cast.still) {
+  for (const auto& s : query_.scene.fixed) {
     const Mesh& mesh = *query_.assembly.parts[s.part].mesh;
     Aabb box;
     for (const auto& v : mesh.vertices) box.extend(s.pose * v);
-    if (box.overlaps(near)) append(still, mesh, s.pose);
+    if (box.overlaps(near)) append(fixed, mesh, s.pose);
   }
   Rng rng = rng_.fork(1);
   const auto samples = static_cast<std::size_t>(parameters_.surface_samples);
   NarrowPlaces of_moving = find_narrow_places(moving, samples, rng);
-  tunnel_poses_.emplace(std::move(of_moving), find_narrow_places(still, samples, rng));
+  tunnel_poses_.emplace(std::move(of_moving), find_narrow_places(fixed, samples, rng));
 }
 
 void Forest::plant_tunnel(const std::function<bool()>& stop) {
@@ -110,11 +110,11 @@ void Forest::plant_tunnel(const std::function<bool()>& stop) {
     for (std::size_t i = 0; i < start_.size(); ++i) state.bodies[i].pose = match.displacement * start_[i];
     looks_ += 2;
     const double clearance = kClearanceShare * query_.tolerance;
-    world_->retreat(state, clearance);
+    world_->project_to_clearance(state, clearance);
     if (world_->penetration(state) > clearance) continue;
     // Pushed out of the tunnel, it is as good as any other state.
     const Pose moved = state.bodies[0].pose * start_[0].inverse();
-    if ((moved * match.on_moving - match.on_still).norm() > match.reach) continue;
+    if ((moved * match.on_moving - match.on_fixed).norm() > match.reach) continue;
     Roadmap::Node node = node_of(state);
     node.out = world_->separated(state);
     map_.plant(std::move(node));

@@ -41,7 +41,7 @@ class Forest {
   std::size_t cells() const { return map_.cells(); }  ///< how much of the space has been seen
   double farthest_way() const { return farthest_way_; }
   std::vector<Pose> farthest() const { return poses_of(map_.node(farthest_).state); }
-  /// How often each still part was touched where a trip ended.
+  /// How often each fixed part was touched where a trip ended.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 
  private:

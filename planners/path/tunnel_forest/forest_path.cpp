@@ -75,7 +75,7 @@ Path Forest::eased(const Path& path) {
         state.bodies[b].pose = screw_interpolate(before[b], path[k][b], static_cast<double>(i) / pieces);
       ++looks_;
       // The end is out, and has to remain so.
-      if (i < pieces || k + 1 < path.size()) world_->retreat(state, parameters_.clearance);
+      if (i < pieces || k + 1 < path.size()) world_->project_to_clearance(state, parameters_.clearance);
       dense.push_back(poses_of(state));
     }
   }
@@ -95,7 +95,7 @@ path::Shown Forest::show(const Path& path, unsigned depth, PathResult& result) {
       },
       [&](const PathCheck& check, const Path&) {
         result.message = check.reason;
-        if (check.has_witness) world_->learn(check.part, check.other, check.point);
+        if (check.has_witness) world_->add_contact_sample(check.part, check.other, check.point);
         return check.has_witness;
       },
       [&](VerifiedPath verified) { result.solve(std::move(verified), depth); });

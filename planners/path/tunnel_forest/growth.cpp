@@ -114,7 +114,7 @@ PathResult Growth::result() {
                      .extra = {{"tunnels", static_cast<double>(g.forest->tunnels())}}};
     for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
   }
-  result.blocked_by = path::most_touched(touched, query_.cast.moving);
+  result.blocked_by = path::most_touched(touched, query_.scene.moving);
   return result;
 }
 

@@ -26,7 +26,7 @@ std::vector<Pose> poses_of(const State& state) {
 
 Guide::Guide(World& world, const Parameters& parameters)
     : world_(world), force_(parameters.force), push_time_(parameters.push_time) {
-  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
     bodies_.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
 }
 

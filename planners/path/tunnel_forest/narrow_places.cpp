@@ -113,18 +113,18 @@ NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng)
   return found;
 }
 
-TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces still)
-    : moving_(std::move(moving)), still_(std::move(still)) {
+TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed)
+    : moving_(std::move(moving)), fixed_(std::move(fixed)) {
   const auto keep_narrow = [](std::vector<NarrowPlace>& gaps, const std::vector<NarrowPlace>& bars) {
     const double limit = bars.empty() ? 0 : kTunnel * median_width(bars);
     std::erase_if(gaps, [&](const NarrowPlace& g) { return g.half_width > limit; });
   };
-  keep_narrow(moving_.gaps, still_.bars);
-  keep_narrow(still_.gaps, moving_.bars);
+  keep_narrow(moving_.gaps, fixed_.bars);
+  keep_narrow(fixed_.gaps, moving_.bars);
   // Of the three, the first is what puzzles of two alike pieces are made of: it is drawn as often as the others.
-  if (!moving_.gaps.empty() && !still_.gaps.empty()) kinds_.insert(kinds_.end(), 2, Kind::gap_in_gap);
-  if (!moving_.bars.empty() && !still_.gaps.empty()) kinds_.push_back(Kind::bar_in_gap);
-  if (!moving_.gaps.empty() && !still_.bars.empty()) kinds_.push_back(Kind::gap_on_bar);
+  if (!moving_.gaps.empty() && !fixed_.gaps.empty()) kinds_.insert(kinds_.end(), 2, Kind::gap_in_gap);
+  if (!moving_.bars.empty() && !fixed_.gaps.empty()) kinds_.push_back(Kind::bar_in_gap);
+  if (!moving_.gaps.empty() && !fixed_.bars.empty()) kinds_.push_back(Kind::gap_on_bar);
 }
 
 TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
@@ -136,7 +136,7 @@ TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
   const NarrowPlace *m = nullptr, *s = nullptr;
   for (int k = 0; k < kDraws; ++k) {
     m = &any(kind == Kind::bar_in_gap ? moving_.bars : moving_.gaps);
-    s = &any(kind == Kind::gap_on_bar ? still_.bars : still_.gaps);
+    s = &any(kind == Kind::gap_on_bar ? fixed_.bars : fixed_.gaps);
     if (kind == Kind::gap_in_gap) break;
     const NarrowPlace *gap = kind == Kind::bar_in_gap ? s : m, *bar = gap == s ? m : s;
     if (bar->half_width <= kSqueeze * gap->half_width) break;
@@ -148,7 +148,7 @@ TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
     match.displacement.q = (Eigen::Quaterniond::FromTwoVectors(axis, s->axis) * match.displacement.q).normalized();
   }
   match.on_moving = m->middle;
-  match.on_still = s->middle;
+  match.on_fixed = s->middle;
   match.displacement.t = s->middle - match.displacement.q * m->middle;
   match.reach = 0.75 * (m->half_width + s->half_width);
   return match;

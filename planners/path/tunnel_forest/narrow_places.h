@@ -27,18 +27,18 @@ struct NarrowPlaces {
 /// Chords at `samples` points drawn uniformly from the surface, in the frame of the mesh. `mesh` is closed.
 NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng);
 
-/// Draws displacements of a body that bring a narrow place of it to one of the body that stands still: gap into gap,
+/// Draws displacements of a body that bring a narrow place of it to one of the body that stay fixed: gap into gap,
 /// bar into gap, gap around bar. Only gaps that are narrow for the bars of the other body count: wide ones are no
 /// tunnels.
 class TunnelPoses {
  public:
-  TunnelPoses(NarrowPlaces moving, NarrowPlaces still);
+  TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed);
   bool empty() const { return kinds_.empty(); }
 
   struct Match {
     Pose displacement;          ///< of the moving body
     Eigen::Vector3d on_moving;  ///< before the displacement
-    Eigen::Vector3d on_still;   ///< displacement * on_moving
+    Eigen::Vector3d on_fixed;   ///< displacement * on_moving
     double reach = 0;           ///< how far the two may come apart before they have left the tunnel
   };
   /// Not when empty().
@@ -46,7 +46,7 @@ class TunnelPoses {
 
  private:
   enum class Kind { gap_in_gap, bar_in_gap, gap_on_bar };
-  NarrowPlaces moving_, still_;
+  NarrowPlaces moving_, fixed_;
   std::vector<Kind> kinds_;
 };
 

@@ -55,12 +55,13 @@ struct Parameters {
                 "may be joined."});
     s.add("node_spacing", &Parameters::node_spacing,
           {.unit = "unit", .min = 0.01, .max = 100, .doc = "A way that is longer gets nodes in between."});
-    s.add("clearance", &Parameters::clearance,
-          {.unit = "unit",
-           .min = 0,
-           .max = 0.01,
-           .doc = "What a path keeps from contact, or half of the room there is: contact is sampled, and the judge is "
-                  "not."});
+    s.add(
+        "clearance", &Parameters::clearance,
+        {.unit = "unit",
+         .min = 0,
+         .max = 0.01,
+         .doc = "What a path keeps from contact, or half of the room there is: contact is sampled, and the verifier is "
+                "not."});
     s.add("thinning", &Parameters::thinning,
           {.unit = "unit",
            .min = 0,

@@ -15,7 +15,7 @@ class TunnelForest final : public PathPlanner {
 
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const Capabilities has = query.simulator.capabilities();
-    if (!has.dynamics || !has.distance || has.max_moving < query.cast.moving.size())
+    if (!has.dynamics || !has.distance || has.max_moving < query.scene.moving.size())
       return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
     return std::make_unique<Growth>(parameters_, query, context,
                                     path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));

@@ -33,7 +33,7 @@ Relations::Relations(const PairSweep& sweep, const Directions& directions, const
   }
 }
 
-Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const {
+Relations::Shadow Relations::scene(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const {
   Shadow s;
   for (int k = 0; k < 3; ++k) s.lo[k] = std::numeric_limits<double>::infinity(), s.hi[k] = -s.lo[k];
   const Eigen::Matrix3d frame = frames_[direction] * turn;
@@ -47,12 +47,12 @@ Relations::Shadow Relations::cast(PartId part, std::size_t direction, const Eige
 const Relations::Shadow& Relations::shadow(PartId part, std::size_t direction, std::size_t turn) const {
   if (turn != 0) {
     const auto [entry, is_new] = rotated_shadows_.try_emplace({turn, direction, part});
-    if (is_new) entry->second = cast(part, direction, orientations_[turn].toRotationMatrix());
+    if (is_new) entry->second = scene(part, direction, orientations_[turn].toRotationMatrix());
     return entry->second;
   }
   auto& list = shadows_[direction];
   if (list.empty())
-    for (PartId id = 0; id < sweep_.parts(); ++id) list.push_back(cast(id, direction, Eigen::Matrix3d::Identity()));
+    for (PartId id = 0; id < sweep_.parts(); ++id) list.push_back(scene(id, direction, Eigen::Matrix3d::Identity()));
   return list[part];
 }
 

@@ -69,7 +69,7 @@ class Relations {
   static Key key_of(const Pair& pair);
   using Ahead = SpeculativeCache<RelationKey, bool>;
   Ahead::Request request(const Pair& pair) const;
-  Shadow cast(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
+  Shadow scene(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
   const Shadow& shadow(PartId part, std::size_t direction, std::size_t turn) const;
 
   const Directions& directions_;

@@ -55,7 +55,7 @@ Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
   }
   Attempt attempt;
   for (const PartId other : state_.parts_of(id))
-    (other == part ? attempt.moving : attempt.still).push_back({other, state_.pose(other)});
+    (other == part ? attempt.moving : attempt.fixed).push_back({other, state_.pose(other)});
   const AttemptResult& answer = oracle_.attempt(attempt, state_.context());
   const PathResult& result = answer.result;
   reason.outcome = is_success(result.outcome()) ? Outcome::exhausted : result.outcome();

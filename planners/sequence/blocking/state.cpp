@@ -127,7 +127,7 @@ Subassemblies DisassemblyState::others(const GroupState& group, const Subassembl
 Attempt DisassemblyState::attempt_for(const GroupState& group, const Subassemblies& ids) const {
   Attempt attempt;
   for (const PartId id : parts_of(ids)) attempt.moving.push_back({id, poses_[id]});
-  for (const PartId id : parts_of(others(group, ids))) attempt.still.push_back({id, poses_[id]});
+  for (const PartId id : parts_of(others(group, ids))) attempt.fixed.push_back({id, poses_[id]});
   return attempt;
 }
 
@@ -185,7 +185,7 @@ void DisassemblyState::merge_two(GroupState& group, SubassemblyId a, Subassembly
   parts_[b].clear();
   std::erase(group.members, b);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {GroupChange::Kind::merged, {a, b}});
-  count("held");
+  count("merged");
 }
 
 bool DisassemblyState::stop() {

@@ -298,7 +298,7 @@ bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::siz
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
   const double length =
-      sweep_.distance_apart(attempt.moving, attempt.still, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
+      sweep_.distance_apart(attempt.moving, attempt.fixed, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
       kClear;
   Path path(2);
   for (const auto& p : attempt.moving) {

@@ -47,7 +47,7 @@ Attempt OneByOne::question(PartId part, unsigned max_depth) const {
   attempt.max_depth = max_depth;
   attempt.moving.push_back({part, Pose{}});
   for (const PartId id : left_)
-    if (id != part) attempt.still.push_back({id, Pose{}});
+    if (id != part) attempt.fixed.push_back({id, Pose{}});
   return attempt;
 }
 

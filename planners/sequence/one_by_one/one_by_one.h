@@ -26,7 +26,7 @@ class OneByOne {
   bool done() const { return left_.size() <= 1; }
   /// True when the planner has to stop here. What is said of the parts left then speaks of the interruption.
   bool interrupted();
-  /// Asks whether `part` can leave while all others left stand still, to `max_depth` (0 = no limit). When it can it
+  /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). When it can it
   /// is removed at once. `next`: parts that will be asked for after it, should it stay; worked ahead on.
   Outcome attempt(PartId part, unsigned max_depth, std::span<const PartId> next = {});
   /// The result as it stands.

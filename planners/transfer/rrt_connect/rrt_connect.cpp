@@ -13,11 +13,11 @@ namespace {
 namespace ob = ompl::base;
 using sampling::CheckBudget;
 using sampling::ConnectTrees;
-using sampling::Scene;
+using sampling::SamplingProblem;
 
 /// State checks without turns where nothing else limits them.
 constexpr std::uint64_t kFirstTurn = 10'000;
-/// Paths that the judge may refuse: simulator and judge differ there, and more of the same will not help.
+/// Paths that the verifier may refuse: simulator and judge differ there, and more of the same will not help.
 constexpr int kMostRefused = 10;
 
 struct Parameters {
@@ -68,7 +68,7 @@ class RrtConnect final : public TransferPlanner {
     }
     if (parameters_.straight_first && goes_straight(query, context, result)) return result;
     const Capabilities has = query.simulator.capabilities();
-    if (!has.distance || has.max_moving < query.cast.moving.size()) {
+    if (!has.distance || has.max_moving < query.scene.moving.size()) {
       result.fail(Outcome::unsupported,
                   "no straight way, and trees need a simulator with distance queries for all moving parts");
       return result;
@@ -93,7 +93,7 @@ class RrtConnect final : public TransferPlanner {
   }
 
   void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
-    PathQuery removal{query.assembly, query.simulator, query.prepared, query.cast,
+    PathQuery removal{query.assembly, query.simulator, query.prepared, query.scene,
                       query.budget,   query.tolerance, query.checker};
     const auto own = static_cast<std::uint64_t>(parameters_.max_checks);
     std::uint64_t& most = removal.budget.max_steps;
@@ -106,13 +106,14 @@ class RrtConnect final : public TransferPlanner {
     for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
       if (motion == MotionSpace::translation && turns) continue;
       const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kFirstTurn;
-      Scene scene(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget, goal);
-      ConnectTrees trees(scene, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
-      auto problem = std::make_shared<ob::ProblemDefinition>(scene.information());
-      const auto start = scene.space().start();
-      const auto end = scene.state_after(goal);
+      SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
+                              goal);
+      ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
+      auto problem = std::make_shared<ob::ProblemDefinition>(problem.information());
+      const auto start = problem.space().start();
+      const auto end = problem.state_after(goal);
       problem->addStartState(&start);
-      auto target = std::make_shared<ob::GoalState>(scene.information());
+      auto target = std::make_shared<ob::GoalState>(problem.information());
       target->setState(&end);
       problem->setGoal(target);
       trees.setProblemDefinition(problem);
@@ -121,10 +122,10 @@ class RrtConnect final : public TransferPlanner {
       ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
       for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
         status = trees.solve(stop);
-        if (status != ob::PlannerStatus::EXACT_SOLUTION || accepted(scene, trees.solution(), query, result)) break;
+        if (status != ob::PlannerStatus::EXACT_SOLUTION || accepted(problem, trees.solution(), query, result)) break;
       }
       result.stats.nodes += trees.nodes();
-      if (result.outcome() != Outcome::solved) result.blocked_by = scene.blockers();
+      if (result.outcome() != Outcome::solved) result.blocked_by = problem.blockers();
       if (result.outcome() == Outcome::solved) break;
       if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
         result.fail(Outcome::invalid_start, status == ob::PlannerStatus::INVALID_START
@@ -138,13 +139,13 @@ class RrtConnect final : public TransferPlanner {
     result.stats.cost = static_cast<double>(budget.checks);
   }
 
-  bool accepted(Scene& scene, const std::vector<Scene::StateType>& states, const TransferQuery& query,
-                PathResult& result) const {
-    std::vector<std::vector<Scene::StateType>> forms;
-    if (parameters_.simplify && states.size() > 2) forms.push_back(scene.shortcut(states));
+  bool accepted(SamplingProblem& problem, const std::vector<SamplingProblem::StateType>& states,
+                const TransferQuery& query, PathResult& result) const {
+    std::vector<std::vector<SamplingProblem::StateType>> forms;
+    if (parameters_.simplify && states.size() > 2) forms.push_back(problem.shortcut(states));
     forms.push_back(states);
     for (const auto& form : forms) {
-      Path path = scene.path(form);
+      Path path = problem.path(form);
       path.back() = query.goal;
       PathCheck check = query.checker.check(path);
       if (check.accepted()) {

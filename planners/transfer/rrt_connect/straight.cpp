@@ -19,7 +19,7 @@ struct Ball {
 Ball ball_of(const TransferQuery& query) {
   Aabb box;
   const auto each = [&](const auto& visit) {
-    for (const auto& m : query.cast.moving)
+    for (const auto& m : query.scene.moving)
       for (const auto& v : query.assembly.parts[m.part].mesh->vertices) visit(m.pose * v);
   };
   each([&](const Vector3d& p) { box.extend(p); });
@@ -44,7 +44,7 @@ Pose shift(const Vector3d& way) { return {way, Eigen::Quaterniond::Identity()}; 
 }  // namespace
 
 bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
-  const auto& moving = query.cast.moving;
+  const auto& moving = query.scene.moving;
   if (moving.empty() || query.goal.size() != moving.size()) return false;
   displacement = query.goal[0] * moving[0].pose.inverse();
   for (std::size_t i = 1; i < moving.size(); ++i) {
@@ -65,18 +65,18 @@ std::vector<Path> straight_ways(const TransferQuery& query, double clearance) {
     Path path;
     for (const auto& d : displacements) {
       path.emplace_back();
-      for (const auto& m : query.cast.moving) path.back().push_back(d * m.pose);
+      for (const auto& m : query.scene.moving) path.back().push_back(d * m.pose);
     }
     path.back() = query.goal;
     return path;
   };
   const auto over = [&](const Vector3d& v) {
     // A group that turns takes the room of its ball; one that does not, only its own.
-    const double own_start = -reach(query.assembly, query.cast.moving, {}, -v);
-    const double own_goal = -reach(query.assembly, query.cast.moving, goal, -v);
+    const double own_start = -reach(query.assembly, query.scene.moving, {}, -v);
+    const double own_goal = -reach(query.assembly, query.scene.moving, goal, -v);
     const double lowest_start = turns ? v.dot(ball.center) - ball.radius : own_start;
     const double lowest_goal = turns ? v.dot(there) - ball.radius : own_goal;
-    const double top = reach(query.assembly, query.cast.still, {}, v) + clearance;
+    const double top = reach(query.assembly, query.scene.fixed, {}, v) + clearance;
     // Heights of the ball's centre that clear everything, and are not below either end.
     const double height = std::max(
         {v.dot(ball.center) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});
@@ -89,10 +89,10 @@ std::vector<Path> straight_ways(const TransferQuery& query, double clearance) {
 
   std::vector<Path> ways;
   const Vector3d up = query.up;
-  if (!query.cast.still.empty()) ways.insert(ways.end(), {over(up), over(-up)});
+  if (!query.scene.fixed.empty()) ways.insert(ways.end(), {over(up), over(-up)});
   const Pose turned{ball.center - goal.q * ball.center, goal.q};
   ways.push_back(path_of({Pose{}, turned, goal}));
-  if (query.cast.still.empty()) return ways;
+  if (query.scene.fixed.empty()) return ways;
   const Vector3d side = up.unitOrthogonal();
   for (const Vector3d& v : {side, Vector3d(-side), Vector3d(up.cross(side)), Vector3d(-up.cross(side))})
     ways.push_back(over(v));

@@ -22,7 +22,7 @@ class CountingWorld final : public World {
  public:
   CountingWorld(std::unique_ptr<World> inner, bool dynamics, Counted& counted)
       : inner_(std::move(inner)), dynamics_(dynamics), counted_(counted) {}
-  const Cast& cast() const override { return inner_->cast(); }
+  const Scene& scene() const override { return inner_->scene(); }
   MotionSpace space() const override { return inner_->space(); }
   State initial_state() const override { return inner_->initial_state(); }
   Vector3d center(std::size_t body) const override { return inner_->center(body); }
@@ -39,8 +39,10 @@ class CountingWorld final : public World {
   }
   void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
   bool separated(const State& state) override { return inner_->separated(state); }
-  bool leaves(const State& state, std::size_t body) override { return inner_->leaves(state, body); }
-  void learn(PartId part, PartId other, const Vector3d& point) override { inner_->learn(part, other, point); }
+  bool body_separated(const State& state, std::size_t body) override { return inner_->body_separated(state, body); }
+  void add_contact_sample(PartId part, PartId other, const Vector3d& point) override {
+    inner_->add_contact_sample(part, other, point);
+  }
   bool strict() const override { return inner_->strict(); }
   void relax() override { inner_->relax(); }
 
@@ -59,12 +61,13 @@ class CountingSimulator final : public Simulator {
   CountingSimulator(std::shared_ptr<Simulator> inner, Counted& counted)
       : has(inner->capabilities()), inner_(std::move(inner)), counted_(counted) {}
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly& assembly, double tolerance, RunContext& context) override {
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
+                                                  RunContext& context) override {
     return inner_->prepare(assembly, tolerance, context);
   }
-  std::unique_ptr<World> world(const Assembly& assembly, const Prepared& prepared, const Cast& cast,
+  std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,
                                MotionSpace space) const override {
-    return std::make_unique<CountingWorld>(inner_->world(assembly, prepared, cast, space), has.dynamics, counted_);
+    return std::make_unique<CountingWorld>(inner_->world(assembly, prepared, scene, space), has.dynamics, counted_);
   }
   Capabilities has;
 

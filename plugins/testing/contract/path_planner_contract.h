@@ -46,7 +46,7 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
  protected:
   struct Ready {
     std::shared_ptr<Simulator> simulator;
-    std::vector<std::shared_ptr<const Prepared>> prepared;  ///< as small_assemblies()
+    std::vector<std::shared_ptr<const PreparedAssembly>> prepared;  ///< as small_assemblies()
   };
   struct Run {
     PathResult result;
@@ -83,27 +83,27 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     return nullptr;
   }
 
-  static fake::Ruling verify(const Small& small, const Cast& cast, const Path& path) {
+  static fake::Ruling verify(const Small& small, const Scene& scene, const Path& path) {
     std::vector<PartId> moving;
-    std::vector<PlacedPart> group = cast.moving;
+    std::vector<PlacedPart> group = scene.moving;
     for (std::size_t i = 0; i < group.size(); ++i) {
       moving.push_back(group[i].part);
       group[i].pose = path.back()[i];
     }
-    const MotionCheck check = small.verifier->check_motion(moving, cast.still, path);
+    const MotionCheck check = small.verifier->check_motion(moving, scene.fixed, path);
     fake::Ruling v = fake::ruling_of(check);
-    v.accept = v.accept && small.verifier->apart(group, cast.still);
+    v.accept = v.accept && small.verifier->apart(group, scene.fixed);
     if (v.has_witness) v.reason = "it cuts";
     return v;
   }
 
   /// One search; a rule that is empty is the verifier.
   static void plan(Run& run, std::size_t which, const Budget& effort = {.max_steps = kPlenty}, RunContext context = {},
-                   const Rule& rule = {}, const Cast* cast = nullptr, PathPlanner* planner = nullptr,
+                   const Rule& rule = {}, const Scene* scene = nullptr, PathPlanner* planner = nullptr,
                    const SearchState* resume_from = nullptr) {
     const Small& small = small_assemblies()[which];
     CountingSimulator simulator(ready()->simulator, run.counted);
-    const Cast chosen = cast != nullptr ? *cast : small.cast();
+    const Scene chosen = scene != nullptr ? *scene : small.scene();
     const fake::RuleChecker checker([&](const Path& path) {
       const fake::Ruling ruling = rule ? rule(path) : verify(small, chosen, path);
       run.checked.emplace_back(path, ruling.accept);
@@ -119,18 +119,18 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
   }
 
   /// What holds however a search ends.
-  static void expect_lawful(const Run& run, const Small& small, const Cast& cast, const Budget& effort) {
+  static void expect_lawful(const Run& run, const Small& small, const Scene& scene, const Budget& effort) {
     SCOPED_TRACE(small.name);
     const PathResult& r = run.result;
     EXPECT_TRUE(run.output.empty()) << "planners never print: " << run.output;
     EXPECT_NE(r.outcome(), Outcome::crashed);
     for (const PartId id : r.blocked_by)
-      EXPECT_TRUE(std::any_of(cast.still.begin(), cast.still.end(), [id](const auto& p) { return p.part == id; }))
-          << "part " << id << " does not stand still";
+      EXPECT_TRUE(std::any_of(scene.fixed.begin(), scene.fixed.end(), [id](const auto& p) { return p.part == id; }))
+          << "part " << id << " does not stay fixed";
     for (std::size_t i = 0; i < r.blocked_by.size(); ++i)
       EXPECT_EQ(std::count(r.blocked_by.begin(), r.blocked_by.end(), r.blocked_by[i]), 1);
     if (!r.best_pose.empty()) {
-      EXPECT_EQ(r.best_pose.size(), cast.moving.size());
+      EXPECT_EQ(r.best_pose.size(), scene.moving.size());
     }
     if (effort.max_steps > 0) {
       // Between two looks at the budget; and without dynamics a path that was found within it may still be simplified.
@@ -140,14 +140,14 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     for (const auto& [path, accepted] : run.checked) {
       ASSERT_GE(path.size(), 2u);
       for (const auto& instant : path) {
-        ASSERT_EQ(instant.size(), cast.moving.size());
+        ASSERT_EQ(instant.size(), scene.moving.size());
         for (const auto& pose : instant) {
           ASSERT_TRUE(pose.t.allFinite());
           ASSERT_NEAR(pose.q.norm(), 1, 1e-9);
         }
       }
-      for (std::size_t i = 0; i < cast.moving.size(); ++i)
-        EXPECT_TRUE(bitwise(path.front()[i], cast.moving[i].pose)) << "starts where the parts are";
+      for (std::size_t i = 0; i < scene.moving.size(); ++i)
+        EXPECT_TRUE(bitwise(path.front()[i], scene.moving[i].pose)) << "starts where the parts are";
     }
     if (r.outcome() == Outcome::solved) {
       ASSERT_FALSE(run.checked.empty()) << "no path without a check";
@@ -155,7 +155,7 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
         return j.second && same(j.first, r.path()->poses());
       })) << "just this path was accepted";
       const auto world = ready()->simulator->world(
-          small.assembly, *ready()->prepared[static_cast<std::size_t>(&small - small_assemblies().data())], cast,
+          small.assembly, *ready()->prepared[static_cast<std::size_t>(&small - small_assemblies().data())], scene,
           MotionSpace::rigid);
       State end = world->initial_state();
       for (std::size_t i = 0; i < end.bodies.size(); ++i) end.bodies[i].pose = r.path()->poses().back()[i];

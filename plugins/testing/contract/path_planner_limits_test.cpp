@@ -26,7 +26,7 @@ TEST_P(PathPlannerContract, ARefusedPathIsNotShownForEver) {
   Run run;
   int refusals = 0;
   plan(run, 0, {.max_steps = kPlenty}, {}, [&](const Path& path) {
-    if (refusals++ > 0) return verify(small_assemblies()[0], small_assemblies()[0].cast(), path);
+    if (refusals++ > 0) return verify(small_assemblies()[0], small_assemblies()[0].scene(), path);
     return fake::Ruling{};
   });
   EXPECT_LT(run.checked.size(), 200u);
@@ -93,7 +93,7 @@ TEST_P(PathPlannerContract, UnsupportedWhereTheSimulatorLacksSomething) {
     simulator.has = has;
     RunContext context;
     const fake::RuleChecker checker = fake::accept_all();
-    const PathQuery query{small.assembly, simulator, *ready()->prepared[0], small.cast(), {}, kTolerance, checker};
+    const PathQuery query{small.assembly, simulator, *ready()->prepared[0], small.scene(), {}, kTolerance, checker};
     const auto planner = make();
     const PathResult r = plan_path(*planner, query, context);
     EXPECT_EQ(r.outcome(), Outcome::unsupported);

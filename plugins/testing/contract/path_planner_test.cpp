@@ -34,10 +34,10 @@ TEST_P(PathPlannerContract, AConcurrentOneIsNotConfusedByOthers) {
   if (!shared->traits().concurrent) GTEST_SKIP() << "each thread has its own";
   const auto planned = [](PathPlanner& planner, std::size_t which) {
     const Small& small = small_assemblies()[which];
-    const Cast cast = small.cast();
-    const fake::RuleChecker checker([&](const Path& path) { return verify(small, cast, path); });
+    const Scene scene = small.scene();
+    const fake::RuleChecker checker([&](const Path& path) { return verify(small, scene, path); });
     const PathQuery query{small.assembly, *ready()->simulator,    *ready()->prepared[which],
-                          cast,           {.max_steps = kPlenty}, kTolerance,
+                          scene,          {.max_steps = kPlenty}, kTolerance,
                           checker};
     RunContext context;
     return plan_path(planner, query, context);
@@ -63,9 +63,9 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
   const Small& small = small_assemblies()[which];
   for (const auto& part : small.assembly.parts) {
     if (part.id == small.leaves || part.name == "box") continue;
-    const Cast cast = small.cast_of({part.id});
+    const Scene scene = small.cast_of({part.id});
     Run run;
-    plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &cast);
+    plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &scene);
     EXPECT_FALSE(is_success(run.result.outcome())) << part.name;
   }
 }
@@ -80,9 +80,9 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
   int solved = 0;
   for (const auto& part : small.assembly.parts) {
     if (part.id == small.leaves || part.name == "box") continue;
-    const Cast closed = small.cast_of({part.id});
-    Cast open = closed;
-    std::erase_if(open.still, [&](const PlacedPart& p) { return p.part == small.leaves; });
+    const Scene closed = small.cast_of({part.id});
+    Scene open = closed;
+    std::erase_if(open.fixed, [&](const PlacedPart& p) { return p.part == small.leaves; });
     const Budget little{.max_depth = 2, .max_steps = 3'000};
     Run first, strangers, anew, again, same_again;
     plan(first, which, little, {}, {}, &closed);
@@ -111,19 +111,19 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
 }
 
 TEST_P(PathPlannerContract, APartThatIsOutHasNothingToDo) {
-  Cast cast = small_assemblies()[0].cast();
-  cast.moving[0].pose.t = Vector3d(0, 0, 30);
+  Scene scene = small_assemblies()[0].scene();
+  scene.moving[0].pose.t = Vector3d(0, 0, 30);
   Run run;
-  plan(run, 0, {}, {}, {}, &cast);
+  plan(run, 0, {}, {}, {}, &scene);
   EXPECT_EQ(run.result.outcome(), Outcome::start_is_goal);
   EXPECT_FALSE(run.result.path()) << "the engine fills it";
 }
 
 TEST_P(PathPlannerContract, StartsFromWhereverTheCastIs) {
-  Cast cast = small_assemblies()[0].cast();
-  cast.moving[0].pose.t = Vector3d(0.01, -0.005, 0.4);
+  Scene scene = small_assemblies()[0].scene();
+  scene.moving[0].pose.t = Vector3d(0.01, -0.005, 0.4);
   Run run;
-  plan(run, 0, {.max_steps = kPlenty}, {}, {}, &cast);
+  plan(run, 0, {.max_steps = kPlenty}, {}, {}, &scene);
   if (expected("solves", GetParam())) {
     EXPECT_EQ(run.result.outcome(), Outcome::solved);
   }
@@ -156,9 +156,9 @@ TEST_P(PathPlannerContract, SeveralPartsMoveAtOnce) {
   ASSERT_GE(all_but_box.size(), 2u);
   if (ready()->simulator->capabilities().max_moving < all_but_box.size())
     GTEST_SKIP() << "the simulator moves fewer; the runner refuses that before";
-  const Cast cast = small.cast_of(all_but_box);
+  const Scene scene = small.cast_of(all_but_box);
   Run run;
-  plan(run, 2, {.max_steps = kPlenty}, {}, {}, &cast);
+  plan(run, 2, {.max_steps = kPlenty}, {}, {}, &scene);
 }
 
 /// A search that is run in growing portions ends as one that is run at once.
@@ -167,10 +167,10 @@ TEST_P(PathPlannerContract, InPortionsAsAtOnce) {
     Run at_once;
     plan(at_once, which);
     const Small& small = small_assemblies()[which];
-    const Cast cast = small.cast();
-    const fake::RuleChecker checker([&](const Path& path) { return verify(small, cast, path); });
+    const Scene scene = small.scene();
+    const fake::RuleChecker checker([&](const Path& path) { return verify(small, scene, path); });
     const PathQuery query{small.assembly, *ready()->simulator,    *ready()->prepared[which],
-                          cast,           {.max_steps = kPlenty}, kTolerance,
+                          scene,          {.max_steps = kPlenty}, kTolerance,
                           checker};
     const auto planner = make();
     RunContext context;

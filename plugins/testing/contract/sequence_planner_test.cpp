@@ -140,7 +140,7 @@ TEST_P(SequencePlannerContract, SamePlanOnAnyNumberOfThreads) {
   for (const unsigned threads : {1u, 2u, 4u}) {
     RunContext context;
     context.threads = threads;
-    RunResult result = run(assembly, fake::ingredients(fake::push, make()), RunOptions{}, context);
+    RunResult result = run(assembly, fake::setup(fake::push, make()), RunOptions{}, context);
     EXPECT_EQ(result.outcome, Outcome::solved);
     for (auto& step : result.plan.disassembly) step.seconds = 0;
     for (auto& part : result.plan.unsolved) part.seconds = 0;

@@ -17,12 +17,12 @@ class SimulatorContract : public testing::TestWithParam<std::string> {
  protected:
   struct Made {
     std::shared_ptr<Simulator> simulator;
-    std::shared_ptr<const Prepared> prepared;
+    std::shared_ptr<const PreparedAssembly> prepared;
     const Small* small = nullptr;
-    std::unique_ptr<World> world(const Cast& cast, MotionSpace space = MotionSpace::rigid) const {
-      return simulator->world(small->assembly, *prepared, cast, space);
+    std::unique_ptr<World> world(const Scene& scene, MotionSpace space = MotionSpace::rigid) const {
+      return simulator->world(small->assembly, *prepared, scene, space);
     }
-    std::unique_ptr<World> world(MotionSpace space = MotionSpace::rigid) const { return world(small->cast(), space); }
+    std::unique_ptr<World> world(MotionSpace space = MotionSpace::rigid) const { return world(small->scene(), space); }
   };
   static std::shared_ptr<Simulator> make() { return registry().create<Simulator>(GetParam()); }
   static Made made(const Small& small, unsigned threads = 1) {
@@ -46,7 +46,7 @@ class SimulatorContract : public testing::TestWithParam<std::string> {
     return s;
   }
   static Action push(const World& world, const Vector3d& force, const Vector3d& torque = Vector3d::Zero()) {
-    return {std::vector<Wrench>(world.cast().moving.size(), {force, torque})};
+    return {std::vector<Wrench>(world.scene().moving.size(), {force, torque})};
   }
   static Pose random_pose(Rng& rng, MotionSpace space, double size) {
     const Vector3d t(rng.normal(), rng.normal(), rng.normal()), w(rng.normal(), rng.normal(), rng.normal());
@@ -69,15 +69,15 @@ TEST_P(SimulatorContract, DeclaresItselfInFull) {
 TEST_P(SimulatorContract, WorldsBeginWhereTheCastIs) {
   for (const Made& m : all())
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
-      Cast cast = m.small->cast();
-      cast.moving[0].pose.t = Vector3d(0.3, 0.1, 5);
-      const auto world = m.world(cast, space);
+      Scene scene = m.small->scene();
+      scene.moving[0].pose.t = Vector3d(0.3, 0.1, 5);
+      const auto world = m.world(scene, space);
       EXPECT_EQ(world->space(), space);
-      EXPECT_EQ(world->cast().moving.size(), 1u);
-      EXPECT_EQ(world->cast().still.size(), cast.still.size());
+      EXPECT_EQ(world->scene().moving.size(), 1u);
+      EXPECT_EQ(world->scene().fixed.size(), scene.fixed.size());
       const State s = world->initial_state();
       ASSERT_EQ(s.bodies.size(), 1u);
-      EXPECT_TRUE(bitwise(s.bodies[0].pose, cast.moving[0].pose));
+      EXPECT_TRUE(bitwise(s.bodies[0].pose, scene.moving[0].pose));
       EXPECT_TRUE(s.bodies[0].velocity.isZero(0));
       EXPECT_TRUE(s.bodies[0].angular_velocity.isZero(0));
     }
@@ -98,7 +98,7 @@ TEST_P(SimulatorContract, SeparatedIsHullsApart) {
   for (const Made& m : all()) {
     const auto world = m.world();
     std::vector<Vector3d> rest;
-    for (const auto& s : world->cast().still)
+    for (const auto& s : world->scene().fixed)
       for (const auto& v : m.small->assembly.parts[s.part].mesh->vertices) rest.push_back(s.pose * v);
     EXPECT_FALSE(world->separated(world->initial_state()));
     int apart = 0;
@@ -114,8 +114,8 @@ TEST_P(SimulatorContract, SeparatedIsHullsApart) {
     }
     EXPECT_GT(apart, 5);
     EXPECT_LT(apart, 95);
-    const Cast alone{{{m.small->leaves, Pose{}}}, {}};
-    EXPECT_TRUE(m.world(alone)->separated(world->initial_state())) << "nothing stands still";
+    const Scene alone{{{m.small->leaves, Pose{}}}, {}};
+    EXPECT_TRUE(m.world(alone)->separated(world->initial_state())) << "nothing stay fixed";
   }
 }
 
@@ -234,7 +234,7 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
       // ... and for the verifier, which shares nothing with the simulator.
       Path path{{Pose{}}};
       path.insert(path.end(), trace.begin(), trace.end());
-      const MotionCheck check = m.small->verifier->check_motion({m.small->leaves}, world->cast().still, path);
+      const MotionCheck check = m.small->verifier->check_motion({m.small->leaves}, world->scene().fixed, path);
       EXPECT_TRUE(check.valid) << m.small->name << ", direction " << direction;
     }
 }
@@ -309,7 +309,7 @@ TEST_P(SimulatorContract, LeavesIsTheHullOfOneApartFromAllOthers) {
   const bool several = make()->capabilities().max_moving > 1;
   for (const Made& m : all()) {
     const auto world = m.world(m.small->cast_of(several ? std::vector<PartId>{0, 1} : std::vector<PartId>{0}));
-    const std::size_t bodies = world->cast().moving.size();
+    const std::size_t bodies = world->scene().moving.size();
     const auto points = [&](PartId part, const Pose& pose, std::vector<Vector3d>& out) {
       for (const auto& v : m.small->assembly.parts[part].mesh->vertices) out.push_back(pose * v);
     };
@@ -320,10 +320,10 @@ TEST_P(SimulatorContract, LeavesIsTheHullOfOneApartFromAllOthers) {
       for (std::size_t body = 0; body < bodies; ++body) {
         std::vector<Vector3d> alone, others;
         for (std::size_t k = 0; k < bodies; ++k)
-          points(world->cast().moving[k].part, s.bodies[k].pose, k == body ? alone : others);
-        for (const auto& still : world->cast().still) points(still.part, still.pose, others);
+          points(world->scene().moving[k].part, s.bodies[k].pose, k == body ? alone : others);
+        for (const auto& fixed : world->scene().fixed) points(fixed.part, fixed.pose, others);
         const bool clearly = separate(alone, others, 0.01).has_value(), at_all = separate(alone, others).has_value();
-        const bool says = world->leaves(s, body);
+        const bool says = world->body_separated(s, body);
         EXPECT_TRUE(says || !clearly);
         EXPECT_TRUE(at_all || !says);
         out += says ? 1 : 0;

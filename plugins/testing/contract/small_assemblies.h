@@ -32,13 +32,13 @@ struct Small {
       if (p.name == part) leaves = p.id;
     verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
   }
-  Cast cast() const { return cast_of({leaves}); }
-  /// `moving` where they are assembled, all others still.
-  Cast cast_of(const std::vector<PartId>& moving) const {
-    Cast c;
+  Scene scene() const { return cast_of({leaves}); }
+  /// `moving` where they are assembled, all others fixed.
+  Scene cast_of(const std::vector<PartId>& moving) const {
+    Scene c;
     for (const PartId id : moving) c.moving.push_back({id, Pose{}});
     for (const auto& p : assembly.parts)
-      if (std::find(moving.begin(), moving.end(), p.id) == moving.end()) c.still.push_back({p.id, Pose{}});
+      if (std::find(moving.begin(), moving.end(), p.id) == moving.end()) c.fixed.push_back({p.id, Pose{}});
     return c;
   }
 };

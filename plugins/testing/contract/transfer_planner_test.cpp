@@ -15,9 +15,9 @@ namespace {
 struct Errand {
   const Assembly& assembly;
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("fcl");
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
   Verifier verifier;
-  Cast cast;
+  Scene scene;
   std::vector<Pose> goal;
   std::uint64_t most_checks = 20'000;
   bool refuse = false;
@@ -29,10 +29,10 @@ struct Errand {
     prepared = simulator->prepare(assembly, 0.01, context);
     for (const auto& p : assembly.parts) {
       if (std::find(moving.begin(), moving.end(), p.id) == moving.end()) {
-        cast.still.push_back({p.id, Pose{}});
+        scene.fixed.push_back({p.id, Pose{}});
         continue;
       }
-      cast.moving.push_back({p.id, from});
+      scene.moving.push_back({p.id, from});
       goal.push_back(to);
     }
   }
@@ -40,8 +40,9 @@ struct Errand {
   bool ends_right(const Path& path) const {
     for (std::size_t k = 0; k < goal.size(); ++k) {
       const Pose &first = path.front()[k], &last = path.back()[k];
-      if ((first.t - cast.moving[k].pose.t).norm() > 1e-9 || (last.t - goal[k].t).norm() > 1e-9) return false;
-      if (angle_between(first.q, cast.moving[k].pose.q) > 1e-7 || angle_between(last.q, goal[k].q) > 1e-7) return false;
+      if ((first.t - scene.moving[k].pose.t).norm() > 1e-9 || (last.t - goal[k].t).norm() > 1e-9) return false;
+      if (angle_between(first.q, scene.moving[k].pose.q) > 1e-7 || angle_between(last.q, goal[k].q) > 1e-7)
+        return false;
     }
     return true;
   }
@@ -50,14 +51,14 @@ struct Errand {
     const fake::RuleChecker checker([&](const Path& path) {
       ++checked;
       std::vector<PartId> ids;
-      for (const auto& m : cast.moving) ids.push_back(m.part);
+      for (const auto& m : scene.moving) ids.push_back(m.part);
       fake::Ruling ruling;
-      ruling.accept = !refuse && ends_right(path) && verifier.check_motion(ids, cast.still, path).valid;
+      ruling.accept = !refuse && ends_right(path) && verifier.check_motion(ids, scene.fixed, path).valid;
       accepted += ruling.accept ? 1 : 0;
       return ruling;
     });
     const TransferQuery query{
-        assembly, *simulator, *prepared, cast, goal, Eigen::Vector3d::UnitZ(), {.max_steps = most_checks},
+        assembly, *simulator, *prepared, scene, goal, Eigen::Vector3d::UnitZ(), {.max_steps = most_checks},
         0.01,     checker};
     return planner.plan(query, context);
   }

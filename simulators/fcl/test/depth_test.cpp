@@ -1,4 +1,4 @@
-// Laws of collision and depth, against closed forms and against the judge's measure.
+// Laws of collision and depth, against closed forms and against the verifier's measure.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -109,8 +109,8 @@ Mesh part_of(const char* sample, const char* name) {
   throw std::runtime_error(name);
 }
 
-/// Against the judge's own measure, on real shapes a little off their places: what is measured is never more than the
-/// truth, what is reported never less.
+/// Against the verifier's own measure, on real shapes a little off their places: what is measured is never more than
+/// the truth, what is reported never less.
 TEST(FclDepth, SoundAgainstTheJudge) {
   constexpr double kTolerance = 2e-4;
   Rng rng(4);
@@ -169,9 +169,9 @@ TEST(FclDepth, ThinWallIsNoHole) {
 
 class FclWorld : public ::testing::Test {
  protected:
-  std::unique_ptr<World> world(const Cast& cast) {
+  std::unique_ptr<World> world(const Scene& scene) {
     prepared = simulator.prepare(assembly, 0.01, context);
-    return simulator.world(assembly, *prepared, cast, MotionSpace::rigid);
+    return simulator.world(assembly, *prepared, scene, MotionSpace::rigid);
   }
   static State at(const std::vector<Pose>& poses) {
     State s;
@@ -183,7 +183,7 @@ class FclWorld : public ::testing::Test {
   RunContext context;
   Assembly assembly = shapes::assembly_of(
       {shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1}), shapes::box({-5, -5, -1}, {5, 5, 0})});
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
 };
 
 TEST_F(FclWorld, OffersGeometryOnly) {

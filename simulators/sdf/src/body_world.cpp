@@ -29,15 +29,15 @@ bool same_poses(const std::vector<Pose>& a, const std::vector<Pose>& b) {
                     [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); });
 }
 
-ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, const ContactOptions& options) {
+ContactScene make_scene(const PreparedShapes& prepared, const Scene& scene, const ContactOptions& options) {
   const auto member = [&](const PlacedPart& part) {
     return ContactScene::Member{part.part, &prepared.placed[part.part], part.pose};
   };
-  std::vector<ContactScene::Member> moving, still;
-  for (const auto& m : cast.moving) moving.push_back(member(m));
-  for (const auto& s : cast.still) still.push_back(member(s));
+  std::vector<ContactScene::Member> moving, fixed;
+  for (const auto& m : scene.moving) moving.push_back(member(m));
+  for (const auto& s : scene.fixed) fixed.push_back(member(s));
   return {std::move(moving),
-          std::move(still),
+          std::move(fixed),
           options.distance,
           options.margin,
           [&](PartId a, PartId b) { return prepared.allowed(a, b); },
@@ -48,22 +48,23 @@ ContactScene make_scene(const PreparedShapes& prepared, const Cast& cast, const 
 
 }  // namespace
 
-BodyWorld::BodyWorld(const PreparedShapes& prepared, const Cast& cast, MotionSpace space, const ContactOptions& options)
-    : cast_(cast), space_(space), options_(options), scene_(make_scene(prepared, cast, options)) {
-  if (cast.moving.empty() || cast.moving.size() > kMaxBodies)
+BodyWorld::BodyWorld(const PreparedShapes& prepared, const Scene& scene, MotionSpace space,
+                     const ContactOptions& options)
+    : scene_(scene), space_(space), options_(options), contact_scene_(make_scene(prepared, scene, options)) {
+  if (scene.moving.empty() || scene.moving.size() > kMaxBodies)
     throw std::invalid_argument("1 to " + std::to_string(kMaxBodies) + " parts can move at once, not " +
-                                std::to_string(cast.moving.size()));
-  if (options.surroundings) scene_.see_surroundings();
+                                std::to_string(scene.moving.size()));
+  if (options.surroundings) contact_scene_.see_surroundings();
   per_body_ = space == MotionSpace::translation ? 3 : 6;
-  for (std::size_t i = 0; i < cast.moving.size(); ++i) {
-    const Placed& placed = prepared.placed[cast.moving[i].part];
+  for (std::size_t i = 0; i < scene.moving.size(); ++i) {
+    const Placed& placed = prepared.placed[scene.moving[i].part];
     MovingBody body;
-    body.center = scene_.center(i);
+    body.center = contact_scene_.center(i);
     body.radius = std::max(placed.shape->radius, 1e-9);
     for (const auto& corner : placed.shape->hull) body.hull.push_back(placed.rest * corner);
     bodies_.push_back(std::move(body));
   }
-  for (const auto& s : cast.still) {
+  for (const auto& s : scene.fixed) {
     const Placed& placed = prepared.placed[s.part];
     const Pose world = s.pose * placed.rest;
     for (const auto& corner : placed.shape->hull) rest_hull_.push_back(world * corner);
@@ -73,14 +74,14 @@ BodyWorld::BodyWorld(const PreparedShapes& prepared, const Cast& cast, MotionSpa
 
 State BodyWorld::initial_state() const {
   State s;
-  for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  for (const auto& m : scene_.moving) s.bodies.push_back({m.pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   return s;
 }
 
 void BodyWorld::update_contacts(const State& state) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
   if (same_poses(poses_, touching_at_)) return;
-  scene_.update(poses_, touching_);
+  contact_scene_.update(poses_, touching_);
   rows_current_ = false;
   touching_at_ = poses_;
   since_update_ = 0;
@@ -150,15 +151,15 @@ void BodyWorld::forget_contacts() {
   begin_at_.clear();
 }
 
-void BodyWorld::learn(PartId part, PartId other, const Eigen::Vector3d& point) {
-  scene_.add_point(part, other, point);
+void BodyWorld::add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) {
+  contact_scene_.add_point(part, other, point);
   sensor_.reset();
   forget_contacts();
 }
 
 void BodyWorld::relax() {
   forget_contacts();
-  scene_.relax();
+  contact_scene_.relax();
   sensor_.reset();
 }
 
@@ -290,7 +291,7 @@ double BodyWorld::room(const State& state, double most) {
 
 /// Squeezed from all sides, many contacts would push the body into the few on the other side: clearance is wanted of
 /// all alike only as far as all can have it. What is still deep inside something is left there.
-void BodyWorld::retreat(State& state, double clearance) {
+void BodyWorld::project_to_clearance(State& state, double clearance) {
   double most = room(state, clearance);
   for (double wanted = clearance; most < wanted && wanted > kLeastClearance * clearance; wanted /= 2) {
     State there = state;
@@ -309,7 +310,7 @@ void BodyWorld::retreat(State& state, double clearance) {
 double BodyWorld::penetration(const State& state) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
   if (!same_poses(poses_, touching_at_)) {
-    if (!sensor_) sensor_ = std::make_unique<ContactScene>(scene_.with_margin(kSensorMargin));
+    if (!sensor_) sensor_ = std::make_unique<ContactScene>(contact_scene_.with_margin(kSensorMargin));
     sensor_->update(poses_, sensed_);
   }
   double depth = 0;
@@ -345,7 +346,7 @@ bool BodyWorld::separated(const State& state) {
   return separate(moving, rest_hull_, kSeparationGap).has_value();
 }
 
-bool BodyWorld::leaves(const State& state, std::size_t body) {
+bool BodyWorld::body_separated(const State& state, std::size_t body) {
   std::vector<Eigen::Vector3d> alone, others = rest_hull_;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (const auto& corner : bodies_[i].hull) (i == body ? alone : others).push_back(state.bodies[i].pose * corner);

@@ -49,10 +49,10 @@ double box_gap(const Aabb& a, const Aabb& b) { return (a.lo - b.hi).cwiseMax(b.l
 
 }  // namespace
 
-void ContactScene::set_members(std::vector<Member> moving, std::vector<Member> still) {
+void ContactScene::set_members(std::vector<Member> moving, std::vector<Member> fixed) {
   moving_ = moving.size();
   members_ = std::move(moving);
-  members_.insert(members_.end(), still.begin(), still.end());
+  members_.insert(members_.end(), fixed.begin(), fixed.end());
   odometer_.assign(moving_, 0.0);
   world_.resize(members_.size());
   boxes_.resize(members_.size());

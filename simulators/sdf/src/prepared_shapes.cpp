@@ -16,9 +16,9 @@ std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const S
   return prepared;
 }
 
-const PreparedShapes& shapes_of(const Prepared& prepared, const Assembly& assembly, const Cast& cast) {
+const PreparedShapes& shapes_of(const PreparedAssembly& prepared, const Assembly& assembly, const Scene& scene) {
   const auto& shapes = dynamic_cast<const PreparedShapes&>(prepared);
-  for (const auto* group : {&cast.moving, &cast.still})
+  for (const auto* group : {&scene.moving, &scene.fixed})
     for (const PlacedPart& p : *group)
       if (p.part >= shapes.placed.size() || !shapes.placed[p.part].shape)
         throw InputError(

@@ -7,11 +7,11 @@ namespace {
 using namespace test;
 
 /// Part 0 stands `overlap` deep in part 1 and flush on part 2.
-Scene overlapping(const std::string& simulator, double overlap, ParamSet given = {}) {
-  return Scene(simulator,
-               {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1 - overlap, -1, -0.5), Vector3d(2, 2, 1)),
-                box(Vector3d(-3, -3, -1), Vector3d(0.5, 3, 0))},
-               given, {{0, 1, overlap}});
+TestScene overlapping(const std::string& simulator, double overlap, ParamSet given = {}) {
+  return TestScene(simulator,
+                   {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1 - overlap, -1, -0.5), Vector3d(2, 2, 1)),
+                    box(Vector3d(-3, -3, -1), Vector3d(0.5, 3, 0))},
+                   given, {{0, 1, overlap}});
 }
 class Overlap : public testing::TestWithParam<std::string> {};
 
@@ -22,7 +22,7 @@ TEST_P(Overlap, IsAllowedToItsPairAndToNoOther) {
   for (const double overlap : kOverlaps)
     for (const double max_travel : {0.02, 0.004}) {
       SCOPED_TRACE(testing::Message() << overlap << ", steps of " << max_travel);
-      const Scene scene = overlapping(GetParam(), overlap, {{"max_travel", max_travel}});
+      const TestScene scene = overlapping(GetParam(), overlap, {{"max_travel", max_travel}});
       auto world = scene.world({0});
       for (const bool relaxed : {false, true}) {
         if (relaxed) world->relax();
@@ -43,7 +43,7 @@ TEST_P(Overlap, IsAllowedToItsPairAndToNoOther) {
 TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
   for (const double overlap : kOverlaps) {
     SCOPED_TRACE(overlap);
-    const Scene scene = overlapping(GetParam(), overlap);
+    const TestScene scene = overlapping(GetParam(), overlap);
     auto world = scene.world({0});
     world->relax();
     EXPECT_FALSE(world->strict()) << "nothing is left to relax";
@@ -57,7 +57,7 @@ TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
 
 TEST_P(Overlap, IsNoWayThroughAWall) {
   // The part overlaps the foot of a wall by more than the wall is thick, and the wall stays a wall.
-  const Scene scene(
+  const TestScene scene(
       GetParam(),
       {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),
        joined(box(Vector3d(0.96, -1, -1), Vector3d(3, 2, 0.2)), box(Vector3d(1.3, -3, -1), Vector3d(1.33, 4, 3)))},

@@ -33,13 +33,13 @@ inline const Registry& registry() {
   return *all;
 }
 
-struct Scene {
+struct TestScene {
   Assembly assembly;
   std::shared_ptr<Simulator> simulator;
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
 
-  Scene(const std::string& id, std::vector<Mesh> meshes, const ParamSet& given,
-        std::vector<InitialOverlap> overlaps = {})
+  TestScene(const std::string& id, std::vector<Mesh> meshes, const ParamSet& given,
+            std::vector<InitialOverlap> overlaps = {})
       : assembly(assembly_of(std::move(meshes))) {
     assembly.overlaps = std::move(overlaps);
     simulator = registry().create<Simulator>(id, given);
@@ -47,13 +47,13 @@ struct Scene {
     prepared = simulator->prepare(assembly, 0.01, context);
   }
 
-  /// Parts that `moving` does not name stand still where they are assembled.
+  /// Parts that `moving` does not name stay fixed where they are assembled.
   std::unique_ptr<World> world(const std::vector<PartId>& moving, MotionSpace space = MotionSpace::translation) const {
-    Cast cast;
-    for (const PartId id : moving) cast.moving.push_back({id, Pose{}});
+    Scene scene;
+    for (const PartId id : moving) scene.moving.push_back({id, Pose{}});
     for (const auto& part : assembly.parts)
-      if (std::find(moving.begin(), moving.end(), part.id) == moving.end()) cast.still.push_back({part.id, Pose{}});
-    return simulator->world(assembly, *prepared, cast, space);
+      if (std::find(moving.begin(), moving.end(), part.id) == moving.end()) scene.fixed.push_back({part.id, Pose{}});
+    return simulator->world(assembly, *prepared, scene, space);
   }
 };
 

@@ -14,7 +14,7 @@ std::vector<Mesh> cube_on_plate(double gap = 0) {
 }
 
 TEST(Contact, DepthAndNormalInClosedForm) {
-  const Scene scene(cube_on_plate(), with({}));
+  const TestScene scene(cube_on_plate(), with({}));
   auto world = scene.world({0});
   for (const double depth : {-0.01, -1e-4, 1e-4, 0.004, 0.02}) {
     const State s = at(*world, shift(0.3, -0.2, -depth));
@@ -36,7 +36,7 @@ TEST(Contact, DepthAndNormalInClosedForm) {
 
 TEST(Contact, FromTheOtherSideTooWithTheNormalOnTheMovingPart) {
   // The plate moves and the cube stands: the points are the cube's, the normal pushes the plate down.
-  const Scene scene(cube_on_plate(), with({}));
+  const TestScene scene(cube_on_plate(), with({}));
   auto world = scene.world({1});
   std::vector<Contact> contacts;
   world->contacts(at(*world, shift(0, 0, 0.006)), contacts);
@@ -50,7 +50,7 @@ TEST(Contact, FromTheOtherSideTooWithTheNormalOnTheMovingPart) {
 }
 
 TEST(Contact, NothingPenetratesWhenFree) {
-  const Scene scene(cube_on_plate(0.01), {});
+  const TestScene scene(cube_on_plate(0.01), {});
   auto world = scene.world({0});
   Rng rng(5);
   for (int i = 0; i < 200; ++i) {
@@ -60,7 +60,7 @@ TEST(Contact, NothingPenetratesWhenFree) {
 }
 
 TEST(Contact, ThresholdAllowsThatMuch) {
-  const Scene scene(cube_on_plate(), with({{"contact_threshold", 0.01}}));
+  const TestScene scene(cube_on_plate(), with({{"contact_threshold", 0.01}}));
   auto world = scene.world({0});
   EXPECT_EQ(world->penetration(at(*world, shift(0, 0, -0.0099))), 0.0);
   EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.013))), 0.003, 1e-12);
@@ -70,7 +70,7 @@ TEST(Contact, AtRestTheSinkIsForceOverStiffnessAndPoints) {
   for (const char* name : {"quasi_static", "unit_mass", "density"})
     for (const double stiffness : {1e6, 4e6})
       for (const double force : {20.0, 400.0}) {
-        const Scene scene(cube_on_plate(), dynamics(name, {{"contact_stiffness", stiffness}}));
+        const TestScene scene(cube_on_plate(), dynamics(name, {{"contact_stiffness", stiffness}}));
         auto world = scene.world({0});
         State s = world->initial_state();
         world->advance(s, push(Vector3d(0, 0, -force)), 0.5, nullptr);
@@ -87,7 +87,7 @@ TEST(Contact, PushedAgainstAWallABodyComesToAStandstillAndSaysSo) {
   for (const char* name : {"quasi_static", "unit_mass", "density"})
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       SCOPED_TRACE(name);
-      const Scene scene(cube_on_plate(), dynamics(name, {}));
+      const TestScene scene(cube_on_plate(), dynamics(name, {}));
       auto world = scene.world({0}, space);
       State s = world->initial_state();
       StepReport report;
@@ -102,7 +102,7 @@ TEST(Contact, PushedAgainstAWallABodyComesToAStandstillAndSaysSo) {
 
 TEST(Contact, AtRestAllForcesBalanceWithManyPointsToo) {
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
-    const Scene scene(cube_on_plate(), {{"contact_spacing", 0.1}});
+    const TestScene scene(cube_on_plate(), {{"contact_spacing", 0.1}});
     auto world = scene.world({0}, space);
     State s = world->initial_state();
     const StepReport report = world->advance(s, push(Vector3d(0, 0, -100)), 1.0, nullptr);
@@ -127,7 +127,7 @@ TEST(Contact, AtRestAllForcesBalanceWithManyPointsToo) {
 TEST(Contact, DampingSlowsTheFallAndNotTheSink) {
   double deepest[2];
   for (int damped = 0; damped < 2; ++damped) {
-    const Scene scene(cube_on_plate(), dynamics("unit_mass", {{"contact_damping", damped == 0 ? 0.0 : 1e5}}));
+    const TestScene scene(cube_on_plate(), dynamics("unit_mass", {{"contact_damping", damped == 0 ? 0.0 : 1e5}}));
     auto world = scene.world({0});
     State s = world->initial_state();
     s.bodies[0].velocity = Vector3d(0, 0, -2);
@@ -145,7 +145,7 @@ TEST(Contact, DampingSlowsTheFallAndNotTheSink) {
 
 TEST(Contact, SlidingAlongAWallKeepsFullSpeed) {
   for (const double spacing : {10.0, 0.1}) {
-    const Scene scene(cube_on_plate(), {{"contact_spacing", spacing}});
+    const TestScene scene(cube_on_plate(), {{"contact_spacing", spacing}});
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       auto world = scene.world({0}, space);
       State s = world->initial_state();
@@ -155,7 +155,7 @@ TEST(Contact, SlidingAlongAWallKeepsFullSpeed) {
       EXPECT_LT(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), 1e-4);
     }
   }
-  const Scene scene(cube_on_plate(), dynamics("unit_mass"));
+  const TestScene scene(cube_on_plate(), dynamics("unit_mass"));
   auto world = scene.world({0});
   State s = world->initial_state();
   world->advance(s, push(Vector3d(10, 0, -100)), 0.2, nullptr);
@@ -167,7 +167,7 @@ TEST(Contact, AFlushBlockInASlotLeavesAlongIt) {
   const Mesh floor = box(Vector3d(-3, -2, -1), Vector3d(3, 2, 0));
   const Mesh left = box(Vector3d(-3, -2, 0), Vector3d(3, -0.5, 2)),
              right = box(Vector3d(-3, 0.5, 0), Vector3d(3, 2, 2));
-  const Scene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), floor, left, right}, {});
+  const TestScene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), floor, left, right}, {});
   auto world = scene.world({0});
   EXPECT_LT(world->penetration(world->initial_state()), 1e-12);
   for (const double sign : {1.0, -1.0}) {
@@ -186,7 +186,7 @@ TEST(Contact, AThinClosedWallIsNeverPassed) {
   std::vector<Mesh> parts{box(-(room - Vector3d::Constant(0.1)), room - Vector3d::Constant(0.1)),
                           closed_room(room, 0.03)};
   for (const char* name : {"quasi_static", "unit_mass", "density"}) {
-    const Scene scene(parts, {{"dynamics", std::string(name)}});
+    const TestScene scene(parts, {{"dynamics", std::string(name)}});
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid})
       for (const double force : {100.0, 1e4, 1e5})
         for (int direction = 0; direction < 6; ++direction) {
@@ -209,7 +209,7 @@ TEST(Contact, AThinClosedWallIsNeverPassed) {
 
 TEST(Contact, AThinClosedWallHoldsAgainstPushesFromAllSides) {
   const Vector3d room(0.9, 0.7, 0.25);
-  const Scene scene({box(Vector3d(-0.6, -0.4, -0.02), Vector3d(0.6, 0.4, 0.02)), closed_room(room, 0.03)}, {});
+  const TestScene scene({box(Vector3d(-0.6, -0.4, -0.02), Vector3d(0.6, 0.4, 0.02)), closed_room(room, 0.03)}, {});
   Rng rng(11);
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
     auto world = scene.world({0}, space);
@@ -227,12 +227,12 @@ TEST(Contact, AThinClosedWallHoldsAgainstPushesFromAllSides) {
 
 TEST(Contact, LearnedPointsTouchLikeAnyOther) {
   // A needle between two contact points of nothing: the plate's flat side has no points, the needle's end has four.
-  const Scene scene(cube_on_plate(0.005), with({}));
+  const TestScene scene(cube_on_plate(0.005), with({}));
   auto world = scene.world({0});
   std::vector<Contact> before, after;
   const State s = at(*world, shift(0, 0, -0.009));
   world->contacts(s, before);
-  world->learn(0, 1, Vector3d(0.1, 0.2, 0.005));
+  world->add_contact_sample(0, 1, Vector3d(0.1, 0.2, 0.005));
   world->contacts(s, after);
   ASSERT_EQ(after.size(), before.size() + 1);
   EXPECT_EQ(std::count_if(after.begin(), after.end(),
@@ -244,14 +244,15 @@ TEST(Contact, LearnedPointsTouchLikeAnyOther) {
 }
 
 TEST(Contact, SeparatedMeansHullsApart) {
-  const Scene scene(cube_on_plate(0.01), {});
+  const TestScene scene(cube_on_plate(0.01), {});
   auto world = scene.world({0});
   EXPECT_TRUE(world->separated(world->initial_state()));
   EXPECT_FALSE(world->separated(at(*world, shift(0, 0, -0.0101))));
   EXPECT_TRUE(world->separated(at(*world, shift(4.6, 0, -3))));
   EXPECT_FALSE(world->separated(at(*world, shift(4.4, 0, -0.5))));
   // A ring's hole is inside its hull.
-  const Scene ring({box(Vector3d(-0.1, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)), closed_room(Vector3d(1, 1, 1), 0.2)}, {});
+  const TestScene ring({box(Vector3d(-0.1, -0.1, -0.1), Vector3d(0.1, 0.1, 0.1)), closed_room(Vector3d(1, 1, 1), 0.2)},
+                       {});
   auto caught = ring.world({0});
   EXPECT_FALSE(caught->separated(caught->initial_state()));
   EXPECT_TRUE(ring.simulator->world(ring.assembly, *ring.prepared, {{{0, Pose{}}}, {}}, MotionSpace::rigid)

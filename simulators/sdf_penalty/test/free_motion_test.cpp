@@ -18,7 +18,7 @@ std::vector<Mesh> apart_parts() {
 }
 
 TEST(FreeMotion, UnitMassFollowsBackwardEuler) {
-  const Scene scene(apart_parts(), dynamics("unit_mass"));
+  const TestScene scene(apart_parts(), dynamics("unit_mass"));
   for (const PartId part : {0u, 1u}) {
     auto world = scene.world({part});
     State s = world->initial_state();
@@ -37,7 +37,7 @@ TEST(FreeMotion, UnitMassFollowsBackwardEuler) {
 }
 
 TEST(FreeMotion, DensityDividesByTheMassOfThePart) {
-  const Scene scene(apart_parts(), dynamics("density", {{"density", 2.0}}));
+  const TestScene scene(apart_parts(), dynamics("density", {{"density", 2.0}}));
   const double masses[] = {2.0 * 0.125, 2.0 * 6.0};
   double ways[2];
   for (const PartId part : {0u, 1u}) {
@@ -51,7 +51,7 @@ TEST(FreeMotion, DensityDividesByTheMassOfThePart) {
 }
 
 TEST(FreeMotion, QuasiStaticSpeedIsForceOverDragWhateverTheMass) {
-  const Scene scene(apart_parts(), dynamics("quasi_static", {{"drag", 25.0}}));
+  const TestScene scene(apart_parts(), dynamics("quasi_static", {{"drag", 25.0}}));
   for (const PartId part : {0u, 1u})
     for (const double size : {1.0, 100.0, 1e5}) {
       auto world = scene.world({part});
@@ -66,7 +66,7 @@ TEST(FreeMotion, QuasiStaticSpeedIsForceOverDragWhateverTheMass) {
 }
 
 TEST(FreeMotion, SpeedIsBoundByTheLargestTravelOfAStep) {
-  const Scene scene(apart_parts(), dynamics("unit_mass", {{"max_travel", 0.005}}));
+  const TestScene scene(apart_parts(), dynamics("unit_mass", {{"max_travel", 0.005}}));
   auto world = scene.world({0});
   State s = world->initial_state();
   Trace trace;
@@ -77,14 +77,14 @@ TEST(FreeMotion, SpeedIsBoundByTheLargestTravelOfAStep) {
 
 TEST(FreeMotion, WithoutForceQuasiStaticStaysAndInertiaGoesOn) {
   {
-    const Scene scene(apart_parts(), dynamics("quasi_static"));
+    const TestScene scene(apart_parts(), dynamics("quasi_static"));
     auto world = scene.world({0});
     State s = world->initial_state();
     const StepReport report = world->advance(s, push(Vector3d::Zero()), 0.1, nullptr);
     EXPECT_TRUE(report.stalled);
     EXPECT_EQ(apart(s, world->initial_state()), 0.0);
   }
-  const Scene scene(apart_parts(), dynamics("unit_mass"));
+  const TestScene scene(apart_parts(), dynamics("unit_mass"));
   auto world = scene.world({0});
   State s = world->initial_state();
   s.bodies[0].velocity = Vector3d(3, 0, -1);
@@ -95,7 +95,7 @@ TEST(FreeMotion, WithoutForceQuasiStaticStaysAndInertiaGoesOn) {
 TEST(FreeMotion, TwiceTheDurationIsTwoAdvances) {
   for (const char* name : kAllDynamics)
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
-      const Scene scene(apart_parts(), dynamics(name));
+      const TestScene scene(apart_parts(), dynamics(name));
       auto world = scene.world({0}, space);
       const Action action = push(Vector3d(5, 9, -7), Vector3d(0.2, 0.4, -0.3));
       State once = world->initial_state(), twice = once;
@@ -109,7 +109,7 @@ TEST(FreeMotion, TwiceTheDurationIsTwoAdvances) {
 
 TEST(FreeMotion, TheTraceEndsAtTheStateAndIsDense) {
   for (const char* name : kAllDynamics) {
-    const Scene scene(apart_parts(), dynamics(name));
+    const TestScene scene(apart_parts(), dynamics(name));
     auto world = scene.world({0}, MotionSpace::rigid);
     State s = world->initial_state();
     Trace trace{{shift(9, 9, 9)}};
@@ -125,7 +125,7 @@ TEST(FreeMotion, TheTraceEndsAtTheStateAndIsDense) {
 }
 
 TEST(FreeMotion, TorqueTurnsABodyAboutItsCentre) {
-  const Scene scene(apart_parts(), dynamics("quasi_static"));
+  const TestScene scene(apart_parts(), dynamics("quasi_static"));
   for (const PartId part : {0u, 1u})
     for (int axis = 0; axis < 3; ++axis) {
       auto world = scene.world({part}, MotionSpace::rigid);
@@ -141,7 +141,7 @@ TEST(FreeMotion, TorqueTurnsABodyAboutItsCentre) {
 }
 
 TEST(FreeMotion, RadiusAndCentreAreThoseOfTheBox) {
-  const Scene scene(apart_parts(), {});
+  const TestScene scene(apart_parts(), {});
   auto world = scene.world({1});
   EXPECT_LT((world->center(0) - Vector3d(3.5, 1, 1.5)).norm(), 1e-9);
   EXPECT_NEAR(world->radius(0), Vector3d(0.5, 1, 1.5).norm(), 1e-9);
@@ -151,7 +151,7 @@ TEST(FreeMotion, RadiusAndCentreAreThoseOfTheBox) {
 TEST(FreeMotion, SpinUnderInertia) {
   const double h = 1e-3, torque = 2.0, steps = 60;
   const auto spin = [&](const char* name, int axis) {
-    const Scene scene(apart_parts(), dynamics(name));
+    const TestScene scene(apart_parts(), dynamics(name));
     auto world = scene.world({1}, MotionSpace::rigid);
     State s = world->initial_state();
     world->advance(s, push(Vector3d::Zero(), torque * Vector3d::Unit(axis)), steps * h, nullptr);
@@ -169,7 +169,7 @@ TEST(FreeMotion, SpinUnderInertia) {
 
 TEST(FreeMotion, LockedOrientationIgnoresTorque) {
   for (const char* name : kAllDynamics) {
-    const Scene scene(apart_parts(), dynamics(name));
+    const TestScene scene(apart_parts(), dynamics(name));
     auto world = scene.world({0});
     State with_torque = world->initial_state(), without = with_torque;
     world->advance(with_torque, push(Vector3d(1, 2, 3), Vector3d(50, 60, 70)), 0.02, nullptr);
@@ -180,7 +180,7 @@ TEST(FreeMotion, LockedOrientationIgnoresTorque) {
 }
 
 TEST(FreeMotion, WrongNumbersOfBodiesAreRefused) {
-  const Scene scene(apart_parts(), {});
+  const TestScene scene(apart_parts(), {});
   auto world = scene.world({0});
   State s = world->initial_state();
   EXPECT_THROW(world->advance(s, push(Vector3d::UnitX(), Vector3d::Zero(), 2), 0.1, nullptr), std::invalid_argument);

@@ -30,11 +30,12 @@ Mesh cylinder(double radius, double height, int around, const Vector3d& base) {
 }
 
 /// A pin of several shells among a room, posts and a plate that overlaps the room.
-Scene crowd(double overlap = 0) {
+TestScene crowd(double overlap = 0) {
   Mesh pin = joined(cylinder(0.3, 1.4, 20, Vector3d(0, 0, -0.7)), cylinder(0.5, 0.2, 24, Vector3d(0, 0, 0.4)));
-  return Scene({std::move(pin), closed_room(Vector3d(1.5, 1.2, 1), 0.05), cylinder(0.2, 2, 16, Vector3d(0.9, 0, -1)),
-                box(Vector3d(-1.52, -1, -1.1), Vector3d(-1.2, 1, 1)), box(Vector3d(2, 2, 2), Vector3d(3, 3, 3))},
-               {}, {{0, 1, overlap}, {0, 2, 0.5 * overlap}});
+  return TestScene(
+      {std::move(pin), closed_room(Vector3d(1.5, 1.2, 1), 0.05), cylinder(0.2, 2, 16, Vector3d(0.9, 0, -1)),
+       box(Vector3d(-1.52, -1, -1.1), Vector3d(-1.2, 1, 1)), box(Vector3d(2, 2, 2), Vector3d(3, 3, 3))},
+      {}, {{0, 1, overlap}, {0, 2, 0.5 * overlap}});
 }
 
 using Key = std::tuple<double, double, double, double, double, double, double, PartId, PartId>;
@@ -59,7 +60,7 @@ TEST(Reuse, AWarmWorldListsTheContactsOfAFreshOne) {
   for (const double overlap : {0.0, 0.012, 0.06})
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       SCOPED_TRACE(overlap);
-      const Scene scene = crowd(overlap);
+      const TestScene scene = crowd(overlap);
       auto warm = scene.world({0}, space);
       Rng rng(21);
       State s = warm->initial_state();
@@ -91,7 +92,7 @@ TEST(Reuse, AWarmWorldListsTheContactsOfAFreshOne) {
 }
 
 TEST(Reuse, TwoMovingBodiesToo) {
-  const Scene scene = crowd();
+  const TestScene scene = crowd();
   auto warm = scene.world({0, 2}, MotionSpace::rigid);
   Rng rng(22);
   State s = warm->initial_state();
@@ -109,7 +110,7 @@ TEST(Reuse, TwoMovingBodiesToo) {
 }
 
 TEST(Reuse, AdvancingDoesNotDependOnWhatTheWorldDidBefore) {
-  const Scene scene = crowd();
+  const TestScene scene = crowd();
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
     auto warm = scene.world({0}, space);
     Rng rng(23);
@@ -141,9 +142,10 @@ TEST(Reuse, SameCallsSameBits) {
   for (const char* name : {"quasi_static", "unit_mass", "density"}) {
     std::vector<State> ends;
     for (int run = 0; run < 2; ++run) {
-      const Scene scene({box(Vector3d(-0.5, -0.5, 0.01), Vector3d(0.5, 0.5, 1)),
-                         box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0)), box(Vector3d(0.6, -1, 0.01), Vector3d(1, 1, 1))},
-                        {{"dynamics", std::string(name)}});
+      const TestScene scene(
+          {box(Vector3d(-0.5, -0.5, 0.01), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0)),
+           box(Vector3d(0.6, -1, 0.01), Vector3d(1, 1, 1))},
+          {{"dynamics", std::string(name)}});
       auto world = scene.world({0}, MotionSpace::rigid);
       State s = world->initial_state();
       Rng rng(24);
@@ -165,7 +167,7 @@ std::vector<Mesh> two_cubes() {
 
 TEST(TwoBodies, PushEachOtherAtHalfTheSpeed) {
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
-    const Scene scene(two_cubes(), {});
+    const TestScene scene(two_cubes(), {});
     auto world = scene.world({0, 1}, space);
     Action action = push(Vector3d(100, 0, 0), Vector3d::Zero(), 2);
     action.wrenches[1].force.setZero();
@@ -182,7 +184,7 @@ TEST(TwoBodies, PushEachOtherAtHalfTheSpeed) {
 
 TEST(TwoBodies, KeepTheirMomentum) {
   for (const char* name : {"unit_mass", "density"}) {
-    const Scene scene(two_cubes(), dynamics(name));
+    const TestScene scene(two_cubes(), dynamics(name));
     auto world = scene.world({0, 1});
     Action action = push(Vector3d(80, 0, 0), Vector3d::Zero(), 2);
     action.wrenches[1].force.setZero();
@@ -197,7 +199,7 @@ TEST(TwoBodies, KeepTheirMomentum) {
 }
 
 TEST(TwoBodies, OppositeForcesBalance) {
-  const Scene scene(two_cubes(), with({}));
+  const TestScene scene(two_cubes(), with({}));
   auto world = scene.world({0, 1});
   Action action = push(Vector3d(100, 0, 0), Vector3d::Zero(), 2);
   action.wrenches[1].force = Vector3d(-100, 0, 0);
@@ -218,14 +220,14 @@ TEST(TwoBodies, OppositeForcesBalance) {
 TEST(TwoBodies, ApartTheyDoNotInteract) {
   for (const char* name : {"quasi_static", "unit_mass", "density"})
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
-      const Scene scene(two_cubes(), dynamics(name));
+      const TestScene scene(two_cubes(), dynamics(name));
       auto both = scene.world({0, 1}, space);
       Action action = push(Vector3d(-30, 10, 0), Vector3d(0, 0, 2), 2);
       action.wrenches[1] = {Vector3d(40, 0, 5), Vector3d(1, 0, 0)};
       State s = both->initial_state();
       both->advance(s, action, 0.1, nullptr);
       for (const PartId part : {0u, 1u}) {
-        const Cast alone{{{part, Pose{}}}, {{2, Pose{}}}};
+        const Scene alone{{{part, Pose{}}}, {{2, Pose{}}}};
         auto world = scene.simulator->world(scene.assembly, *scene.prepared, alone, space);
         State t = world->initial_state();
         world->advance(t, {{action.wrenches[part]}}, 0.1, nullptr);
@@ -236,9 +238,9 @@ TEST(TwoBodies, ApartTheyDoNotInteract) {
 }
 
 TEST(TwoBodies, AThinWallBetweenThemHolds) {
-  const Scene scene({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1.1, -2, -2), Vector3d(1.13, 3, 3)),
-                     box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))},
-                    {});
+  const TestScene scene({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1.1, -2, -2), Vector3d(1.13, 3, 3)),
+                         box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))},
+                        {});
   auto world = scene.world({0, 1});
   Action action = push(Vector3d(3000, 0, 0), Vector3d::Zero(), 2);
   action.wrenches[1].force = Vector3d(-3000, 0, 0);

@@ -10,9 +10,9 @@ namespace dismantle::sdf_penalty::test {
 
 using namespace sdf::test;
 
-struct Scene : sdf::test::Scene {
-  Scene(std::vector<Mesh> meshes, const ParamSet& given, std::vector<InitialOverlap> overlaps = {})
-      : sdf::test::Scene("sdf_penalty", std::move(meshes), given, std::move(overlaps)) {}
+struct TestScene : sdf::test::TestScene {
+  TestScene(std::vector<Mesh> meshes, const ParamSet& given, std::vector<InitialOverlap> overlaps = {})
+      : sdf::test::TestScene("sdf_penalty", std::move(meshes), given, std::move(overlaps)) {}
 };
 
 /// With it, boxes up to 5 units long have contact points at their corners only.

@@ -7,8 +7,9 @@ namespace {
 using namespace test;
 
 TEST(Threshold, AThresholdWiderThanAStepStillResists) {
-  const Scene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
-                    with({{"contact_threshold", 0.01}, {"max_travel", 0.002}}));
+  const TestScene scene(
+      {box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
+      with({{"contact_threshold", 0.01}, {"max_travel", 0.002}}));
   auto world = scene.world({0});
   EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.03))), 0.02, 1e-12);
   State s = world->initial_state();
@@ -17,8 +18,9 @@ TEST(Threshold, AThresholdWiderThanAStepStillResists) {
 }
 
 TEST(Threshold, TheWidestThresholdIsGrantedInFull) {
-  const Scene scene({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
-                    with({{"contact_threshold", 0.1}}));
+  const TestScene scene(
+      {box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))},
+      with({{"contact_threshold", 0.1}}));
   auto world = scene.world({0});
   EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -0.12))), 0.02, 1e-12);
   State s = world->initial_state();

@@ -14,7 +14,7 @@ namespace {
 using Rows = std::vector<sdf::ContactRow>;
 using Vector = ContactProjection::Vector;
 
-/// Contacts of `bodies` bodies with each other and with what stands still; `below`: some are below the surface.
+/// Contacts of `bodies` bodies with each other and with what stay fixed; `below`: some are below the surface.
 Rows random_rows(Rng& rng, int bodies, int per_body, double below) {
   Rows rows;
   const auto contacts = rng.below(40);

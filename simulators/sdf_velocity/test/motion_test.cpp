@@ -10,8 +10,8 @@ using namespace sdf::test;
 
 constexpr double kDrag = 40;
 
-struct VelocityScene : Scene {
-  explicit VelocityScene(std::vector<Mesh> meshes) : Scene("sdf_velocity", std::move(meshes), {}) {}
+struct VelocityScene : TestScene {
+  explicit VelocityScene(std::vector<Mesh> meshes) : TestScene("sdf_velocity", std::move(meshes), {}) {}
 };
 
 std::vector<Mesh> turned(std::vector<Mesh> meshes, const Eigen::Quaterniond& q) {
@@ -141,7 +141,7 @@ TEST(Motion, AFlushBlockLeavesItsSlotBothWays) {
 }
 
 TEST(Motion, SeveralBodiesShareAPush) {
-  // Two cubes 0.1 apart; a third one far away stands still.
+  // Two cubes 0.1 apart; a third one far away stay fixed.
   const VelocityScene scene({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),
                              box(Vector3d(1.1, -0.2, -0.2), Vector3d(2.1, 1.2, 1.2)),
                              box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))});

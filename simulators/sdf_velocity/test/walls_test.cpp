@@ -6,8 +6,8 @@ namespace {
 
 using namespace sdf::test;
 
-Scene scene_of(std::vector<Mesh> meshes, const ParamSet& given = {}) {
-  return Scene("sdf_velocity", std::move(meshes), given);
+TestScene scene_of(std::vector<Mesh> meshes, const ParamSet& given = {}) {
+  return TestScene("sdf_velocity", std::move(meshes), given);
 }
 
 TEST(Walls, AThinClosedRoomStaysClosed) {
@@ -16,7 +16,7 @@ TEST(Walls, AThinClosedRoomStaysClosed) {
   const std::vector<Mesh> parts{box(-(room - Vector3d::Constant(0.1)), room - Vector3d::Constant(0.1)),
                                 closed_room(room, 0.03)};
   for (const double max_travel : {0.005, 0.05, 0.1}) {
-    const Scene scene = scene_of(parts, {{"max_travel", max_travel}});
+    const TestScene scene = scene_of(parts, {{"max_travel", max_travel}});
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid})
       for (const double force : {100.0, 1e4, 1e5})
         for (int direction = 0; direction < 6; ++direction) {
@@ -34,8 +34,9 @@ TEST(Walls, HoldAgainstPushesFromAllSides) {
   const Vector3d room(0.9, 0.7, 0.25);
   Rng rng(11);
   for (const double max_travel : {0.02, 0.05, 0.1}) {
-    const Scene scene = scene_of({box(Vector3d(-0.6, -0.4, -0.02), Vector3d(0.6, 0.4, 0.02)), closed_room(room, 0.03)},
-                                 {{"max_travel", max_travel}});
+    const TestScene scene =
+        scene_of({box(Vector3d(-0.6, -0.4, -0.02), Vector3d(0.6, 0.4, 0.02)), closed_room(room, 0.03)},
+                 {{"max_travel", max_travel}});
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       auto world = scene.world({0}, space);
       State s = world->initial_state();
@@ -58,7 +59,7 @@ TEST(Walls, AFinInTheWayOfASlidingBodyHolds) {
   const Mesh floor =
       joined(box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0)), box(Vector3d(1, -3, -0.01), Vector3d(1.03, 3, 2)));
   for (const double max_travel : {0.02, 0.05, 0.1}) {
-    const Scene scene =
+    const TestScene scene =
         scene_of({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), floor}, {{"max_travel", max_travel}});
     Rng rng(12);
     for (int i = 0; i < 20; ++i) {
@@ -72,7 +73,7 @@ TEST(Walls, AFinInTheWayOfASlidingBodyHolds) {
 }
 
 TEST(Walls, AThinWallBetweenTwoMovingBodiesHolds) {
-  const Scene scene =
+  const TestScene scene =
       scene_of({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1.1, -2, -2), Vector3d(1.13, 3, 3)),
                 box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))});
   auto world = scene.world({0, 1});
@@ -86,7 +87,7 @@ TEST(Walls, AThinWallBetweenTwoMovingBodiesHolds) {
 }
 
 TEST(Walls, WhatStartsInASurfaceIsLiftedOutOfIt) {
-  const Scene scene =
+  const TestScene scene =
       scene_of({box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), box(Vector3d(-4, -4, -1), Vector3d(4, 4, 0))});
   auto world = scene.world({0});
   for (const double depth : {1e-4, 0.003, 0.02}) {

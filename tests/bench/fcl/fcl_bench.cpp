@@ -33,12 +33,12 @@ struct Setup {
     assembly = prepare_assembly(samples::make(c.sample), c.sample, "", {}, context, report);
     for (const auto& part : assembly.parts) {
       bodies.placed.push_back({make_body(part, {parameters.certified_depth}), {}});
-      (part.name == c.moving ? cast.moving : cast.still).push_back({part.id, {}});
+      (part.name == c.moving ? scene.moving : scene.fixed).push_back({part.id, {}});
       build(*part.mesh, models.emplace_back());
       build(bodies.placed.back().body->mesh, merged.emplace_back());
     }
     Rng rng(7);
-    const Eigen::Vector3d center = bodies.placed[cast.moving[0].part].body->center;
+    const Eigen::Vector3d center = bodies.placed[scene.moving[0].part].body->center;
     for (int i = 0; i < 512; ++i) {
       const auto draw = [&](double most) {
         return Eigen::Vector3d(rng.uniform(-most, most), rng.uniform(-most, most), rng.uniform(-most, most));
@@ -65,7 +65,7 @@ struct Setup {
   Parameters parameters;
   Assembly assembly;
   PreparedBodies bodies;
-  Cast cast;
+  Scene scene;
   std::vector<fcl::BVHModel<fcl::OBBRSSd>> models, merged;  ///< as given; flat faces merged
   std::vector<Pose> poses;
   std::vector<fcl::Transform3d, Eigen::aligned_allocator<fcl::Transform3d>> transforms;
@@ -92,7 +92,7 @@ void bare_on(benchmark::State& state, const Setup& s, const std::vector<fcl::BVH
   double hits = 0;
   for (auto _ : state) {
     result.clear();
-    hits += fcl::collide(&models[s.cast.moving[0].part], s.transforms[i], &models[s.cast.still[0].part],
+    hits += fcl::collide(&models[s.scene.moving[0].part], s.transforms[i], &models[s.scene.fixed[0].part],
                          fcl::Transform3d::Identity(), request, result) > 0;
     i = (i + 1) % s.transforms.size();
   }
@@ -112,7 +112,7 @@ void bare_merged(benchmark::State& state) {
 void checked(benchmark::State& state) {
   Setup& s = setup(static_cast<std::size_t>(state.range(0)));
   PairCheck check(s.parameters);
-  const Body &a = *s.bodies.placed[s.cast.moving[0].part].body, &b = *s.bodies.placed[s.cast.still[0].part].body;
+  const Body &a = *s.bodies.placed[s.scene.moving[0].part].body, &b = *s.bodies.placed[s.scene.fixed[0].part].body;
   std::size_t i = 0;
   double hits = 0;
   for (auto _ : state) {
@@ -124,7 +124,7 @@ void checked(benchmark::State& state) {
 
 void penetration(benchmark::State& state) {
   Setup& s = setup(static_cast<std::size_t>(state.range(0)));
-  MeshWorld world(s.bodies, s.cast, MotionSpace::rigid, s.parameters);
+  MeshWorld world(s.bodies, s.scene, MotionSpace::rigid, s.parameters);
   State at = world.initial_state();
   std::size_t i = 0;
   double hits = 0;

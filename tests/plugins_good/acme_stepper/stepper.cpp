@@ -29,26 +29,26 @@ struct StepperParams {
 constexpr dismantle::Capabilities kProvides{.dynamics = true, .contacts = true, .distance = true, .max_moving = 1};
 
 /// Once per assembly, shared by all worlds: a hierarchy of triangles per part.
-struct Trees final : dismantle::Prepared {
+struct Trees final : dismantle::PreparedAssembly {
   std::vector<dismantle::TriangleBvh> parts;
 };
 
 class StepperWorld final : public dismantle::World {
  public:
-  StepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Cast cast,
+  StepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Scene scene,
                dismantle::MotionSpace space, const StepperParams& params)
-      : assembly_(assembly), trees_(trees), cast_(std::move(cast)), space_(space), params_(params) {
-    if (cast_.moving.size() != 1) throw std::invalid_argument("acme.stepper moves exactly one part at a time");
+      : assembly_(assembly), trees_(trees), scene_(std::move(scene)), space_(space), params_(params) {
+    if (scene_.moving.size() != 1) throw std::invalid_argument("acme.stepper moves exactly one part at a time");
     const auto box = surface().box();
     center_ = box.center();
     for (const auto& v : surface().vertices) radius_ = std::max(radius_, (v - center_).norm());
-    for (const auto& still : cast_.still)
-      for (const auto& v : assembly_.parts[still.part].mesh->vertices) still_points_.push_back(still.pose * v);
+    for (const auto& fixed : scene_.fixed)
+      for (const auto& v : assembly_.parts[fixed.part].mesh->vertices) fixed_points_.push_back(fixed.pose * v);
   }
 
-  const dismantle::Cast& cast() const override { return cast_; }
+  const dismantle::Scene& scene() const override { return scene_; }
   dismantle::MotionSpace space() const override { return space_; }
-  dismantle::State initial_state() const override { return {{dismantle::BodyState{.pose = cast_.moving[0].pose}}}; }
+  dismantle::State initial_state() const override { return {{dismantle::BodyState{.pose = scene_.moving[0].pose}}}; }
   Vector3d center(std::size_t) const override { return center_; }
   double radius(std::size_t) const override { return radius_; }
   double torque_arm(std::size_t) const override { return radius_; }
@@ -81,34 +81,35 @@ class StepperWorld final : public dismantle::World {
 
   void contacts(const dismantle::State& state, std::vector<dismantle::Contact>& out) override {
     out.clear();
-    const dismantle::PartId part = cast_.moving[0].part;
-    for (const auto& still : cast_.still) {
-      const double allowed = assembly_.initial_overlap(part, still.part);
-      const dismantle::Pose to_still = still.pose.inverse() * state.bodies.at(0).pose;
-      const auto& tree = trees_.parts[still.part];
+    const dismantle::PartId part = scene_.moving[0].part;
+    for (const auto& fixed : scene_.fixed) {
+      const double allowed = assembly_.initial_overlap(part, fixed.part);
+      const dismantle::Pose to_fixed = fixed.pose.inverse() * state.bodies.at(0).pose;
+      const auto& tree = trees_.parts[fixed.part];
       for (const auto& v : surface().vertices) {
-        const Vector3d local = to_still * v;
+        const Vector3d local = to_fixed * v;
         const double depth = -tree.signed_distance(local) - allowed;
         if (depth <= 0) continue;
         const Vector3d way_out = tree.closest(local).point - local;
         const Vector3d normal = way_out.norm() > 0 ? Vector3d(way_out.normalized()) : Vector3d::UnitZ();
-        out.push_back({part, still.part, still.pose * local, still.pose.q * normal, depth});
+        out.push_back({part, fixed.part, fixed.pose * local, fixed.pose.q * normal, depth});
       }
     }
   }
 
   bool separated(const dismantle::State& state) override {
-    if (cast_.still.empty()) return true;
+    if (scene_.fixed.empty()) return true;
     std::vector<Vector3d> points;
-    for (const auto& v : assembly_.parts[cast_.moving[0].part].mesh->vertices)
+    for (const auto& v : assembly_.parts[scene_.moving[0].part].mesh->vertices)
       points.push_back(state.bodies.at(0).pose * v);
-    return dismantle::separate(points, still_points_).has_value();
+    return dismantle::separate(points, fixed_points_).has_value();
   }
 
-  void learn(dismantle::PartId, dismantle::PartId, const Vector3d&) override {}  // its sample points are fixed
+  void add_contact_sample(dismantle::PartId, dismantle::PartId, const Vector3d&) override {
+  }  // its sample points are fixed
 
  private:
-  const dismantle::Mesh& surface() const { return *assembly_.parts[cast_.moving[0].part].surface; }
+  const dismantle::Mesh& surface() const { return *assembly_.parts[scene_.moving[0].part].surface; }
 
   void move(dismantle::Pose& pose, const dismantle::Wrench& wrench) const {
     const double way = params_.speed * params_.time_step;
@@ -122,12 +123,12 @@ class StepperWorld final : public dismantle::World {
 
   const dismantle::Assembly& assembly_;
   const Trees& trees_;
-  dismantle::Cast cast_;
+  dismantle::Scene scene_;
   dismantle::MotionSpace space_;
   StepperParams params_;
   Vector3d center_ = Vector3d::Zero();
   double radius_ = 0;
-  std::vector<Vector3d> still_points_;
+  std::vector<Vector3d> fixed_points_;
   std::vector<dismantle::Contact> scratch_;
 };
 
@@ -137,8 +138,8 @@ class Stepper final : public dismantle::Simulator {
 
   dismantle::Capabilities capabilities() const noexcept override { return kProvides; }
 
-  std::shared_ptr<const dismantle::Prepared> prepare(const dismantle::Assembly& assembly, double /*tolerance*/,
-                                                     dismantle::RunContext& context) override {
+  std::shared_ptr<const dismantle::PreparedAssembly> prepare(const dismantle::Assembly& assembly, double /*tolerance*/,
+                                                             dismantle::RunContext& context) override {
     auto trees = std::make_shared<Trees>();
     for (const auto& part : assembly.parts) {
       context.progress("trees", trees->parts.size(), assembly.parts.size(), part.name);
@@ -147,9 +148,10 @@ class Stepper final : public dismantle::Simulator {
     return trees;
   }
 
-  std::unique_ptr<dismantle::World> world(const dismantle::Assembly& assembly, const dismantle::Prepared& prepared,
-                                          const dismantle::Cast& cast, dismantle::MotionSpace space) const override {
-    return std::make_unique<StepperWorld>(assembly, static_cast<const Trees&>(prepared), cast, space, params_);
+  std::unique_ptr<dismantle::World> world(const dismantle::Assembly& assembly,
+                                          const dismantle::PreparedAssembly& prepared, const dismantle::Scene& scene,
+                                          dismantle::MotionSpace space) const override {
+    return std::make_unique<StepperWorld>(assembly, static_cast<const Trees&>(prepared), scene, space, params_);
   }
 
  private:

@@ -32,7 +32,7 @@ class Straight final : public dismantle::FunctionPathPlanner {
       return dismantle::PathResult::failure(dismantle::Outcome::unsupported,
                                             "the simulator has no dynamics to push with");
     const auto world =
-        query.simulator.world(query.assembly, query.prepared, query.cast, dismantle::MotionSpace::translation);
+        query.simulator.world(query.assembly, query.prepared, query.scene, dismantle::MotionSpace::translation);
     const dismantle::State start = world->initial_state();
     dismantle::PathResult result;
     if (world->separated(start)) {

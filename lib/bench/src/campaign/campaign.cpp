@@ -130,7 +130,7 @@ class Campaign {
     const TrialKey& key = enlistment_.trials[trial.place()].plan.key;
     const TrialRow& row = trial.row();
     count(key.planner, row.solved);
-    const std::string refused = row.verified.value_or(true) ? "" : " (refused by the judge)";
+    const std::string refused = row.verified.value_or(true) ? "" : " (refused by the verify)";
     context_.log(LogLevel::info,
                  fmt::format("{}/{} {} on {}, {}, seed {}: {}{}, {:.1f} s", tally_.done, tally_.total, key.planner,
                              key.assembly, key.variant, key.seed, row.outcome, refused, row.wall_seconds));
@@ -242,7 +242,7 @@ std::string dry_run_text(const Suite& suite, const CampaignOptions& options) {
   if (!options.folder.empty() && fs::is_regular_file(database_of(options), error)) {
     Sqlite db(database_of(options), Sqlite::Mode::read);
     auto mean =
-        db.prepare("SELECT count(*), avg(wall_seconds + coalesce(judge_seconds, 0)) FROM trials WHERE state = 'done'");
+        db.prepare("SELECT count(*), avg(wall_seconds + coalesce(verify_seconds, 0)) FROM trials WHERE state = 'done'");
     if (mean.step() && mean.integer(0) > 0) {
       const double left = std::max(0.0, double(cells.size()) - double(mean.integer(0)));
       out += fmt::format("\n{} rows are there already, {:.1f} s each on average: about {} for the rest",

@@ -76,13 +76,13 @@ void RunningTrial::start(const std::vector<std::string>& command) {
 bool RunningTrial::ended() {
   if (!child_->ended()) return false;
   if (judging_) {
-    take_judgement(child_->end());
+    take_verification(child_->end());
     return true;
   }
   take_plan(child_->end());
   if (row_.plan.empty()) return true;
   judging_ = true;
-  start(options_.judge_command);
+  start(options_.verify_command);
   return false;
 }
 
@@ -136,12 +136,12 @@ void RunningTrial::take_result() {
   }
 }
 
-void RunningTrial::take_judgement(const ChildEnd& end) {
-  row_.judge_seconds = end.wall_seconds;
+void RunningTrial::take_verification(const ChildEnd& end) {
+  row_.verify_seconds = end.wall_seconds;
   std::error_code error;
-  const fs::path file = folder_ / kJudgementFile;
+  const fs::path file = folder_ / kVerificationFile;
   if (end.signal != 0 || end.status != 0 || !fs::is_regular_file(file, error)) {
-    row_.judgement = fmt::format("no judgement: {} {}", outcome_of(end), end.last_words);
+    row_.verification = fmt::format("no verification: {} {}", outcome_of(end), end.last_words);
     return;
   }
   try {
@@ -150,11 +150,11 @@ void RunningTrial::take_judgement(const ChildEnd& end) {
     row_.complete = j.at("complete").get<bool>();
     row_.max_penetration = j.at("max_penetration").get<double>();
     for (const auto& problem : j.at("problems"))
-      row_.judgement += (row_.judgement.empty() ? "" : "\n") + problem.get<std::string>();
+      row_.verification += (row_.verification.empty() ? "" : "\n") + problem.get<std::string>();
     row_.solved = success_ && *row_.verified && (one_part_ || *row_.complete);
   } catch (const nlohmann::json::exception& e) {
     row_.verified.reset();
-    row_.judgement = fmt::format("no judgement: {}", e.what());
+    row_.verification = fmt::format("no verification: {}", e.what());
   }
 }
 

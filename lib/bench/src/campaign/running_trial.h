@@ -1,4 +1,4 @@
-/// A trial on its way: first the process that plans, then the one that judges.
+/// A trial on its way: first the process that plans, then the one that verifies.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,7 @@ class RunningTrial {
   void start(const std::vector<std::string>& command);
   void take_plan(const ChildEnd& end);
   void take_result();
-  void take_judgement(const ChildEnd& end);
+  void take_verification(const ChildEnd& end);
 
   std::size_t place_;
   Limits limits_;

@@ -91,27 +91,27 @@ Table outcomes_table(const std::vector<Contender>& contenders) {
   table.id = "outcomes";
   table.title = "How trials ended";
   table.note =
-      "'solved' here is what the planner says; 'refused' are plans that the judge does not accept, whatever the "
+      "'solved' here is what the planner says; 'refused' are plans that the verifier does not accept, whatever the "
       "planner says, and "
-      "'not judged' plans that could not be judged.";
+      "'not verified' plans that could not be verified.";
   std::set<std::string> names;
   for (const auto& c : contenders)
     for (const ReportRow* row : c.rows) names.insert(row->outcome);
   table.columns = {"planner", "trials"};
   table.columns.insert(table.columns.end(), names.begin(), names.end());
-  table.columns.insert(table.columns.end(), {"refused", "not judged"});
+  table.columns.insert(table.columns.end(), {"refused", "not verified"});
   for (const auto& c : contenders) {
     std::map<std::string, std::size_t> counts;
-    std::size_t refused = 0, unjudged = 0;
+    std::size_t refused = 0, unverified = 0;
     for (const ReportRow* row : c.rows) {
       ++counts[row->outcome];
       refused += row->verified == false ? 1 : 0;
-      unjudged += !row->verified && !row->judgement.empty() ? 1 : 0;
+      unverified += !row->verified && !row->verification.empty() ? 1 : 0;
     }
     std::vector<TableCell> out = {text(c.label), whole(c.rows.size())};
     for (const auto& name : names) out.push_back(whole(counts[name]));
     out.push_back(whole(refused));
-    out.push_back(whole(unjudged));
+    out.push_back(whole(unverified));
     table.rows.push_back(std::move(out));
   }
   return table;
@@ -178,7 +178,7 @@ Table trials_table(const ReportData& data, const std::string& plans) {
   const auto maybe = [](const auto& value) { return value ? number(double(*value), "{:.6g}") : text(""); };
   std::size_t n = 0;
   for (const auto& r : data.rows) {
-    std::string words = !r.judgement.empty() && r.verified != true ? r.judgement : r.last_words;
+    std::string words = !r.verification.empty() && r.verified != true ? r.verification : r.last_words;
     while (!words.empty() && words.back() == '\n') words.pop_back();
     words = words.substr(words.rfind('\n') + 1);
     const std::string verdict = r.verified ? (*r.verified ? "yes" : "no") : "";

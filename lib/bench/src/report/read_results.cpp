@@ -48,7 +48,7 @@ constexpr const char* kColumns =
     "coalesce(counts, ''), coalesce(input, ''), seed, signal, solved, verified, max_penetration, solve_seconds, parts, "
     "removed, "
     "wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout, limit_wall, limit_memory_mb, coalesce(last_words, ''), "
-    "coalesce(judgement, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id";
+    "coalesce(verification, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id";
 
 ReportRow row_of(const Statement& s, const fs::path& database) {
   ReportRow r;
@@ -73,7 +73,7 @@ ReportRow row_of(const Statement& s, const fs::path& database) {
   r.limit_wall = s.number(25);
   r.limit_memory_mb = s.integer(26);
   r.last_words = s.text(27);
-  r.judgement = s.text(28);
+  r.verification = s.text(28);
   r.has_plan = s.integer(29) != 0;
   return r;
 }

@@ -83,7 +83,7 @@ std::vector<Table> tables_of(const ReportData& data, const std::string& plans) {
   out.back().id = "success";
   out.back().title = "Success rate by category (%)";
   out.back().note =
-      "Share of trials that were solved and whose plan the judge accepts, 95 % interval of Wilson, solved/trials. "
+      "Share of trials that were solved and whose plan the verifier accepts, 95 % interval of Wilson, solved/trials. "
       "Trials of "
       "one assembly with several seeds count one by one, so that the interval is too narrow where they do not differ.";
   out.push_back(table_by(contenders, by_size(data), success_cell));

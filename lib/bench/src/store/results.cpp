@@ -73,7 +73,7 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
   auto add = db_.prepare(
       "INSERT OR IGNORE INTO trials (assembly, variant, planner, seed, category, part, planner_hash, config_hash, "
       "limit_path_timeout, limit_path_steps, limit_timeout, limit_wall, limit_cpu, limit_memory_mb, threads, "
-      "judge_max_penetration) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      "verify_max_penetration) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   auto want = db_.prepare("INSERT INTO wanted VALUES (?, ?)");
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialPlan& t = trials[i];
@@ -86,7 +86,7 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
         .bind(suite.max_penetration)
         .done();
     auto find = db_.prepare(
-        "SELECT id, planner_hash, limit_wall, limit_cpu, limit_memory_mb, part, judge_max_penetration FROM trials "
+        "SELECT id, planner_hash, limit_wall, limit_cpu, limit_memory_mb, part, verify_max_penetration FROM trials "
         "WHERE assembly = ? AND variant = ? AND planner = ? AND seed = ?");
     find.bind(t.key.assembly).bind(t.key.variant).bind(t.key.planner).bind(t.key.seed).step();
     const char* differs = find.text(1) != t.planner_hash            ? "its configuration or a plugin file"
@@ -94,7 +94,7 @@ void Results::enlist(const Suite& suite, const std::vector<TrialPlan>& trials,
                           : find.number(3) != l.cpu_limit()         ? "limits.cpu"
                           : find.integer(4) != l.memory             ? "limits.memory"
                           : find.text(5) != t.part                  ? "the part"
-                          : find.number(6) != suite.max_penetration ? "judge.max_penetration"
+                          : find.number(6) != suite.max_penetration ? "verify.max_penetration"
                                                                     : nullptr;
     if (differs != nullptr)
       throw Error(
@@ -172,21 +172,25 @@ void Results::finish(std::size_t trial, const TrialRow& row) {
   Transaction transaction(db_);
   auto update = db_.prepare(
       "UPDATE trials SET state = 'done', owner = NULL, owner_host = NULL, lease_until = NULL, outcome = ?, solved = ?, "
-      "verified = ?, complete = ?, max_penetration = ?, judgement = ?, signal = ?, exit_status = ?, last_words = ?, "
+      "verified = ?, complete = ?, max_penetration = ?, verification = ?, signal = ?, exit_status = ?, last_words = ?, "
       "input = ?, "
       "input_sha256 = ?, parts = ?, excluded = ?, removed = ?, left_together = ?, steps = ?, wall_seconds = ?, "
       "cpu_seconds = ?, "
       "peak_rss_mb = ?, load_seconds = ?, prepare_seconds = ?, plan_seconds = ?, solve_seconds = ?, "
-      "proof_seconds = ?, judge_seconds = ?, "
+      "proof_seconds = ?, verify_seconds = ?, "
       "attempts = ?, memoised = ?, simulated_steps = ?, nodes = ?, collision_checks = ?, counts = ?, host = ?, "
       "cpu_model = ?, "
       "version = ?, started = ?, ended = strftime('%Y-%m-%dT%H:%M:%SZ', 'now') WHERE id = ? AND state = 'running' AND "
       "owner = ?");
   update.bind(row.outcome).bind(row.solved).bind(row.verified).bind(row.complete).bind(row.max_penetration);
-  update.bind(row.judgement).bind(row.signal).bind(row.exit_status).bind(row.last_words).bind(row.input);
+  update.bind(row.verification).bind(row.signal).bind(row.exit_status).bind(row.last_words).bind(row.input);
   update.bind(row.input_sha256).bind(row.parts).bind(row.excluded).bind(row.removed).bind(row.left).bind(row.steps);
   update.bind(row.wall_seconds).bind(row.cpu_seconds).bind(row.peak_rss_mb).bind(row.load_seconds);
-  update.bind(row.prepare_seconds).bind(row.plan_seconds).bind(row.solve_seconds).bind(row.proof_seconds).bind(row.judge_seconds);
+  update.bind(row.prepare_seconds)
+      .bind(row.plan_seconds)
+      .bind(row.solve_seconds)
+      .bind(row.proof_seconds)
+      .bind(row.verify_seconds);
   update.bind(row.attempts).bind(row.memoised).bind(row.simulated_steps).bind(row.nodes).bind(row.collision_checks);
   update.bind(row.counts).bind(host_.substr(0, host_.find(' '))).bind(cpu_).bind(DISMANTLE_VERSION).bind(row.started);
   update.bind(id).bind(owner_).done();

@@ -37,16 +37,16 @@ struct ConfigRecord {
 /// Everything that a trial leaves behind. Empty optionals: not known, because the trial did not come that far.
 struct TrialRow {
   std::string outcome;  ///< docs/benchmark.md
-  bool solved = false;  ///< the planner says so and the judge agrees
+  bool solved = false;  ///< the planner says so and the verifier agrees
   std::optional<bool> verified, complete;
   std::optional<double> max_penetration;
-  std::string judgement;  ///< what the judge objects to, or why there is no judgement
+  std::string verification;  ///< what the verifier objects to, or why there is no verification
   std::int64_t signal = 0, exit_status = 0;
   std::string last_words;
   std::string input, input_sha256;
   std::optional<std::int64_t> parts, excluded, removed, left, steps;
   double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0;
-  std::optional<double> load_seconds, prepare_seconds, plan_seconds, solve_seconds, proof_seconds, judge_seconds;
+  std::optional<double> load_seconds, prepare_seconds, plan_seconds, solve_seconds, proof_seconds, verify_seconds;
   std::optional<std::int64_t> attempts, memoised;
   std::optional<double> simulated_steps, nodes, collision_checks;
   std::string counts;  ///< all counts of the planner, JSON

@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "dismantle/host/config_bind.h"
+#include "dismantle/host/suggest.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/samples.h"
-#include "dismantle/host/suggest.h"
 
 namespace dismantle::bench {
 namespace {
@@ -29,7 +29,7 @@ struct EntryValues {
     s.add("sample", &EntryValues::sample, {.doc = "One of the parametric samples."});
     s.add("name", &EntryValues::name, {.doc = "Name in the tables, for an entry that is one assembly."});
     s.add("category", &EntryValues::category, {.doc = "Column of the table of success rates."});
-    s.add("part", &EntryValues::part, {.doc = "Plan just this part, all others still."});
+    s.add("part", &EntryValues::part, {.doc = "Plan just this part, all others fixed."});
     s.add("optional", &EntryValues::optional, {.doc = "Left aside, with a note, when it is not there."});
   }
 };

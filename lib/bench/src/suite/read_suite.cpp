@@ -29,14 +29,14 @@ struct VariantValues {
                  {{"none", Rotate::none, "As it stands in the files."},
                   {"random", Rotate::random, "The whole assembly turned by a rotation drawn from the trial's seed."}},
                  "How the assembly is turned.");
-    s.add("part", &VariantValues::part, {.doc = "Plan just this part, all others still."});
+    s.add("part", &VariantValues::part, {.doc = "Plan just this part, all others fixed."});
   }
 };
 
-struct JudgeValues {
+struct VerifyValues {
   double max_penetration = VerifyOptions{}.max_penetration;
-  static void describe(Schema<JudgeValues>& s) {
-    s.add("max_penetration", &JudgeValues::max_penetration,
+  static void describe(Schema<VerifyValues>& s) {
+    s.add("max_penetration", &VerifyValues::max_penetration,
           {.unit = "assembly units",
            .min = 0,
            .min_open = true,
@@ -96,7 +96,7 @@ class Reader {
     check_keys();
     read_name();
     suite_.limits = section<Limits>("limits");
-    suite_.max_penetration = section<JudgeValues>("judge").max_penetration;
+    suite_.max_penetration = section<VerifyValues>("verify").max_penetration;
     check_limits();
     read_seed_list();
     if (const ConfigNode* list = required("assemblies")) read_assemblies(*list, suite_, problems_);
@@ -121,8 +121,8 @@ class Reader {
   }
 
   void check_keys() {
-    const std::vector<std::string> known = {"schema", "name",  "assemblies",     "planners", "seeds",
-                                            "limits", "judge", "assembly_steps", "variants"};
+    const std::vector<std::string> known = {"schema", "name",   "assemblies",     "planners", "seeds",
+                                            "limits", "verify", "assembly_steps", "variants"};
     for (const auto& member : root_->members)
       if (std::find(known.begin(), known.end(), member.key) == known.end())
         problems_.push_back(member.key_mark.error(unknown_key_message(member.key, {"", "", ""}, known, {})));

@@ -8,14 +8,14 @@
 #include <sstream>
 
 #include "dismantle/errors.h"
-#include "dismantle/host/ingredients.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/verification/check_plan.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/plan.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/plan_io/write_file.h"
+#include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/preparation/read_input.h"
-#include "dismantle/plan_io/write_file.h"
-#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/verification/check_plan.h"
 #include "trial/files.h"
 
 namespace dismantle::bench {
@@ -97,14 +97,13 @@ void plan_trial(const fs::path& folder) {
   PrepareReport report;
   const Assembly assembly =
       prepare_assembly(std::move(parts.parts), input.string(), parts.sha256, config.assembly, context, report);
-  const Ingredients ingredients = ingredients_of(config, registry);
+  const PlanningSetup setup = planning_setup_of(config, registry);
   const double load_seconds = seconds_since(start);
 
   const Clock::time_point begin = Clock::now();
   if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
   Recorder recorder(folder);
-  const RunResult result =
-      run(assembly, ingredients, run_options_of(config, request.part), context, std::ref(recorder));
+  const RunResult result = run(assembly, setup, run_options_of(config, request.part), context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
   write_file(folder / kPlanFile, to_json(result.plan));
   fmt::print(stderr, "{}", reasons_of(result.plan));
@@ -128,7 +127,7 @@ void plan_trial(const fs::path& folder) {
   write_file(folder / kResultFile, json.dump(1) + "\n");
 }
 
-void judge_trial(const fs::path& folder) {
+void verify_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const TrialRequest request = read_request(folder);
   const fs::path file = folder / kPlanFile;
@@ -153,7 +152,7 @@ void judge_trial(const fs::path& folder) {
                                {"complete", check.complete},
                                {"max_penetration", check.max_penetration / size},
                                {"problems", problems}};
-  write_file(folder / kJudgementFile, json.dump(1) + "\n");
+  write_file(folder / kVerificationFile, json.dump(1) + "\n");
 }
 
 }  // namespace dismantle::bench

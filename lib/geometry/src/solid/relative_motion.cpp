@@ -10,7 +10,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Chords over more segments than this are judged by the box alone: too long to help anyway.
+/// Chords over more segments than this are verified with the box alone: too long to help anyway.
 constexpr std::size_t kMostOffsets = 24;
 
 /// Velocity field of a screw motion, constant in time and in world axes: v(x) = v + w x (x - origin).
@@ -25,7 +25,7 @@ Field field_of(const Pose& from, const Pose& to) {
   f.origin = from.t;
   const double angle2 = f.w.squaredNorm();
   const Vec3 d = to.t - from.t;
-  // Inverse of the left Jacobian, see geometry/pose.cpp; kept apart because the judge shares nothing it can avoid.
+  // Inverse of the left Jacobian, see geometry/pose.cpp; kept apart because the verifier shares nothing it can avoid.
   double c = 1.0 / 12;
   if (angle2 > 1e-6) {
     const double angle = std::sqrt(angle2);

@@ -247,7 +247,7 @@ std::vector<PlanMove> read_moves(const Place& place, const Names& parts) {
 enum class StepKind { disassembly, assembly };
 
 PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Names& parts) {
-  // Assembly steps are judged as the reverse of the disassembly; other programs need not repeat its figures.
+  // Assembly steps are verified as the reverse of the disassembly; other programs need not repeat its figures.
   if (kind == StepKind::disassembly)
     place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"},
                  {"after", "layer"});

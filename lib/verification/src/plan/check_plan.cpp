@@ -87,9 +87,9 @@ class Checker {
 
   /// Rule (b). True when it holds.
   bool motion_holds(const StepMotion& motion, const Group& others, const char* what, double& bound) {
-    std::vector<PlacedPart> still;
-    for (const PartId id : others) still.push_back({id, state_.place[id]});
-    const MotionCheck check = verifier_.check_motion(motion.moving, still, motion.path);
+    std::vector<PlacedPart> fixed;
+    for (const PartId id : others) fixed.push_back({id, state_.place[id]});
+    const MotionCheck check = verifier_.check_motion(motion.moving, fixed, motion.path);
     if (check.valid) {
       bound = check.max_penetration;
       return true;

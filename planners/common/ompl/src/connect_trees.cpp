@@ -14,15 +14,15 @@ std::uint32_t ConnectTrees::Tree::add(const StateType& state, std::uint32_t pare
   return near.add(state.center);
 }
 
-std::vector<Scene::StateType> ConnectTrees::Tree::to_root(std::uint32_t node) const {
+std::vector<SamplingProblem::StateType> ConnectTrees::Tree::to_root(std::uint32_t node) const {
   std::vector<StateType> states;
   for (std::uint32_t n = node; n != 0; n = nodes[n].parent) states.push_back(nodes[n].state);
   states.push_back(nodes[0].state);
   return states;
 }
 
-ConnectTrees::ConnectTrees(Scene& scene, double range, const Rng& rng)
-    : Planner(scene.information(), "ConnectTrees"), scene_(scene), range_(range), rng_(rng) {}
+ConnectTrees::ConnectTrees(SamplingProblem& problem, double range, const Rng& rng)
+    : Planner(problem.information(), "ConnectTrees"), problem_(problem), range_(range), rng_(rng) {}
 
 void ConnectTrees::clear() {
   Planner::clear();
@@ -35,16 +35,16 @@ void ConnectTrees::clear() {
 
 std::uint32_t ConnectTrees::nearest(const Tree& tree, const StateType& state) const {
   return tree.near.nearest(state.center,
-                           [&](std::uint32_t n) { return scene_.space().distance(tree.nodes[n].state, state); });
+                           [&](std::uint32_t n) { return problem_.space().distance(tree.nodes[n].state, state); });
 }
 
 std::optional<std::uint32_t> ConnectTrees::extend(Tree& tree, std::uint32_t node, const StateType& target) {
-  const auto& space = scene_.space();
+  const auto& space = problem_.space();
   const StateType from = tree.nodes[node].state;
   const double way = space.distance(from, target);
   if (!(way > 0)) return std::nullopt;
   const StateType to = way <= range_ ? target : space.between(from, target, range_ / way);
-  const double share = scene_.free_share(from, to);
+  const double share = problem_.free_share(from, to);
   if (share <= 0) return std::nullopt;
   return tree.add(share < 1 ? space.between(from, to, share) : to, node);
 }
@@ -67,8 +67,8 @@ ob::PlannerStatus ConnectTrees::solve(const ob::PlannerTerminationCondition& sto
   if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
   const auto end = *static_cast<const StateType*>(goal->getState());
-  if (!scene_.is_free(start)) return ob::PlannerStatus::INVALID_START;
-  if (!scene_.is_free(end)) return ob::PlannerStatus::INVALID_GOAL;
+  if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
+  if (!problem_.is_free(end)) return ob::PlannerStatus::INVALID_GOAL;
   trees_[0].add(start, 0);
   trees_[1].add(end, 0);
 
@@ -83,12 +83,12 @@ ob::PlannerStatus ConnectTrees::solve(const ob::PlannerTerminationCondition& sto
         const auto next = extend(b, at, meeting);
         if (!next) break;
         at = *next;
-        if (scene_.space().distance(b.nodes[at].state, meeting) > 0) continue;
+        if (problem_.space().distance(b.nodes[at].state, meeting) > 0) continue;
         growing == 0 ? report(*grown, at) : report(at, *grown);
         return ob::PlannerStatus::EXACT_SOLUTION;
       }
     }
-    scene_.space().draw(rng_, target);
+    problem_.space().draw(rng_, target);
   }
   return ob::PlannerStatus::TIMEOUT;
 }

@@ -10,9 +10,10 @@ namespace dismantle::sampling {
 
 namespace ob = ompl::base;
 
-TargetTree::TargetTree(Scene& scene, const Settings& settings, std::unique_ptr<TargetRule> rule, const Rng& rng)
-    : Planner(scene.information(), "TargetTree"),
-      scene_(scene),
+TargetTree::TargetTree(SamplingProblem& problem, const Settings& settings, std::unique_ptr<TargetRule> rule,
+                       const Rng& rng)
+    : Planner(problem.information(), "TargetTree"),
+      problem_(problem),
       settings_(settings),
       rule_(std::move(rule)),
       rng_(rng) {}
@@ -35,7 +36,7 @@ std::uint32_t TargetTree::add(const StateType& state, std::uint32_t parent) {
 }
 
 std::uint32_t TargetTree::nearest(const StateType& state) const {
-  const auto& space = scene_.space();
+  const auto& space = problem_.space();
   return near_.nearest(state.center, [&](std::uint32_t n) { return space.distance(nodes_[n].state, state); });
 }
 
@@ -48,14 +49,14 @@ void TargetTree::discard(std::uint32_t node) {
 /// Returns the first new node that is out, if any.
 std::optional<std::uint32_t> TargetTree::extend(std::uint32_t node, const StateType& target, bool greedy,
                                                 const ob::PlannerTerminationCondition& stop) {
-  const auto& space = scene_.space();
+  const auto& space = problem_.space();
   while (true) {
     const StateType from = nodes_[node].state;
     const double way = space.distance(from, target);
     if (!(way > 0)) return std::nullopt;
     const bool last = way <= settings_.range;
     const StateType to = last ? target : space.between(from, target, settings_.range / way);
-    const double share = scene_.free_share(from, to);
+    const double share = problem_.free_share(from, to);
     if (share <= 0) return std::nullopt;
     node = add(share < 1 ? space.between(from, to, share) : to, node);
     if (getProblemDefinition()->getGoal()->isSatisfied(&nodes_[node].state)) return node;
@@ -90,7 +91,7 @@ ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop)
     if (target) {
       out = extend(target->node, target->state, true, stop);
     } else {
-      scene_.space().draw(rng_, drawn);
+      problem_.space().draw(rng_, drawn);
       out = extend(nearest(drawn), drawn, false, stop);
     }
     if (out) {

@@ -13,7 +13,7 @@
 namespace dismantle::sampling {
 namespace {
 
-using StateType = Scene::StateType;
+using StateType = SamplingProblem::StateType;
 
 /// Checks of the first turn of a tree where two grow in turn; each round doubles it.
 constexpr std::uint64_t kFirstTurn = 4'000;
@@ -24,10 +24,10 @@ class Candidates {
   Candidates(const PathChecker& checker, bool simplify) : checker_(checker), simplify_(simplify) {}
 
   /// True: `result` holds the path. False: `edge` is that of `states` which is at fault.
-  bool accepts(Scene& scene, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
+  bool accepts(SamplingProblem& problem, const std::vector<StateType>& states, PathResult& result, std::size_t& edge) {
     std::vector<std::vector<StateType>> forms;
     if (simplify_ && states.size() > 2) {
-      forms.push_back(scene.shortcut(states));
+      forms.push_back(problem.shortcut(states));
       if (forms.back().size() >= states.size()) forms.clear();
     }
     forms.push_back(states);
@@ -37,7 +37,7 @@ class Candidates {
                checker_, refused_,
                [&](std::size_t k) -> std::optional<Path> {
                  shown = k;
-                 return k < forms.size() ? std::optional(scene.path(forms[k], &edge_of)) : std::nullopt;
+                 return k < forms.size() ? std::optional(problem.path(forms[k], &edge_of)) : std::nullopt;
                },
                [&](const PathCheck& check, const Path&) {
                  result.message = check.reason;
@@ -66,29 +66,29 @@ class Tree {
  public:
   Tree(const PathQuery& query, MotionSpace motion, const TreeParameters& p, const MakeRule& make_rule,
        CheckBudget& budget, const Rng& rng)
-      : scene_(query, motion, p.tolerance_share * query.tolerance, p.step, budget),
-        tree_(scene_, {p.goal_bias, p.range}, make_rule(scene_, rng.fork(1)), rng.fork(2)) {
-    auto problem = std::make_shared<ompl::base::ProblemDefinition>(scene_.information());
-    const StateType start = scene_.space().start();
+      : problem_(query, motion, p.tolerance_share * query.tolerance, p.step, budget),
+        tree_(problem_, {p.goal_bias, p.range}, make_rule(problem_, rng.fork(1)), rng.fork(2)) {
+    auto problem = std::make_shared<ompl::base::ProblemDefinition>(problem_.information());
+    const StateType start = problem_.space().start();
     problem->addStartState(&start);
-    problem->setGoal(std::make_shared<SeparatedGoal>(scene_));
+    problem->setGoal(std::make_shared<SeparatedGoal>(problem_));
     tree_.setProblemDefinition(problem);
   }
 
-  Scene& scene() { return scene_; }
-  const Scene& scene() const { return scene_; }
+  SamplingProblem& problem() { return problem_; }
+  const SamplingProblem& problem() const { return problem_; }
   const TargetTree& tree() const { return tree_; }
 
   /// Until a path is accepted, or `limit` checks have been made in all, or the
   /// budget is spent.
   bool grow(Candidates& candidates, std::uint64_t limit, PathResult& result) {
     const ompl::base::PlannerTerminationCondition stop(
-        [&] { return scene_.budget().checks >= limit || scene_.budget().spent(); });
+        [&] { return problem_.budget().checks >= limit || problem_.budget().spent(); });
     while (tree_.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION) {
       std::vector<StateType> states;
       for (const auto n : tree_.solution()) states.push_back(tree_.state(n));
       std::size_t edge = 1;
-      if (candidates.accepts(scene_, states, result, edge)) return true;
+      if (candidates.accepts(problem_, states, result, edge)) return true;
       tree_.discard(tree_.solution()[edge]);
     }
     return false;
@@ -97,21 +97,21 @@ class Tree {
   /// Straight on along each direction until out or blocked.
   bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, Candidates& candidates,
                  std::uint64_t limit, PathResult& result) {
-    const StateType start = scene_.space().start();
-    const double far = 2 * scene_.surroundings().bounds.size().norm();
+    const StateType start = problem_.space().start();
+    const double far = 2 * problem_.surroundings().bounds.size().norm();
     for (const auto& direction : directions) {
-      if (scene_.budget().checks >= limit || scene_.budget().spent()) return false;
+      if (problem_.budget().checks >= limit || problem_.budget().spent()) return false;
       ++lines_;
       StateType at = start;
       for (double way = 0; way < far;) {
         StateType next = at;
         next.center += range * direction;
-        if (scene_.free_share(at, next) < 1) break;
+        if (problem_.free_share(at, next) < 1) break;
         at = next;
         way += range;
-        if (!scene_.is_out(at)) continue;
+        if (!problem_.is_out(at)) continue;
         std::size_t edge = 1;
-        if (candidates.accepts(scene_, {start, at}, result, edge)) return true;
+        if (candidates.accepts(problem_, {start, at}, result, edge)) return true;
         break;
       }
     }
@@ -120,7 +120,7 @@ class Tree {
   std::uint64_t lines() const { return lines_; }
 
  private:
-  Scene scene_;
+  SamplingProblem problem_;
   TargetTree tree_;
   std::uint64_t lines_ = 0;
 };
@@ -186,8 +186,8 @@ class TreesSearch final : public PathSearch {
         if (way > most) most = way, furthest = t.get();
       }
       if (furthest != nullptr)
-        result.best_pose = furthest->scene().poses(furthest->tree().state(furthest->tree().farthest()));
-      if (!context_.cancel.cancelled()) result.blocked_by = trees_.front()->scene().blockers();
+        result.best_pose = furthest->problem().poses(furthest->tree().state(furthest->tree().farthest()));
+      if (!context_.cancel.cancelled()) result.blocked_by = trees_.front()->problem().blockers();
     }
     for (const auto& tree : trees_) {
       result.stats.nodes += tree->tree().size();
@@ -202,7 +202,7 @@ class TreesSearch final : public PathSearch {
 
  private:
   bool starts_out() {
-    Scene& first = trees_.front()->scene();
+    SamplingProblem& first = trees_.front()->problem();
     return first.is_out(first.space().start());
   }
 
@@ -224,7 +224,7 @@ class TreesSearch final : public PathSearch {
 std::unique_ptr<PathSearch> start_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
                                         const MakeRule& make_rule, const MakeLines& make_lines) {
   const Capabilities has = query.simulator.capabilities();
-  if (!has.distance || has.max_moving < query.cast.moving.size())
+  if (!has.distance || has.max_moving < query.scene.moving.size())
     return path::unsupported("needs a simulator with distance queries for all moving parts");
   return std::make_unique<TreesSearch>(query, context, parameters, make_rule, make_lines);
 }

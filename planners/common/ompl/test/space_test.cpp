@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "dismantle/sampling/nearest.h"
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 #include "dismantle/testing/path_checking.h"
 #include "dismantle/testing/shapes.h"
 #include "fake_world.h"
@@ -101,7 +101,7 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
 }
 
 /// A wall as thick as a step is never jumped, however it stands and however long the motion that goes through it.
-TEST(Scene, ThinWallIsNeverJumped) {
+TEST(SamplingProblem, ThinWallIsNeverJumped) {
   constexpr double kStep = 0.01;
   Rng rng(5);
   const Assembly assembly =
@@ -116,22 +116,22 @@ TEST(Scene, ThinWallIsNeverJumped) {
     const dismantle::fake::RuleChecker checker = dismantle::fake::accept_all();
     const PathQuery query{assembly, simulator, *prepared, {{{0, {}}}, {{1, {}}}}, {}, 0.01, checker};
     CheckBudget budget(query, context);
-    Scene scene(query, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid, 0.004, kStep, budget);
+    SamplingProblem problem(query, i % 2 == 0 ? MotionSpace::translation : MotionSpace::rigid, 0.004, kStep, budget);
     for (int k = 0; k < 20; ++k) {
       StateType a, b;
-      scene.space().draw(rng, a);
-      scene.space().draw(rng, b);
-      const double side_a = normal.dot(scene.space().displacement(a).t) - at;
-      const double side_b = normal.dot(scene.space().displacement(b).t) - at;
+      problem.space().draw(rng, a);
+      problem.space().draw(rng, b);
+      const double side_a = normal.dot(problem.space().displacement(a).t) - at;
+      const double side_b = normal.dot(problem.space().displacement(b).t) - at;
       if (side_a * side_b > 0 || std::abs(side_a) < kStep) continue;
-      EXPECT_LT(scene.free_share(a, b), 1);
-      EXPECT_FALSE(scene.information()->checkMotion(&a, &b));  // OMPL's own entrance
+      EXPECT_LT(problem.free_share(a, b), 1);
+      EXPECT_FALSE(problem.information()->checkMotion(&a, &b));  // OMPL's own entrance
       // What is kept of an extension ends before the wall.
-      const StateType last = scene.space().between(a, b, scene.free_share(a, b));
-      EXPECT_GT((normal.dot(scene.space().displacement(last).t) - at) * side_a, 0);
+      const StateType last = problem.space().between(a, b, problem.free_share(a, b));
+      EXPECT_GT((normal.dot(problem.space().displacement(last).t) - at) * side_a, 0);
     }
     // Our length, as the fraction of the extent that OMPL wants.
-    EXPECT_NEAR(scene.space().getLongestValidSegmentFraction() * scene.space().getMaximumExtent(), kStep, 1e-12);
+    EXPECT_NEAR(problem.space().getLongestValidSegmentFraction() * problem.space().getMaximumExtent(), kStep, 1e-12);
   }
 }
 

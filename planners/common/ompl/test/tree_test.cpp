@@ -22,31 +22,31 @@ struct Task {
     assembly = prepare_assembly(samples::make(sample, parameters), sample, "", {}, context, report);
     prepared = simulator.prepare(assembly, 0.01, context);
     verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
-    for (const auto& part : assembly.parts) (part.name == moving ? cast.moving : cast.still).push_back({part.id, {}});
+    for (const auto& part : assembly.parts) (part.name == moving ? scene.moving : scene.fixed).push_back({part.id, {}});
   }
   Ruling judge(const Path& path) const {
     Ruling ruling;
-    ruling.accept = verifier->check_motion({cast.moving[0].part}, cast.still, path).valid &&
-                    verifier->apart({{cast.moving[0].part, path.back()[0]}}, cast.still);
+    ruling.accept = verifier->check_motion({scene.moving[0].part}, scene.fixed, path).valid &&
+                    verifier->apart({{scene.moving[0].part, path.back()[0]}}, scene.fixed);
     return ruling;
   }
   PathResult plan(std::uint64_t seed, dismantle::Budget effort, const TreeParameters& p = {},
                   std::function<Ruling(const Path&)> judge_with = {}) const {
     const fake::RuleChecker checker(judge_with ? judge_with : [this](const Path& path) { return judge(path); });
-    const PathQuery query{assembly, simulator, *prepared, cast, effort, 0.01, checker};
+    const PathQuery query{assembly, simulator, *prepared, scene, effort, 0.01, checker};
     RunContext own;
     own.rng = Rng(seed);
     own.cancel = cancel;
-    return run_to_end(
-        *start_trees(query, own, p, [](Scene& scene, Rng) { return std::make_unique<NearestExit>(scene); }));
+    return run_to_end(*start_trees(
+        query, own, p, [](SamplingProblem& problem, Rng) { return std::make_unique<NearestExit>(problem); }));
   }
   RunContext context;
   CancelToken cancel;
   mesh_collision::FclSimulator simulator{mesh_collision::Parameters{}};
   Assembly assembly;
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
   std::unique_ptr<Verifier> verifier;
-  Cast cast;
+  Scene scene;
 };
 
 const Task& slot() {
@@ -126,7 +126,7 @@ TEST(TreePlanner, StopsWhenCancelled) {
   EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::cancelled);
 }
 
-/// A path that the judge refuses is no end: the edge at fault goes, the search goes on.
+/// A path that the verifier refuses is no end: the edge at fault goes, the search goes on.
 TEST(TreePlanner, GoesOnAfterARefusal) {
   int shown = 0;
   const auto strict = [&](const Path& path) {
@@ -146,7 +146,7 @@ TEST(TreePlanner, GoesOnAfterARefusal) {
 
 TEST(TreePlanner, StartThatIsOut) {
   Task task("l_slot", {}, "slider");
-  task.cast.moving[0].pose.t = {0, 0, 50};
+  task.scene.moving[0].pose.t = {0, 0, 50};
   EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::start_is_goal);
 }
 
@@ -167,21 +167,21 @@ TEST(TreePlanner, MotionSpaces) {
 TEST(TreePlanner, ExitsLeadOut) {
   Rng rng(1);
   const fake::RuleChecker checker = fake::accept_all();
-  const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().cast, {}, 0.01, checker};
+  const PathQuery query{slot().assembly, slot().simulator, *slot().prepared, slot().scene, {}, 0.01, checker};
   RunContext context;
   CheckBudget budget(query, context);
-  Scene scene(query, MotionSpace::rigid, 0.004, 0.01, budget);
+  SamplingProblem problem(query, MotionSpace::rigid, 0.004, 0.01, budget);
   for (int i = 0; i < 50; ++i) {
-    Scene::StateType s;
-    scene.space().draw(rng, s);
-    const auto order = exits_by_distance(scene, s);
+    SamplingProblem::StateType s;
+    problem.space().draw(rng, s);
+    const auto order = exits_by_distance(problem, s);
     double last = 0;
     for (const int side : order) {
-      const auto exit = scene.exit(s, side);
-      EXPECT_TRUE(scene.is_out(exit));
+      const auto exit = problem.exit(s, side);
+      EXPECT_TRUE(problem.is_out(exit));
       EXPECT_TRUE(exit.turn.isApprox(s.turn, 0));
-      EXPECT_GE(scene.space().distance(s, exit), last);
-      last = scene.space().distance(s, exit);
+      EXPECT_GE(problem.space().distance(s, exit), last);
+      last = problem.space().distance(s, exit);
     }
   }
 }

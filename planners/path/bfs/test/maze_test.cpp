@@ -204,7 +204,7 @@ TEST(BfsMaze, LearnsFromARefusal) {
   search(run, maze, {}, {}, [](const Path& p) { return refuse_x(p, true); });
   EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.notes.learned, 1u);
-  EXPECT_EQ(run.judged.size(), 2u) << "the world holds now what the judge refused";
+  EXPECT_EQ(run.judged.size(), 2u) << "the world holds now what the verifier refused";
   EXPECT_EQ(run.result.stats.refused, 1u);
   EXPECT_LT(run.result.path()->poses().back()[0].t.z(), -4.9);
   EXPECT_TRUE(run.result.message.empty());
@@ -234,7 +234,7 @@ TEST(BfsMaze, WhatIsAlwaysRefusedIsNeverSolved) {
       });
       EXPECT_FALSE(is_success(run.result.outcome()));
       EXPECT_FALSE(run.result.path());
-      EXPECT_EQ(run.result.message, "no") << "the judge's reason is handed on";
+      EXPECT_EQ(run.result.message, "no") << "the verifier's reason is handed on";
       expect_lawful(run, maze);
     }
 }

@@ -1,4 +1,4 @@
-// bfs over sdf_penalty, judged by the verifier, on small solids.
+// bfs over sdf_penalty, verified with the verifier, on small solids.
 #include <gtest/gtest.h>
 
 #include "table.h"
@@ -105,7 +105,7 @@ TEST(BfsPhysics, PartsThatMoveTogetherDoNotBlockEachOther) {
                           block(-0.5 - c, 0.5 + c, -c, 0.5 + c, 0.8, 0.7)})}));
   const PathResult both = bench.plan({0, 1}, {});
   ASSERT_EQ(both.outcome(), Outcome::solved);
-  for (const PartId p : both.blocked_by) EXPECT_EQ(p, 2u) << "only what stands still blocks";
+  for (const PartId p : both.blocked_by) EXPECT_EQ(p, 2u) << "only what stay fixed blocks";
   const PathResult lower = bench.plan({0}, {{"motion", std::string("translation")}}, {.max_steps = 60'000});
   EXPECT_EQ(lower.outcome(), Outcome::exhausted);
   ASSERT_FALSE(lower.blocked_by.empty());

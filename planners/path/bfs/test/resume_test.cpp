@@ -146,11 +146,11 @@ TEST(Resume, HalfOfABudgetIsForWhatIsNew) {
       return run.result;
     };
     const PathResult first = plan(6, nullptr), again = plan(6, first.state.get()), more = plan(6, again.state.get()),
-                     still_more = plan(6, more.state.get());
+                     fixed_more = plan(6, more.state.get());
     EXPECT_EQ(first.stats.extra.at("expanded"), 6 + 6);
     EXPECT_EQ(again.stats.extra.at("expanded"), 3 + 3);
     EXPECT_EQ(more.stats.extra.at("expanded"), 3 + 3);
-    EXPECT_EQ(still_more.stats.extra.at("expanded"), 3 + 3) << "however much is known";
+    EXPECT_EQ(fixed_more.stats.extra.at("expanded"), 3 + 3) << "however much is known";
   }
 }
 
@@ -189,7 +189,7 @@ TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
   EXPECT_EQ(again.run.result.outcome(), Outcome::start_is_goal);
 }
 
-/// What the judge has taught is not forgotten, unless it was about what has left.
+/// What the verifier has taught is not forgotten, unless it was about what has left.
 TEST(Resume, LessonsAreKept) {
   for (const bool about_gate : {false, true}) {
     const RandomMaze m = random_maze(4);

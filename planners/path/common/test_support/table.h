@@ -51,7 +51,7 @@ inline ParamSet guided(const std::map<std::string, ParamValue>& changes, const s
 struct Table {
   Assembly assembly;
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
-  std::shared_ptr<const Prepared> prepared;
+  std::shared_ptr<const PreparedAssembly> prepared;
   Verifier verifier;
   std::atomic<std::size_t> judged = 0;
   std::shared_ptr<Executor> executor;  ///< whose idle threads may help
@@ -71,10 +71,10 @@ struct Table {
   PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Budget& budget,
                   const std::vector<PartId>& moving, const std::vector<PartId>& left = {},
                   const SearchState* resume_from = nullptr) {
-    Cast cast;
+    Scene scene;
     for (const auto& part : assembly.parts) {
       if (std::find(left.begin(), left.end(), part.id) != left.end()) continue;
-      (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? cast.moving : cast.still)
+      (std::find(moving.begin(), moving.end(), part.id) != moving.end() ? scene.moving : scene.fixed)
           .push_back({part.id, Pose{}});
     }
     RunContext context;
@@ -82,13 +82,13 @@ struct Table {
     context.executor = executor;
     const fake::RuleChecker checker([&](const Path& path) {
       ++judged;
-      fake::Ruling ruling = fake::ruling_of(verifier.check_motion(moving, cast.still, path));
-      std::vector<PlacedPart> group = cast.moving;
+      fake::Ruling ruling = fake::ruling_of(verifier.check_motion(moving, scene.fixed, path));
+      std::vector<PlacedPart> group = scene.moving;
       for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = path.back()[i];
-      ruling.accept = ruling.accept && verifier.apart(group, cast.still);
+      ruling.accept = ruling.accept && verifier.apart(group, scene.fixed);
       return ruling;
     });
-    const PathQuery query{assembly, *simulator, *prepared,  cast, budget, verifier.options().max_penetration,
+    const PathQuery query{assembly, *simulator, *prepared,  scene, budget, verifier.options().max_penetration,
                           checker,  {},         resume_from};
     return plan_path(*registry().create<PathPlanner>(planner, given), query, context);
   }

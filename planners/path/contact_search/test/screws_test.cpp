@@ -18,7 +18,7 @@ Assembly turned_sample(const std::string& name, ParamSet given, std::int64_t see
   return prepare_assembly(samples::make(name, given), name, "", PrepareOptions{}, context, report);
 }
 
-/// The judge has accepted what was solved; it is asked once more for the path as it was returned.
+/// The verifier has accepted what was solved; it is asked once more for the path as it was returned.
 void expect_solved(const Assembly& assembly, const std::string& name, std::uint64_t most_steps) {
   path::test::Table table(assembly);
   const auto part =
@@ -26,10 +26,10 @@ void expect_solved(const Assembly& assembly, const std::string& name, std::uint6
   ASSERT_NE(part, assembly.parts.end());
   const PathResult result = table.plan("contact_search", {}, 0, {.max_steps = most_steps}, {part->id});
   ASSERT_EQ(result.outcome(), Outcome::solved) << result.message;
-  std::vector<PlacedPart> still;
+  std::vector<PlacedPart> fixed;
   for (const Part& p : assembly.parts)
-    if (p.id != part->id) still.push_back({p.id, Pose{}});
-  EXPECT_TRUE(table.verifier.check_motion({part->id}, still, result.path()->poses()).valid);
+    if (p.id != part->id) fixed.push_back({p.id, Pose{}});
+  EXPECT_TRUE(table.verifier.check_motion({part->id}, fixed, result.path()->poses()).valid);
   double turned = 0;
   for (std::size_t k = 1; k < result.path()->poses().size(); ++k)
     turned += angle_between(result.path()->poses()[k - 1][0].q, result.path()->poses()[k][0].q);

@@ -60,8 +60,8 @@ double ball_of(const std::vector<BodyPoint>& points) {
 
 std::vector<BodyPoint> points_of(const PathQuery& query) {
   std::vector<BodyPoint> all;
-  const std::size_t each = std::max<std::size_t>(4, kPoints / query.cast.moving.size());
-  for (const auto& m : query.cast.moving)
+  const std::size_t each = std::max<std::size_t>(4, kPoints / query.scene.moving.size());
+  for (const auto& m : query.scene.moving)
     for (BodyPoint p : body_points(*query.assembly.parts[m.part].mesh, each)) {
       p.center = m.pose * p.center;
       all.push_back(p);
@@ -73,8 +73,8 @@ std::vector<BodyPoint> points_of(const PathQuery& query) {
 
 bool overlaps_through(const PathQuery& query) {
   double overlap = 0;
-  for (const auto& m : query.cast.moving)
-    for (const auto& s : query.cast.still) overlap = std::max(overlap, query.assembly.initial_overlap(m.part, s.part));
+  for (const auto& m : query.scene.moving)
+    for (const auto& s : query.scene.fixed) overlap = std::max(overlap, query.assembly.initial_overlap(m.part, s.part));
   return overlap > 0 && overlap > kThrough * ball_of(points_of(query));
 }
 
@@ -85,18 +85,18 @@ LedWalk::LedWalk(const tolerant_walk::Parameters& parameters, const PathQuery& q
       rng_(context.rng.fork(0x1ed0a1c)),
       tree_(parameters_, query, context, rng_, overlap, cache),
       body_(points_of(query)),
-      ways_(query.assembly, query.cast.still, ball_of(body_), effort.cells),
+      ways_(query.assembly, query.scene.fixed, ball_of(body_), effort.cells),
       leads_out_(have_ways()),
       thin_(overlap == tolerant_walk::Overlap::near_start),
       effort_(effort) {
-  if (query.cast.moving.size() == 1) {
-    const PlacedPart& m = query.cast.moving.front();
+  if (query.scene.moving.size() == 1) {
+    const PlacedPart& m = query.scene.moving.front();
     for (const Twist& slip : slips(*query.assembly.parts[m.part].mesh, m.pose.inverse() * tree_.center()))
       slips_.push_back({m.pose.q * slip.way, m.pose.q * slip.turn});
   }
   place_size_ = std::max(kPlace, kPlaceOfBody * tree_.radius());
   if (const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
-      reached != nullptr && reached->has_room_now(query.cast)) {
+      reached != nullptr && reached->has_room_now(query.scene)) {
     tree_.resume(*reached);
     resumed_ = true;
     for (std::uint32_t n = 0; n < tree_.size(); ++n) moves_ = moves_ || (!tree_[n].cut && clearly_off(n));

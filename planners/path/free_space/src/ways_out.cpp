@@ -65,8 +65,8 @@ void WaysOut::each_neighbour(std::uint32_t cell, const Visit& visit) const {
       }
 }
 
-WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still, double ball, std::size_t most_cells) {
-  for (const auto& s : still)
+WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& fixed, double ball, std::size_t most_cells) {
+  for (const auto& s : fixed)
     for (const auto& v : assembly.parts[s.part].mesh->vertices) box_.extend(s.pose * v);
   if (box_.empty()) box_.extend(Vec3::Zero());
   // Solved for the edge by repetition: the margin counts, too.
@@ -83,7 +83,7 @@ WaysOut::WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still,
   const Vec3 middle = box_.center(), half = 0.5 * cell_ * Vec3(count_[0], count_[1], count_[2]);
   box_ = {middle - half, middle + half};
   clearance_.assign(all, kFar);
-  for (const auto& s : still) {
+  for (const auto& s : fixed) {
     const Mesh& mesh = *assembly.parts[s.part].mesh;
     for (const auto& t : mesh.triangles)
       mark({s.pose * mesh.vertices[t[0]], s.pose * mesh.vertices[t[1]], s.pose * mesh.vertices[t[2]]});

@@ -130,15 +130,15 @@ TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
 /// A ring on a spool, with a little play: held where it is, however free the room around it.
 TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
   const double play = 0.002, x = 2, y = 1.5, z = 0.4, in = 0.2, out = 0.6, high = 0.1;
-  std::vector<Aabb> still = box_of(6);
-  still.push_back(block(x - in, y - in, 0, x + in, y + in, 0.8));
-  still.push_back(block(x - 0.4, y - 0.4, z - 0.1, x + 0.4, y + 0.4, z));
-  still.push_back(block(x - 0.4, y - 0.4, z + high, x + 0.4, y + 0.4, z + high + 0.1));
+  std::vector<Aabb> fixed = box_of(6);
+  fixed.push_back(block(x - in, y - in, 0, x + in, y + in, 0.8));
+  fixed.push_back(block(x - 0.4, y - 0.4, z - 0.1, x + 0.4, y + 0.4, z));
+  fixed.push_back(block(x - 0.4, y - 0.4, z + high, x + 0.4, y + 0.4, z + high + 0.1));
   const double a = in + play, lo = z + play, hi = z + high - play;
   const std::vector<Aabb> ring{
       block(x - out, y - out, lo, x - a, y + out, hi), block(x + a, y - out, lo, x + out, y + out, hi),
       block(x - a, y - out, lo, x + a, y - a, hi), block(x - a, y + a, lo, x + a, y + out, hi)};
-  Table table(assembly_of({boxes(ring), boxes(still)}));
+  Table table(assembly_of({boxes(ring), boxes(fixed)}));
   const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
   EXPECT_LT(r.stats.extra.at("navigation_tree_state_checks"), 500);
@@ -170,7 +170,7 @@ TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
 /// A wire wound wider than the hole in the wall before it: out by screwing, and by nothing else.
 struct SpringInABox {
   static constexpr double kWire = 0.03, kHole = 0.5, kWall = 0.06, kAt = 1.8;
-  Mesh spring, still, wall;
+  Mesh spring, fixed, wall;
   Assembly assembly;
 
   /// So deep in the bottom of the box.
@@ -183,10 +183,10 @@ struct SpringInABox {
                                    block(x0, y0, 0, x1, y1, z0), block(x0, y0, z1, x1, y1, kHeight)};
     std::vector<Aabb> all = box_of(2.4);
     all.insert(all.end(), around.begin(), around.end());
-    still = boxes(all);
+    fixed = boxes(all);
     wall = boxes(around);
-    assembly = assembly_of({spring, still});
-    const double overlap = penetration_depth(spring, Pose{}, still, Pose{}, 1e-4);
+    assembly = assembly_of({spring, fixed});
+    const double overlap = penetration_depth(spring, Pose{}, fixed, Pose{}, 1e-4);
     if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
   }
 };

@@ -17,9 +17,9 @@ using path::test::boxes;
 constexpr std::size_t kCells = 60'000;
 
 std::vector<PlacedPart> all_of(const Assembly& assembly) {
-  std::vector<PlacedPart> still;
-  for (const auto& part : assembly.parts) still.push_back({part.id, Pose{}});
-  return still;
+  std::vector<PlacedPart> fixed;
+  for (const auto& part : assembly.parts) fixed.push_back({part.id, Pose{}});
+  return fixed;
 }
 
 /// A hollow cube of edge 4 with walls 0.2 thick; a hole of that width through the one at +x.

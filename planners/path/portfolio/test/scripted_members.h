@@ -88,10 +88,11 @@ class Scripted final : public PathPlanner {
    private:
     SearchStatus end() {
       if (!of_.script_.solves) {
-        result_.fail(of_.script_.used_up ? Outcome::depth_limit : Outcome::exhausted, "member " + std::to_string(of_.id_));
+        result_.fail(of_.script_.used_up ? Outcome::depth_limit : Outcome::exhausted,
+                     "member " + std::to_string(of_.id_));
         return SearchStatus::exhausted;
       }
-      PathCheck check = query_.checker.check(fake::straight(query_.cast, Eigen::Vector3d(0, 0, 1.0 + of_.id_)));
+      PathCheck check = query_.checker.check(fake::straight(query_.scene, Eigen::Vector3d(0, 0, 1.0 + of_.id_)));
       result_.solve(std::move(*check.verified), 1);
       return SearchStatus::solved;
     }
@@ -117,7 +118,7 @@ struct Set {
   std::shared_ptr<Executor> executor;
   Assembly assembly = fake::tube_with_blocks(1);
   fake::Physics physics;
-  Prepared prepared;
+  PreparedAssembly prepared;
   fake::RuleChecker checker = fake::accept_all();
   std::shared_ptr<const SearchState> resume_from;
   RunContext context;
@@ -135,7 +136,7 @@ struct Set {
     std::vector<std::shared_ptr<PathPlanner>> planners;
     for (std::size_t k = 0; k < scripts.size(); ++k) planners.push_back(std::make_shared<Scripted>(k, scripts[k], log));
     context.executor = executor;
-    const PathQuery query{assembly, physics, prepared, {{{1, Pose{}}}, {{0, Pose{}}}}, budget, 0.01,
+    const PathQuery query{assembly, physics, prepared,         {{{1, Pose{}}}, {{0, Pose{}}}}, budget, 0.01,
                           checker,  {},      resume_from.get()};
     PortfolioSearch search(parameters, planners, query, context);
     do status = search.run({.max_steps = portion});

@@ -30,7 +30,7 @@ bool moves(const std::vector<PlacedPart>& moving, PartId part) {
 /// `torque` for a body of unit torque arm.
 Action turn(const World& world, const Vec3& torque, const Vec3& force) {
   Action a;
-  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
     a.wrenches.push_back({force, world.torque_arm(i) * torque});
   return a;
 }
@@ -40,7 +40,7 @@ Action turn(const World& world, const Vec3& torque, const Vec3& force) {
 Action push(const World& world, double force, const Vec3& direction) {
   Action a;
   const Wrench wrench{force * direction.normalized(), Vec3::Zero()};
-  a.wrenches.assign(world.cast().moving.size(), wrench);
+  a.wrenches.assign(world.scene().moving.size(), wrench);
   return a;
 }
 
@@ -73,7 +73,7 @@ void drive(Action& action, const World& world, std::size_t i, bool turns, const 
 
 Action at_rest(const World& world) {
   Action action;
-  action.wrenches.resize(world.cast().moving.size());
+  action.wrenches.resize(world.scene().moving.size());
   return action;
 }
 
@@ -82,7 +82,7 @@ Action at_rest(const World& world) {
 std::vector<Action> one_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes) {
   std::vector<Action> actions;
   for (const bool torque : {false, true})
-    for (std::size_t i = 0; i < world.cast().moving.size() && (turns || !torque); ++i)
+    for (std::size_t i = 0; i < world.scene().moving.size() && (turns || !torque); ++i)
       for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {1.0, -1.0}) {
           actions.push_back(at_rest(world));
@@ -93,7 +93,7 @@ std::vector<Action> one_driven(const World& world, double force, bool turns, con
 
 std::vector<Action> two_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes, bool across) {
   std::vector<Action> actions;
-  const std::size_t n = world.cast().moving.size();
+  const std::size_t n = world.scene().moving.size();
   const int kinds = turns ? 4 : 1;  // forces, or a force and a torque either way, or torques
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j)

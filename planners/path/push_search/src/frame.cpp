@@ -91,14 +91,14 @@ Aabb box_along(const Assembly& assembly, const std::vector<PlacedPart>& parts, c
 
 }  // namespace
 
-Eigen::Matrix3d own_axes(const Assembly& assembly, const Cast& cast) {
-  const auto moving = facings(assembly, cast.moving);
+Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene) {
+  const auto moving = facings(assembly, scene.moving);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const Vec3 first = main_axis(moving, Vec3::Zero());
   if (first.isZero(0)) return axes;
   Vec3 second = main_axis(moving, first);
-  if (second.isZero(0)) second = main_axis(facings(assembly, cast.still), first);
-  if (second.isZero(0)) second = furthest_from(assembly, cast.moving, first);
+  if (second.isZero(0)) second = main_axis(facings(assembly, scene.fixed), first);
+  if (second.isZero(0)) second = furthest_from(assembly, scene.moving, first);
   second -= first * first.dot(second);
   if (second.norm() < 1e-9) second = first.unitOrthogonal();
   axes.col(0) = first;
@@ -107,15 +107,15 @@ Eigen::Matrix3d own_axes(const Assembly& assembly, const Cast& cast) {
   return axes;
 }
 
-Extents::Extents(const Assembly& assembly, const Cast& cast, const Eigen::Matrix3d& axes)
-    : axes_(axes), moving_(box_along(assembly, cast.moving, axes)), still_(box_along(assembly, cast.still, axes)) {}
+Extents::Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes)
+    : axes_(axes), moving_(box_along(assembly, scene.moving, axes)), fixed_(box_along(assembly, scene.fixed, axes)) {}
 
 double Extents::way_out(const Vec3& direction) const {
   const Vec3 d = axes_.transpose() * direction;
   double way = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
-    if (d[k] > 1e-9) way = std::min(way, (still_.hi[k] - moving_.lo[k]) / d[k]);
-    if (d[k] < -1e-9) way = std::min(way, (still_.lo[k] - moving_.hi[k]) / d[k]);
+    if (d[k] > 1e-9) way = std::min(way, (fixed_.hi[k] - moving_.lo[k]) / d[k]);
+    if (d[k] < -1e-9) way = std::min(way, (fixed_.lo[k] - moving_.hi[k]) / d[k]);
   }
   return way;
 }

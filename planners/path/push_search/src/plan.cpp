@@ -205,7 +205,7 @@ PathResult ContactSearch::result() {
 std::unique_ptr<PathSearch> start(const PathQuery& query, const Tactics& tactics, RunContext& context,
                                   std::function<void()> between) {
   const Capabilities has = query.simulator.capabilities();
-  if (!has.dynamics || !has.contacts || has.max_moving < query.cast.moving.size())
+  if (!has.dynamics || !has.contacts || has.max_moving < query.scene.moving.size())
     return path::unsupported(
         "pushing needs a simulator with dynamics and "
         "contacts for all moving parts");

@@ -25,7 +25,7 @@ constexpr std::uint64_t kStrictNodes = 24;
 
 std::vector<path::Ball> balls(const World& world) {
   std::vector<path::Ball> result;
-  for (std::size_t i = 0; i < world.cast().moving.size(); ++i)
+  for (std::size_t i = 0; i < world.scene().moving.size(); ++i)
     result.push_back({world.center(i), world.space() == MotionSpace::translation ? 0.0 : world.radius(i)});
   return result;
 }
@@ -45,10 +45,10 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
     : query_(query),
       tactics_(tactics),
       context_(context),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, space)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, space)),
       bodies_(balls(*world_)),
-      axes_(tactics.own_axes ? own_axes(query.assembly, query.cast) : Eigen::Matrix3d::Identity()),
-      extents_(query.assembly, query.cast, axes_),
+      axes_(tactics.own_axes ? own_axes(query.assembly, query.scene) : Eigen::Matrix3d::Identity()),
+      extents_(query.assembly, query.scene, axes_),
       stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
               : space == MotionSpace::translation ? tactics.translating
                                                   : tactics.turning),
@@ -125,13 +125,13 @@ Path Search::path_to(std::int32_t node) const {
   return path;
 }
 
-/// The still parts that are touched there.
+/// The fixed parts that are touched there.
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
   std::vector<PartId> parts;
   const auto moves = [&](PartId part) {
-    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+    return std::any_of(query_.scene.moving.begin(), query_.scene.moving.end(),
                        [part](const PlacedPart& m) { return m.part == part; });
   };
   for (const auto& c : contacts)
@@ -171,7 +171,7 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   refusals_.push_back(std::move(path));
   result.message = check.reason;
   if (!check.has_witness) return RunEnd::refused;
-  world_->learn(check.part, check.other, check.point);
+  world_->add_contact_sample(check.part, check.other, check.point);
   lessons_.push_back({check.part, check.other, check.point});
   return RunEnd::refused_learned;
 }
@@ -252,7 +252,7 @@ void Search::finish(PathResult& result) const {
                   .spared = spared_,
                   .cost = static_cast<double>(steps_ + looks_),
                   .extra = {{"expanded", static_cast<double>(expanded_before_ + expanded_)}}};
-  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
+  result.blocked_by = path::most_touched(touched_, query_.scene.moving);
   result.best_pose = best_;
 }
 
@@ -278,7 +278,7 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
   if (turning()) return leaning_turns(node);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  const Freedom freedom = freedom_of(contacts, query_.cast.moving, extents_);
+  const Freedom freedom = freedom_of(contacts, query_.scene.moving, extents_);
   for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom))
     actions.push_back(push(*world_, tactics_.force, d));
   return actions;
@@ -371,7 +371,7 @@ PathResult Search::run(const Limits& limits) {
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->relax();
     may_relax_ = false;
-    reset();  // once more, with all the overlap that the judge allows
+    reset();  // once more, with all the overlap that the verifier allows
   }
   if (end == RunEnd::solved) {
     result.message.clear();

@@ -18,8 +18,8 @@ bool Search::out(const State& state) {
   if (query_.goal.any_of.empty()) return world_->separated(state);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto& leaving = query_.goal.any_of;
-    if (std::find(leaving.begin(), leaving.end(), query_.cast.moving[i].part) != leaving.end() &&
-        world_->leaves(state, i))
+    if (std::find(leaving.begin(), leaving.end(), query_.scene.moving[i].part) != leaving.end() &&
+        world_->body_separated(state, i))
       return true;
   }
   return false;
@@ -30,7 +30,7 @@ bool Search::out(const State& state) {
 double Search::way_from_start(const State& state) const {
   std::vector<double> ways;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Pose& start = query_.cast.moving[i].pose;
+    const Pose& start = query_.scene.moving[i].pose;
     const Pose& now = state.bodies[i].pose;
     ways.push_back((now * bodies_[i].center - start * bodies_[i].center).norm());
     if (!query_.goal.any_of.empty()) ways.back() += bodies_[i].radius * angle_between(now.q, start.q);
@@ -46,7 +46,7 @@ Path Search::with_room(const Path& rubbing) {
   for (std::size_t k = 1; k + 1 < path.size() && !out_of_budget(); ++k) {
     State state = world_->initial_state();
     for (std::size_t i = 0; i < bodies_.size(); ++i) state.bodies[i].pose = path[k][i];
-    world_->retreat(state, kRoom);
+    world_->project_to_clearance(state, kRoom);
     for (std::size_t i = 0; i < bodies_.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;

@@ -8,9 +8,9 @@
 namespace dismantle::push {
 namespace {
 
-std::vector<PartId> still_parts(const Cast& cast) {
+std::vector<PartId> fixed_parts(const Scene& scene) {
   std::vector<PartId> parts;
-  for (const auto& s : cast.still) parts.push_back(s.part);
+  for (const auto& s : scene.fixed) parts.push_back(s.part);
   std::sort(parts.begin(), parts.end());
   return parts;
 }
@@ -19,7 +19,7 @@ std::vector<PartId> still_parts(const Cast& cast) {
 
 Tree Search::tree() const {
   Tree tree;
-  tree.still = still_parts(query_.cast);
+  tree.fixed = fixed_parts(query_.scene);
   tree.nodes = nodes_;
   tree.passed = passed_;
   tree.passed_before = passed_before_;
@@ -33,9 +33,9 @@ Tree Search::tree() const {
 /// not there any more may lead on now, from where it ended: that state is given all its actions again, as if it were
 /// new. All other states keep the actions that they have had.
 void Search::resume(const Tree& tree) {
-  const std::vector<PartId> still = still_parts(query_.cast);
+  const std::vector<PartId> fixed = fixed_parts(query_.scene);
   std::vector<PartId> left;
-  std::set_difference(tree.still.begin(), tree.still.end(), still.begin(), still.end(), std::back_inserter(left));
+  std::set_difference(tree.fixed.begin(), tree.fixed.end(), fixed.begin(), fixed.end(), std::back_inserter(left));
   others_left_ = !left.empty();
   if (tree.relaxed) {
     world_->relax();
@@ -45,7 +45,7 @@ void Search::resume(const Tree& tree) {
     if (std::binary_search(left.begin(), left.end(), lesson.part) ||
         std::binary_search(left.begin(), left.end(), lesson.other))
       continue;
-    world_->learn(lesson.part, lesson.other, lesson.point);
+    world_->add_contact_sample(lesson.part, lesson.other, lesson.point);
     lessons_.push_back(lesson);
   }
   short_glides_ = tree.short_glides;

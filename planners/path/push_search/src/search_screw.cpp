@@ -107,7 +107,7 @@ void Search::feel(const State& state, std::vector<Contact>& contacts) {
     if (!report.finite) continue;
     for (Contact& c : there) {
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-        if (query_.cast.moving[i].part != c.moving) continue;
+        if (query_.scene.moving[i].part != c.moving) continue;
         const Pose back = state.bodies[i].pose * moved_on.bodies[i].pose.inverse();
         c.point = back * c.point;
         c.normal = back.q * c.normal;
@@ -123,10 +123,10 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   const double arm = world_->torque_arm(0);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  std::vector<Twist> slips = slipping(contacts, query_.cast.moving, center, arm);
+  std::vector<Twist> slips = slipping(contacts, query_.scene.moving, center, arm);
   if (slips.empty()) {
     feel(node.state, contacts);
-    slips = slipping(contacts, query_.cast.moving, center, arm);
+    slips = slipping(contacts, query_.scene.moving, center, arm);
   }
   std::vector<std::pair<double, Twist>> by_way;
   for (const Twist& t : slips)
@@ -199,7 +199,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   run.state = origin;
   run.last = from;
   run.first = static_cast<std::uint32_t>(nodes_.size());
-  world_->retreat(run.state, kGlideClearance);
+  world_->project_to_clearance(run.state, kGlideClearance);
   run.way.push_back(poses_of(run.state));
   const State start = run.state;
   double turned = 0;
@@ -225,7 +225,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
       run.way.clear();
     }
     turned += (run.length - before) * twist.angular.norm();
-    world_->retreat(run.state, kGlideClearance);
+    world_->project_to_clearance(run.state, kGlideClearance);
     run.way.push_back(poses_of(run.state));
     twist =
         refit(twist, start.bodies[0].pose, run.state.bodies[0].pose, bodies_[0].center, world_->torque_arm(0), turned);
@@ -240,7 +240,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
 /// The wrench that drives the bodies along a screw from where they are, turning with them.
 Action Search::along(const Twist& twist, const State& state, const Eigen::Vector3d& lean) const {
   Action action;
-  action.turns_along = true;
+  action.in_body_frame = true;
   const Eigen::Vector3d center = state.bodies[0].pose * bodies_[0].center;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Pose& pose = state.bodies[i].pose;

@@ -34,7 +34,7 @@ Assembly blocks(Rng& rng, const Pose& turned) {
   return a;
 }
 
-const Cast kFirstMoves{.moving = {{0, Pose{}}}, .still = {{1, Pose{}}}};
+const Scene kFirstMoves{.moving = {{0, Pose{}}}, .fixed = {{1, Pose{}}}};
 
 TEST(OwnAxes, AreOrthonormalAndTurnWithTheParts) {
   Rng rng(1);

@@ -29,15 +29,15 @@ struct Maze {
   /// Points that hold each other: is shown where a step would bring them, and may move those that nothing pushes;
   /// false: nobody moves.
   std::function<bool(State&, const Action&)> link{};
-  std::map<PartId, Aabb> gates{};  ///< closed while this part stands still
-  bool inside(const Vector3d& p, bool learned, const Cast& cast) const {
-    if (gate_at(p, cast)) return false;
+  std::map<PartId, Aabb> gates{};  ///< closed while this part stay fixed
+  bool inside(const Vector3d& p, bool learned, const Scene& scene) const {
+    if (gate_at(p, scene)) return false;
     for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
       if (box.contains(p)) return true;
     return false;
   }
-  std::optional<PartId> gate_at(const Vector3d& p, const Cast& cast) const {
-    for (const auto& s : cast.still)
+  std::optional<PartId> gate_at(const Vector3d& p, const Scene& scene) const {
+    for (const auto& s : scene.fixed)
       if (const auto gate = gates.find(s.part); gate != gates.end() && gate->second.contains(p)) return s.part;
     return std::nullopt;
   }
@@ -51,13 +51,13 @@ struct Notes {
 
 class MazeWorld final : public World {
  public:
-  MazeWorld(const Maze& maze, Notes& notes, const Cast& cast, MotionSpace space)
-      : maze_(maze), notes_(notes), cast_(cast), space_(space) {}
-  const Cast& cast() const override { return cast_; }
+  MazeWorld(const Maze& maze, Notes& notes, const Scene& scene, MotionSpace space)
+      : maze_(maze), notes_(notes), scene_(scene), space_(space) {}
+  const Scene& scene() const override { return scene_; }
   MotionSpace space() const override { return space_; }
   State initial_state() const override {
     State s;
-    for (const auto& m : cast_.moving) s.bodies.push_back({m.pose, Vector3d::Zero(), Vector3d::Zero()});
+    for (const auto& m : scene_.moving) s.bodies.push_back({m.pose, Vector3d::Zero(), Vector3d::Zero()});
     return s;
   }
   Vector3d center(std::size_t) const override { return Vector3d::Zero(); }
@@ -103,8 +103,8 @@ class MazeWorld final : public World {
         for (const double sign : {1.0, -1.0}) {
           const Vector3d& p = state.bodies[i].pose.t;
           const Vector3d beside = p + 0.03 * sign * Vector3d::Unit(axis);
-          if (maze_.inside(beside, learned_, cast_)) continue;
-          out.push_back({cast_.moving[i].part, maze_.gate_at(beside, cast_).value_or(cast_.still.front().part), p,
+          if (maze_.inside(beside, learned_, scene_)) continue;
+          out.push_back({scene_.moving[i].part, maze_.gate_at(beside, scene_).value_or(scene_.fixed.front().part), p,
                          -sign * Vector3d::Unit(axis), 0.0});
         }
   }
@@ -113,8 +113,10 @@ class MazeWorld final : public World {
       if (maze_.exit.contains(b.pose.t)) return false;
     return true;
   }
-  bool leaves(const State& state, std::size_t body) override { return !maze_.exit.contains(state.bodies[body].pose.t); }
-  void learn(PartId, PartId, const Vector3d&) override {
+  bool body_separated(const State& state, std::size_t body) override {
+    return !maze_.exit.contains(state.bodies[body].pose.t);
+  }
+  void add_contact_sample(PartId, PartId, const Vector3d&) override {
     ++notes_.learned;
     learned_ = true;
   }
@@ -123,18 +125,18 @@ class MazeWorld final : public World {
   /// As far as it goes; along a wall if the wall is in the way.
   bool move(Vector3d& p, const Vector3d& way) const {
     const Vector3d before = p;
-    if (maze_.inside(p + way, learned_, cast_)) {
+    if (maze_.inside(p + way, learned_, scene_)) {
       p += way;
     } else {
       for (int axis = 0; axis < 3; ++axis)
-        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, cast_)) p = next;
+        if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, scene_)) p = next;
     }
     return (p - before).norm() > 1e-12;
   }
 
   const Maze& maze_;
   Notes& notes_;
-  Cast cast_;
+  Scene scene_;
   MotionSpace space_;
   bool learned_ = false;
 };
@@ -143,12 +145,13 @@ class MazeSimulator final : public Simulator {
  public:
   MazeSimulator(Maze maze, Notes& notes) : maze_(std::move(maze)), notes_(notes) {}
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext&) override {
-    return std::make_shared<Prepared>();
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly&, double, RunContext&) override {
+    return std::make_shared<PreparedAssembly>();
   }
-  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast& cast, MotionSpace space) const override {
+  std::unique_ptr<World> world(const Assembly&, const PreparedAssembly&, const Scene& scene,
+                               MotionSpace space) const override {
     ++notes_.worlds;
-    return std::make_unique<MazeWorld>(maze_, notes_, cast, space);
+    return std::make_unique<MazeWorld>(maze_, notes_, scene, space);
   }
   Capabilities has{.dynamics = true, .contacts = true, .distance = true, .max_moving = 4};
 
@@ -189,7 +192,7 @@ inline Ruling accept(const Path&) {
   return ruling;
 }
 
-/// `moving` points start at the origin; part 9 stands still, and the gates that are `closed`. With `leaving` each goes
+/// `moving` points start at the origin; part 9 stay fixed, and the gates that are `closed`. With `leaving` each goes
 /// its own way. Goes on from what was `reached`.
 inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Budget& effort = {},
                    const Rule& rule = accept, RunContext context = {}, std::size_t moving = 1,
@@ -200,15 +203,15 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
   simulator.has = has;
   const Assembly assembly;
   const auto prepared = simulator.prepare(assembly, 0.01, context);
-  Cast cast;
-  for (std::size_t i = 0; i < moving; ++i) cast.moving.push_back({static_cast<PartId>(i), Pose{}});
-  cast.still.push_back({9, Pose{}});
-  for (const PartId gate : closed) cast.still.push_back({gate, Pose{}});
+  Scene scene;
+  for (std::size_t i = 0; i < moving; ++i) scene.moving.push_back({static_cast<PartId>(i), Pose{}});
+  scene.fixed.push_back({9, Pose{}});
+  for (const PartId gate : closed) scene.fixed.push_back({gate, Pose{}});
   const fake::RuleChecker checker([&](const Path& path) {
     run.judged.push_back(path);
     return rule(path);
   });
-  const PathQuery query{assembly, simulator, *prepared, cast, effort, 0.01, checker, {leaving}, reached};
+  const PathQuery query{assembly, simulator, *prepared, scene, effort, 0.01, checker, {leaving}, reached};
   run.result = plan_path(*registry().create<PathPlanner>(planner, given), query, context);
 }
 

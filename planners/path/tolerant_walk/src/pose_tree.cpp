@@ -20,8 +20,8 @@ constexpr double kRoom = 0.1;        // share of the looks in vain at which a tr
                                      // stuck; less is not what held it
 constexpr std::size_t kRepairs = 4;  // tries to shorten the same way, after it has been learned where it cuts
 
-bool stands(const Cast& cast, PartId part) {
-  return std::any_of(cast.still.begin(), cast.still.end(), [part](const PlacedPart& s) { return s.part == part; });
+bool stands(const Scene& scene, PartId part) {
+  return std::any_of(scene.fixed.begin(), scene.fixed.end(), [part](const PlacedPart& s) { return s.part == part; });
 }
 
 }  // namespace
@@ -34,33 +34,33 @@ PoseTree::PoseTree(const Parameters& parameters, const PathQuery& query, RunCont
       rng_(rng),
       deadline_(query.budget.timeout > 0 ? context.deadline.earlier(Deadline::after_seconds(query.budget.timeout))
                                          : context.deadline),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.cast, parameters.tolerance_share * query.tolerance, overlap, cache) {
-  const std::size_t count = query.cast.moving.size();
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, MotionSpace::rigid)),
+      tolerance_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache) {
+  const std::size_t count = query.scene.moving.size();
   for (std::size_t i = 0; i < count; ++i) {
     bodies_.push_back({world_->center(i), world_->radius(i)});
-    center_ += query.cast.moving[i].pose * bodies_[i].center / static_cast<double>(count);
+    center_ += query.scene.moving[i].pose * bodies_[i].center / static_cast<double>(count);
   }
   for (std::size_t i = 0; i < count; ++i)
-    radius_ = std::max(radius_, (query.cast.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
+    radius_ = std::max(radius_, (query.scene.moving[i].pose * bodies_[i].center - center_).norm() + bodies_[i].radius);
   nodes_.push_back({Pose{}, center_});
 }
 
-bool PoseTree::Reached::has_room_now(const Cast& cast) const {
+bool PoseTree::Reached::has_room_now(const Scene& scene) const {
   std::uint64_t all = 0, gone = 0;
   for (const auto& [part, count] : stuck_at) {
     all += count;
-    if (!stands(cast, part)) gone += count;
+    if (!stands(scene, part)) gone += count;
   }
   return gone > 0 && static_cast<double>(gone) >= kRoom * static_cast<double>(all);
 }
 
 void PoseTree::resume(const Reached& known) {
   const auto moves = [&](PartId part) {
-    return std::any_of(query_.cast.moving.begin(), query_.cast.moving.end(),
+    return std::any_of(query_.scene.moving.begin(), query_.scene.moving.end(),
                        [part](const PlacedPart& m) { return m.part == part; });
   };
-  const auto here = [&](PartId part) { return moves(part) || stands(query_.cast, part); };
+  const auto here = [&](PartId part) { return moves(part) || stands(query_.scene, part); };
   for (const Reached::Lesson& lesson : known.lessons) {
     if (!here(lesson.part) || !here(lesson.other)) continue;
     tolerance_.learn(lesson.part, lesson.other, lesson.point, lesson.displacement);
@@ -69,11 +69,11 @@ void PoseTree::resume(const Reached& known) {
   nodes_ = known.nodes;
   for (Node& node : nodes_) {  // parents come first
     const Node& parent = nodes_[node.parent];
-    if (node.cut && node.cut_by && !stands(query_.cast, *node.cut_by)) node.cut = false, node.cut_by.reset();
+    if (node.cut && node.cut_by && !stands(query_.scene, *node.cut_by)) node.cut = false, node.cut_by.reset();
     if (parent.cut && !node.cut) node.cut = true, node.cut_by = parent.cut_by;
   }
   for (const auto& [part, count] : known.touched)
-    if (stands(query_.cast, part)) touched_[part] = count;
+    if (stands(query_.scene, part)) touched_[part] = count;
   spared_ = known.looks;
   resumed_ = nodes_.size();
 }
@@ -92,7 +92,7 @@ bool PoseTree::halted() const { return context_.cancel.cancelled() || deadline_.
 
 std::vector<Pose> PoseTree::poses(const Pose& displacement) const {
   std::vector<Pose> list;
-  for (const auto& m : query_.cast.moving) {
+  for (const auto& m : query_.scene.moving) {
     Pose p = displacement * m.pose;
     p.q.normalize();
     list.push_back(p);
@@ -193,8 +193,8 @@ bool PoseTree::verified(std::uint32_t node, PathResult& result) {
     result.message = check.reason;
     if (!check.has_witness) return false;
     const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
-    by = stands(query_.cast, check.other) ? check.other : check.part;
-    at_fault = instant[0] * query_.cast.moving[0].pose.inverse();
+    by = stands(query_.scene, check.other) ? check.other : check.part;
+    at_fault = instant[0] * query_.scene.moving[0].pose.inverse();
     lessons_.push_back({check.part, check.other, check.point, at_fault});
     tightened = tolerance_.learn(check.part, check.other, check.point, at_fault);
     // What was learned may rule out some of the way itself.
@@ -216,8 +216,8 @@ void PoseTree::cut_off(std::uint32_t node, std::optional<PartId> by) {
   nodes_[node].cut_by = by;
 }
 
-/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the judge saw a fault,
-/// and what grew from it.
+/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the verifier saw a
+/// fault, and what grew from it.
 void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by) {
   std::uint32_t first = kNone;
   double least = std::numeric_limits<double>::infinity();
@@ -265,7 +265,7 @@ void PoseTree::finish(std::uint32_t best, PathResult& result) const {
                   .resumed_nodes = resumed_,
                   .spared = spared_,
                   .cost = static_cast<double>(looks_)};
-  result.blocked_by = path::most_touched(touched_, query_.cast.moving);
+  result.blocked_by = path::most_touched(touched_, query_.scene.moving);
 }
 
 }  // namespace dismantle::tolerant_walk

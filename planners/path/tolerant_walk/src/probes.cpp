@@ -15,7 +15,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr std::uint32_t kLeaf = 4;                    // probes
-constexpr double kOfThickness = 0.25;                 // what the judge lets a wall be penetrated
+constexpr double kOfThickness = 0.25;                 // what the verifier lets a wall be penetrated
 constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
 constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
 constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
@@ -88,7 +88,7 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
       const double thick = allowance.beyond / kOfThickness;
       const double thin = std::min(thickness_at(part, p - kLeastStep * beside, -normal, thick),
                                    thickness_at(part, p - kLeastStep * normal, -beside, thick));
-      // An acute edge is thin close to it: there is no telling how deep the judge lets it go.
+      // An acute edge is thin close to it: there is no telling how deep the verifier lets it go.
       const bool acute = allowance.exactly && normal.dot(beside) < kAcute;
       const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.beyond, kOfThickness * thin))};
       const auto [entry, is_new] = points.try_emplace(key_of(p), probe);

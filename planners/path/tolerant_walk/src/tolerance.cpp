@@ -15,7 +15,7 @@ constexpr std::size_t kElsewhere = 1000;  // and so many all over
 constexpr double kReach = 3, kLeastReach = 0.02;  // an overlap is excused so near the start: overlaps; assembly units
 constexpr double kOverlapShare = 0.125;           // of what is allowed beyond; less overlap is within it
 constexpr double kLeastShare = 0.0625;            // of what is allowed beyond: not less is aimed at
-constexpr double kLearned = 0.5;                  // share of what was too deep at a place that the judge has named
+constexpr double kLearned = 0.5;                  // share of what was too deep at a place that the verifier has named
 constexpr double kBeside = 0.05;                  // assembly units: what is so near such a place ...
 constexpr std::size_t kMostBeside = 100;          // ... counts as well, so many corners of triangles of it
 
@@ -23,17 +23,17 @@ double reach_of_overlap(double overlap) { return kLeastReach + kReach * overlap;
 
 }  // namespace
 
-Tolerance::Tolerance(const Assembly& assembly, const Cast& cast, double max_penetration, Overlap overlap,
+Tolerance::Tolerance(const Assembly& assembly, const Scene& scene, double max_penetration, Overlap overlap,
                      GeometryCache& cache)
-    : assembly_(assembly), cast_(cast), max_penetration_(max_penetration), overlap_(overlap), cache_(cache) {
+    : assembly_(assembly), scene_(scene), max_penetration_(max_penetration), overlap_(overlap), cache_(cache) {
   cache_.make_room();
-  for (const auto& m : cast_.moving) {
+  for (const auto& m : scene_.moving) {
     const Mesh& mesh = *assembly.parts[m.part].mesh;
     Ball ball{mesh.box().center(), 0};
     for (const auto& v : mesh.vertices) ball.radius = std::max(ball.radius, (v - ball.center).norm());
     balls_.push_back(ball);
   }
-  for (const auto& s : cast_.still) boxes_.push_back(assembly.parts[s.part].mesh->box());
+  for (const auto& s : scene_.fixed) boxes_.push_back(assembly.parts[s.part].mesh->box());
 }
 
 SolidField& Tolerance::field(PartId part) {
@@ -46,19 +46,19 @@ Allowance Tolerance::allowed(PartId a, PartId b) const {
   return {assembly_.initial_overlap(a, b), max_penetration_, overlap_ == Overlap::near_start};
 }
 
-Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& still) {
-  const auto key = std::pair(moving.part, still.part);
+Tolerance::Pair& Tolerance::pair(const PlacedPart& moving, const PlacedPart& fixed) {
+  const auto key = std::pair(moving.part, fixed.part);
   if (const auto known = pairs_.find(key); known != pairs_.end()) return known->second;
-  Allowance deep = allowed(moving.part, still.part);
+  Allowance deep = allowed(moving.part, fixed.part);
   const bool strict = overlap_ == Overlap::near_start && deep.overlap > kOverlapShare * max_penetration_;
   if (strict) deep = {0, deep.beyond, true};
-  return pairs_.emplace(key, probes(moving, still, deep, strict)).first->second;
+  return pairs_.emplace(key, probes(moving, fixed, deep, strict)).first->second;
 }
 
 /// `strict`: what is deeper at the start is excused near there.
-Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& still, const Allowance& deep,
+Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& fixed, const Allowance& deep,
                                   bool strict) {
-  const double reach = strict ? reach_of_overlap(allowed(moving.part, still.part).overlap) : 0;
+  const double reach = strict ? reach_of_overlap(allowed(moving.part, fixed.part).overlap) : 0;
   const auto make = [&](const PlacedPart& of, const PlacedPart& other, const Pose& to_part) {
     // Where the other stands, as seen from this one; dense there, sparse all over.
     Aabb near;
@@ -80,42 +80,42 @@ Tolerance::Pair Tolerance::probes(const PlacedPart& moving, const PlacedPart& st
     const GeometryCache::Pair key(field(of.part).mesh(), field(other.part).mesh(), to_part, deep, reach);
     return *cache_.probes(key, [&] { return make(of, other, to_part); });
   };
-  return {made(moving, still), made(still, moving), deep, strict, 0};
+  return {made(moving, fixed), made(fixed, moving), deep, strict, 0};
 }
 
-/// Where the judge sees deeper than samples do again, less is aimed at.
-bool Tolerance::tighten(const PlacedPart& moving, const PlacedPart& still, Pair& both) {
+/// Where the verifier sees deeper than samples do again, less is aimed at.
+bool Tolerance::tighten(const PlacedPart& moving, const PlacedPart& fixed, Pair& both) {
   if (overlap_ == Overlap::everywhere || both.refused < 2 || both.deep.beyond < kLeastShare * max_penetration_)
     return false;
   Allowance deep = both.deep;
   deep.beyond *= kLearned;
-  Pair next = probes(moving, still, deep, true);
+  Pair next = probes(moving, fixed, deep, true);
   next.refused = both.refused;
   next.of_moving.learn_from(both.of_moving);
-  next.of_still.learn_from(both.of_still);
+  next.of_fixed.learn_from(both.of_fixed);
   both = std::move(next);
   return true;
 }
 
-bool Tolerance::clear(const PlacedPart& moving, const Pose& at, const PlacedPart& still) {
-  Pair& both = pair(moving, still);
-  const Pose place = still.pose.inverse() * at;
-  return !both.of_moving.any_violated(place, field(still.part), asked_) &&
-         !both.of_still.any_violated(place.inverse(), field(moving.part), asked_);
+bool Tolerance::clear(const PlacedPart& moving, const Pose& at, const PlacedPart& fixed) {
+  Pair& both = pair(moving, fixed);
+  const Pose place = fixed.pose.inverse() * at;
+  return !both.of_moving.any_violated(place, field(fixed.part), asked_) &&
+         !both.of_fixed.any_violated(place.inverse(), field(moving.part), asked_);
 }
 
 bool Tolerance::allows(const Pose& displacement) {
-  for (std::size_t i = 0; i < cast_.moving.size(); ++i) {
-    const PlacedPart& moving = cast_.moving[i];
+  for (std::size_t i = 0; i < scene_.moving.size(); ++i) {
+    const PlacedPart& moving = scene_.moving[i];
     const Pose at = displacement * moving.pose;
-    for (std::size_t k = 0; k < cast_.still.size(); ++k) {
+    for (std::size_t k = 0; k < scene_.fixed.size(); ++k) {
       const std::size_t s = k == 0 ? first_ : k <= first_ ? k - 1 : k;
-      const PlacedPart& still = cast_.still[s];
+      const PlacedPart& fixed = scene_.fixed[s];
       // Fields and probes of what never comes near are never made.
-      const Eigen::Vector3d center = still.pose.inverse() * (at * balls_[i].center);
-      if (boxes_[s].squared_distance(center) > balls_[i].radius * balls_[i].radius || clear(moving, at, still))
+      const Eigen::Vector3d center = fixed.pose.inverse() * (at * balls_[i].center);
+      if (boxes_[s].squared_distance(center) > balls_[i].radius * balls_[i].radius || clear(moving, at, fixed))
         continue;
-      in_way_ = still.part;
+      in_way_ = fixed.part;
       first_ = s;
       return false;
     }
@@ -129,8 +129,8 @@ void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen
   const Allowance& most = both.deep;
   const double reach = reach_of_overlap(allowed(of.part, other.part).overlap);
   SolidField& solid = field(other.part);
-  // Where the judge refuses less than it tolerates elsewhere, it is because the wall is thin, or because it could not
-  // prove more. Half of what it refused, or else half of what it tolerates.
+  // Where the verifier refuses less than it tolerates elsewhere, it is because the wall is thin, or because it could
+  // not prove more. Half of what it refused, or else half of what it tolerates.
   const Eigen::Vector3d there = place * point;
   const double beyond = solid.at(there) < 0 ? solid.bvh().closest(there).distance - most.overlap : 0;
   const double keep = -most.overlap - kLearned * (beyond > 0 ? std::min(beyond, most.beyond) : most.beyond);
@@ -150,17 +150,17 @@ void Tolerance::learn(const PlacedPart& of, const PlacedPart& other, const Eigen
 
 bool Tolerance::learn(PartId part, PartId other, const Eigen::Vector3d& point, const Pose& displacement) {
   bool tightened = false;
-  for (const auto& moving : cast_.moving)
-    for (const auto& still : cast_.still) {
-      const Pose place = still.pose.inverse() * (displacement * moving.pose);
-      if (std::minmax(moving.part, still.part) != std::minmax(part, other)) continue;
-      Pair& both = pair(moving, still);
+  for (const auto& moving : scene_.moving)
+    for (const auto& fixed : scene_.fixed) {
+      const Pose place = fixed.pose.inverse() * (displacement * moving.pose);
+      if (std::minmax(moving.part, fixed.part) != std::minmax(part, other)) continue;
+      Pair& both = pair(moving, fixed);
       ++both.refused;
-      tightened = tighten(moving, still, both) || tightened;
+      tightened = tighten(moving, fixed, both) || tightened;
       if (moving.part == part)
-        learn(moving, still, point, place, both, both.of_moving);
+        learn(moving, fixed, point, place, both, both.of_moving);
       else
-        learn(still, moving, point, place.inverse(), both, both.of_still);
+        learn(fixed, moving, point, place.inverse(), both, both.of_fixed);
     }
   return tightened;
 }

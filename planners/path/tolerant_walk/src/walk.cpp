@@ -43,7 +43,7 @@ Walk::Walk(const Parameters& parameters, const PathQuery& query, RunContext& con
       tree_(parameters_, query, context, rng_, Overlap::everywhere, cache),
       most_looks_(query.budget.max_steps > 0 ? std::min(most_looks, query.budget.max_steps) : most_looks) {
   const auto* reached = dynamic_cast<const PoseTree::Reached*>(query.resume_from);
-  if (reached == nullptr || !reached->has_room_now(query.cast)) return;
+  if (reached == nullptr || !reached->has_room_now(query.scene)) return;
   tree_.resume(*reached);
   resumed_ = true;
   most_looks_ -= std::min(tree_.spared(), most_looks_ / 2);

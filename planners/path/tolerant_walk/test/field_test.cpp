@@ -131,13 +131,13 @@ TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
   for (int k = 0; k < 5; ++k) {
     const Pose turned = random_pose(rng, 1);
     const Mesh rod = moved(boxes({block(-1, 0, -0.03, 1, 0.04, 0.01)}), turned),
-               still = moved(boxes({block(-2, -1, -1, 2, 0.5, 0), block(-2, 1, -1, 2, 1.05, 1)}), turned);
-    Assembly assembly = assembly_of({rod, still});
-    assembly.overlaps.push_back({0, 1, penetration_depth(rod, Pose{}, still, Pose{}, 1e-4)});
-    const Cast cast{{{0, Pose{}}}, {{1, Pose{}}}};
+               fixed = moved(boxes({block(-2, -1, -1, 2, 0.5, 0), block(-2, 1, -1, 2, 1.05, 1)}), turned);
+    Assembly assembly = assembly_of({rod, fixed});
+    assembly.overlaps.push_back({0, 1, penetration_depth(rod, Pose{}, fixed, Pose{}, 1e-4)});
+    const Scene scene{{{0, Pose{}}}, {{1, Pose{}}}};
     GeometryCache cache;
-    Tolerance near_start(assembly, cast, 0.01, Overlap::near_start, cache),
-        everywhere(assembly, cast, 0.01, Overlap::everywhere, cache);
+    Tolerance near_start(assembly, scene, 0.01, Overlap::near_start, cache),
+        everywhere(assembly, scene, 0.01, Overlap::everywhere, cache);
     const auto at = [&](double y, double z) {
       return Pose{turned.q * Vector3d(0, y, z), Eigen::Quaterniond::Identity()};
     };
@@ -185,11 +185,11 @@ TEST(GeometryCache, ChangesNoAnswer) {
   for (int search = 0; search < 6; ++search) {
     const PartId moving = search % 2 == 0 ? 0 : 2;
     const Pose start = search < 4 ? Pose{} : random_pose(rng, 0.1);
-    const Cast cast{{{moving, start}}, {{1, Pose{}}}};
+    const Scene scene{{{moving, start}}, {{1, Pose{}}}};
     const Overlap overlap = search % 3 == 0 ? Overlap::near_start : Overlap::everywhere;
     GeometryCache fresh;
-    Tolerance anew(assembly, cast, 0.01, overlap, fresh);
-    Tolerance known(assembly, cast, 0.01, overlap, kept), poor(assembly, cast, 0.01, overlap, no_room);
+    Tolerance anew(assembly, scene, 0.01, overlap, fresh);
+    Tolerance known(assembly, scene, 0.01, overlap, kept), poor(assembly, scene, 0.01, overlap, no_room);
     for (int i = 0; i < 300; ++i) {
       if (i == 200)
         for (auto* tolerance : {&anew, &known, &poor}) tolerance->learn(moving, 1, Vector3d(0.5, 0.4, -0.02), Pose{});
@@ -232,8 +232,8 @@ TEST(GeometryCache, ChangesNoAnswerOfSeveralThreads) {
         threads.emplace_back([&, t] {
           for (int search = 0; search < 3; ++search) {
             const PartId moving = t % 2 == 0 ? 0 : 1;
-            const Cast cast{{{moving, Pose{}}}, {{1 - moving, Pose{}}}};
-            Tolerance tolerance(assembly, cast, 0.01, search == 1 ? Overlap::near_start : Overlap::everywhere, cache);
+            const Scene scene{{{moving, Pose{}}}, {{1 - moving, Pose{}}}};
+            Tolerance tolerance(assembly, scene, 0.01, search == 1 ? Overlap::near_start : Overlap::everywhere, cache);
             for (const Pose& at : poses) said[t].push_back(tolerance.allows(at));
           }
         });

@@ -13,7 +13,7 @@ using path::test::boxes;
 using path::test::Table;
 
 /// Part 0 on the slab that is part 1, between the walls that are parts 2 and 3.
-struct Scene {
+struct TestScene {
   Table table{assembly_of({boxes({block(0, 0, 0, 1, 1, 1)}), boxes({block(-3, -3, -1, 4, 4, -0.01)}),
                            boxes({block(-2, 0, 0, -1, 1, 1)}), boxes({block(2, 0, 0, 3, 1, 1)})})};
   Parameters parameters;
@@ -32,11 +32,11 @@ struct Scene {
     return ruling;
   }};
 
-  PathQuery query(const std::vector<PartId>& still) {
-    Cast cast;
-    cast.moving.push_back({0, Pose{}});
-    for (const PartId id : still) cast.still.push_back({id, Pose{}});
-    return {table.assembly, *table.simulator, *table.prepared, cast, {}, 0.01, checker};
+  PathQuery query(const std::vector<PartId>& fixed) {
+    Scene scene;
+    scene.moving.push_back({0, Pose{}});
+    for (const PartId id : fixed) scene.fixed.push_back({id, Pose{}});
+    return {table.assembly, *table.simulator, *table.prepared, scene, {}, 0.01, checker};
   }
   PoseTree tree(const PathQuery& query) {
     return PoseTree(parameters, query, context, rng, Overlap::everywhere, cache);
@@ -45,10 +45,10 @@ struct Scene {
 
 Pose up(double way) { return {Eigen::Vector3d(0, 0, way), Eigen::Quaterniond::Identity()}; }
 
-/// What the judge has cut off stays so, unless it was because of what has left.
+/// What the verifier has cut off stays so, unless it was because of what has left.
 TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
   for (const PartId blamed : {PartId{2}, PartId{3}}) {
-    Scene s;
+    TestScene s;
     s.blamed = blamed;
     const PathQuery all = s.query({1, 2, 3}), fewer = s.query({1, 3});
     PoseTree tree = s.tree(all);
@@ -76,22 +76,22 @@ TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
 /// It has room now where what it was stuck at since it last came further has left: not what was in its way before, nor
 /// what was hardly ever.
 TEST(PoseTreeResume, HasRoomWhereWhatItWasStuckAtHasLeft) {
-  Scene s;
+  TestScene s;
   const PathQuery all = s.query({1, 2, 3});
   PoseTree tree = s.tree(all);
   const auto bump = [&](double way, int times) {
     for (int k = 0; k < times; ++k) EXPECT_FALSE(tree.allowed({{way, 0, 0}, Eigen::Quaterniond::Identity()}));
   };
   bump(-1.5, 100);  // into part 2
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 3}).cast));
-  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 2}).cast));
-  EXPECT_FALSE(tree.reached()->has_room_now(all.cast));
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 3}).scene));
+  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 2}).scene));
+  EXPECT_FALSE(tree.reached()->has_room_now(all.scene));
   tree.note_progress();
   bump(1.5, 100);  // into part 3
   bump(-1.5, 5);
-  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 3}).cast));
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 2}).cast));
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1}).cast));
+  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 3}).scene));
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 2}).scene));
+  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1}).scene));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A peg with a bead that is wider than its hole: it comes out exactly when the judge tolerates that much.
+// A peg with a bead that is wider than its hole: it comes out exactly when the verifier tolerates that much.
 #include "dismantle/tolerant_walk/walk.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ Assembly snapped(double bead, const Pose& turned) {
 
 TEST(TolerantRrt, TakesOutWhatSnapsWithinTheTolerance) {
   Table table(snapped(0.004, Pose{}));
-  const PathResult r = table.plan("tolerant_rrt", {{"looks", std::int64_t{100'000}}}, 1, 0);
+  const PathResult r = table.plan("tolerant_rrt", {{"state_checks", std::int64_t{100'000}}}, 1, 0);
   ASSERT_EQ(r.outcome(), Outcome::solved) << r.message;
   EXPECT_GE(table.judged, 1U);
   const MotionCheck check = table.verifier.check_motion({0}, {{1, Pose{}}}, r.path()->poses());
@@ -46,7 +46,7 @@ TEST(TolerantRrt, TakesOutWhatSnapsWithinTheTolerance) {
 
 TEST(TolerantRrt, NeverTakesOutWhatSnapsDeeper) {
   Table table(snapped(0.03, Pose{}));
-  const PathResult r = table.plan("tolerant_rrt", {{"looks", std::int64_t{1500}}}, 1, 0);
+  const PathResult r = table.plan("tolerant_rrt", {{"state_checks", std::int64_t{1500}}}, 1, 0);
   EXPECT_TRUE(r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted);
   EXPECT_FALSE(r.path());
   ASSERT_FALSE(r.blocked_by.empty());

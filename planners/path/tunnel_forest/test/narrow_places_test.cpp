@@ -70,11 +70,11 @@ TEST(TunnelPoses, BringNarrowPlacesTogether) {
   ASSERT_FALSE(poses.empty());
   for (int k = 0; k < 200; ++k) {
     const auto match = poses.draw(rng);
-    EXPECT_LT((match.displacement * match.on_moving - match.on_still).norm(), 1e-9);
+    EXPECT_LT((match.displacement * match.on_moving - match.on_fixed).norm(), 1e-9);
     EXPECT_NEAR(match.displacement.q.norm(), 1, 1e-9);
     EXPECT_GT(match.reach, 0);
     EXPECT_TRUE(std::any_of(ring.gaps.begin(), ring.gaps.end(),
-                            [&](const NarrowPlace& g) { return g.middle == match.on_still; }));
+                            [&](const NarrowPlace& g) { return g.middle == match.on_fixed; }));
   }
 }
 

@@ -1,4 +1,4 @@
-// The planner over sdf_penalty, judged by the verifier, on mazes and linked rings, turned at random.
+// The planner over sdf_penalty, verified with the verifier, on mazes and linked rings, turned at random.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -61,7 +61,7 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
   using End = TranslationSearch::End;
   group.translations_limited = found.end == End::too_long;
   group.translations_exhausted = found.end == End::exhausted;
-  state_.count("slide_states", static_cast<double>(found.states));
+  state_.count("translation_states", static_cast<double>(found.states));
   std::string& note = progress_[group].note;
   if (found.end == End::exhausted)
     note = std::to_string(found.states) +
@@ -112,7 +112,7 @@ bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, 
   answer = &oracle_.propose(attempt, path, state_.context());
   if (!is_success(answer->result.outcome())) return false;
   state_.commit(group, ids, attempt, *answer, GroupChange::Kind::translated);
-  state_.count("shifts");
+  state_.count("translations");
   return true;
 }
 

@@ -146,7 +146,7 @@ bool RotationInPlace::commit(GroupState& group, SubassemblyId id, const Path& pa
   const AttemptResult& answer = oracle_.propose(attempt, path, state_.context());
   if (!is_success(answer.result.outcome())) return false;
   state_.commit(group, {id}, attempt, answer, GroupChange::Kind::rotated);
-  state_.count("turns");
+  state_.count("rotations");
   return true;
 }
 

@@ -125,7 +125,7 @@ bool SimultaneousMotion::move(GroupState& group, const std::vector<Subassemblies
                                    std::to_string(answer.seconds) + " s " + result.message);
   if (is_success(result.outcome())) {
     state_.commit(group, ids, *attempt, answer, GroupChange::Kind::one_removed);
-    state_.count("at_once");
+    state_.count("simultaneous");
     return true;
   }
   unsupported_ = unsupported_ || result.outcome() == Outcome::unsupported;

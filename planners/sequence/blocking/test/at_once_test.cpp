@@ -19,7 +19,7 @@ struct AtOnce {
     if (q.goal.any_of.empty()) return fake::outcome(Outcome::depth_limit);
     leaving->push_back(q.goal.any_of);
     const PathResult none = fake::outcome(Outcome::depth_limit);
-    if (q.cast.moving.size() != 2 || q.cast.moving[0].part != 1) return none;
+    if (q.scene.moving.size() != 2 || q.scene.moving[0].part != 1) return none;
     Path path(3, {Pose{}, Pose{}});
     path[1][0].t.x() = path[2][0].t.x() = 2;
     path[2][1].t.z() = 8;
@@ -39,14 +39,14 @@ TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
       std::vector<std::vector<PartId>> leaving;
       RunContext context;
       context.threads = threads;
-      RunResult r = run(barred_shaft(), fake::ingredients(AtOnce{&leaving}, std::make_shared<Blocking>(params)),
-                        RunOptions{}, context);
+      RunResult r =
+          run(barred_shaft(), fake::setup(AtOnce{&leaving}, std::make_shared<Blocking>(params)), RunOptions{}, context);
       ASSERT_EQ(r.plan.disassembly.size(), at_once ? 1u : 0u);
       if (!at_once) {
         EXPECT_TRUE(leaving.empty());
         continue;
       }
-      EXPECT_EQ(leaving, (std::vector<std::vector<PartId>>{{1, 2}})) << "the housing stands still";
+      EXPECT_EQ(leaving, (std::vector<std::vector<PartId>>{{1, 2}})) << "the housing stay fixed";
       const PlanStep& step = r.plan.disassembly[0];
       EXPECT_EQ(step.moves.size(), 2u);
       EXPECT_EQ(step.separates, (std::vector<std::vector<std::string>>{{"drawer"}}));
@@ -70,7 +70,7 @@ TEST(Blocking, WhoMayNotLeaveOrMoveIsNotAskedForAtOnce) {
     RunOptions options;
     options.constraints = constraints;
     RunContext context;
-    run(barred_shaft(), fake::ingredients(AtOnce{&leaving}, std::make_shared<Blocking>(params)), options, context);
+    run(barred_shaft(), fake::setup(AtOnce{&leaving}, std::make_shared<Blocking>(params)), options, context);
     return leaving;
   };
   Constraints before, base, together;
@@ -112,8 +112,8 @@ TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
     PathResult r = fake::outcome(Outcome::depth_limit);
     if (q.goal.any_of.empty()) return r;
     ++asked;  // on one thread
-    EXPECT_LE(q.cast.moving.size(), 3u);
-    for (const PlacedPart& p : q.cast.moving) {
+    EXPECT_LE(q.scene.moving.size(), 3u);
+    for (const PlacedPart& p : q.scene.moving) {
       EXPECT_NE(p.part, PartId{0});
       r.best_pose.push_back({p.pose.t + Eigen::Vector3d(0.5, 0, 0), p.pose.q});
     }
@@ -123,7 +123,7 @@ TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
   params.groups = params.turns = false;
   params.slide_states = 0;
   RunContext context;
-  const RunResult r = run(many, fake::ingredients(in_vain, std::make_shared<Blocking>(params)), RunOptions{}, context);
+  const RunResult r = run(many, fake::setup(in_vain, std::make_shared<Blocking>(params)), RunOptions{}, context);
   EXPECT_TRUE(r.plan.disassembly.empty());
   EXPECT_EQ(asked, 14u) << "twelve of sixteen a little, two of them more";
 }

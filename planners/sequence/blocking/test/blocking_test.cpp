@@ -83,7 +83,7 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
   no_slides.slide_states = 0;
   RunContext context;
   const RunResult without =
-      run(barred_shaft(), fake::ingredients(helpless, std::make_shared<Blocking>(no_slides)), RunOptions{}, context);
+      run(barred_shaft(), fake::setup(helpless, std::make_shared<Blocking>(no_slides)), RunOptions{}, context);
   EXPECT_TRUE(without.plan.disassembly.empty());
 }
 
@@ -163,7 +163,7 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
       params.slide_states = 0;
       RunContext context;
       const RunResult r =
-          run(assembly, fake::ingredients(helpless, std::make_shared<Blocking>(params)), RunOptions{}, context);
+          run(assembly, fake::setup(helpless, std::make_shared<Blocking>(params)), RunOptions{}, context);
       ASSERT_EQ(r.plan.disassembly.size(), turns ? 3u : 0u);
       if (!turns) continue;
       EXPECT_TRUE(r.plan.disassembly[0].separates.empty()) << "turned, and still there";

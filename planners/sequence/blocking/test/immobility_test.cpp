@@ -70,7 +70,7 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
       RunResult r =
           take_apart(cased_pairs(3), 1, {}, &shallow, {{"listed", std::make_shared<ListedProver>(effort, listed)}});
       EXPECT_NE(r.outcome, Outcome::solved);
-      EXPECT_EQ(r.sequence_counts["held"], static_cast<double>(listed.size()));
+      EXPECT_EQ(r.sequence_counts["merged"], static_cast<double>(listed.size()));
       EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves are apart";
       std::set<std::string> reported;
       for (const auto& u : r.plan.unsolved)
@@ -90,9 +90,9 @@ TEST(BlockingProofs, NothingIsMergedWhereThatIsSwitchedOff) {
   const auto prover =
       std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{{0, 1}, {2, 3}});
   RunResult off = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}}, params);
-  EXPECT_EQ(off.sequence_counts["held"], 0);
+  EXPECT_EQ(off.sequence_counts["merged"], 0);
   RunResult on = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}});
-  EXPECT_EQ(on.sequence_counts["held"], 2);
+  EXPECT_EQ(on.sequence_counts["merged"], 2);
 }
 
 TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreMergedTogether) {
@@ -102,7 +102,7 @@ TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreMergedTogether) {
       assembly, 1, {}, &fake::helpless,
       {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1, 2}}, 3)}});
   EXPECT_TRUE(r.plan.disassembly.empty());
-  EXPECT_EQ(r.sequence_counts["held"], 2) << "three became one";
+  EXPECT_EQ(r.sequence_counts["merged"], 2) << "three became one";
   EXPECT_GT(r.counts.attempts, 0) << "the proof comes after the searches";
   ASSERT_EQ(r.plan.unsolved.size(), 3u);
   for (const auto& u : r.plan.unsolved) {
@@ -156,7 +156,7 @@ TEST(BlockingProofs, SamePlanOnAnyNumberOfThreads) {
     RunResult r = take_apart(
         cased_pairs(2), threads, {}, &shallow,
         {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1}, {2, 3}})}});
-    EXPECT_EQ(r.sequence_counts["held"], 2);
+    EXPECT_EQ(r.sequence_counts["merged"], 2);
     for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
     for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
     for (PlanUnsolved& u : r.plan.unsolved) u.seconds = 0;

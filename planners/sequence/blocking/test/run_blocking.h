@@ -18,7 +18,7 @@ inline PathResult helpless(const PathQuery&, RunContext&) { return outcome(Outco
 /// As if it touched all that is there, and might find more a little deeper.
 inline PathResult shallow(const PathQuery& query, RunContext&) {
   PathResult r = outcome(query.budget.max_depth == 0 ? Outcome::exhausted : Outcome::depth_limit);
-  for (const PlacedPart& p : query.cast.still) r.blocked_by.push_back(p.part);
+  for (const PlacedPart& p : query.scene.fixed) r.blocked_by.push_back(p.part);
   return r;
 }
 
@@ -33,7 +33,7 @@ inline RunResult take_apart(const Assembly& assembly, unsigned threads = 1, cons
       if (named.id == kind) return named.prover;
     return nullptr;
   };
-  Ingredients used = ingredients(std::move(planner), std::make_shared<Blocking>(params));
+  PlanningSetup used = setup(std::move(planner), std::make_shared<Blocking>(params));
   used.provers = provers;
   RunResult r = run(assembly, used, options, context);
   const PlanCheck check = check_plan(r.plan, assembly, options.verify, context, prover_of);

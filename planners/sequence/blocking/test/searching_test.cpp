@@ -45,10 +45,10 @@ TEST(BlockingSearches, EachMayResumeTheLastOfThePart) {
       const PartId part = now.moving[0].part;
       if (const auto before = last.find(part); before != last.end()) {
         const Attempt& then = oracle.questions[before->second];
-        EXPECT_LE(now.still.size(), then.still.size());
-        for (const PlacedPart& s : now.still)
+        EXPECT_LE(now.fixed.size(), then.fixed.size());
+        for (const PlacedPart& s : now.fixed)
           EXPECT_TRUE(
-              std::any_of(then.still.begin(), then.still.end(), [&](const PlacedPart& t) { return t.part == s.part; }));
+              std::any_of(then.fixed.begin(), then.fixed.end(), [&](const PlacedPart& t) { return t.part == s.part; }));
         ++again;
       }
       last[part] = k;

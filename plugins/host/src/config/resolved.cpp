@@ -4,7 +4,7 @@
 
 #include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 
 namespace dismantle {
 namespace {

@@ -14,11 +14,11 @@
 namespace dismantle::bench {
 
 struct CampaignOptions {
-  std::filesystem::path folder;            ///< results, inputs, configurations, work in progress
-  unsigned jobs = 1;                       ///< trials at once
-  unsigned shard = 1, shards = 1;          ///< this is shard `shard` of `shards`, with a database of its own
-  std::vector<std::string> plan_command;   ///< program and arguments; the folder of the trial is appended
-  std::vector<std::string> judge_command;  ///< likewise
+  std::filesystem::path folder;             ///< results, inputs, configurations, work in progress
+  unsigned jobs = 1;                        ///< trials at once
+  unsigned shard = 1, shards = 1;           ///< this is shard `shard` of `shards`, with a database of its own
+  std::vector<std::string> plan_command;    ///< program and arguments; the folder of the trial is appended
+  std::vector<std::string> verify_command;  ///< likewise
 };
 
 struct CampaignResult {

@@ -17,7 +17,7 @@ struct ReportRow {
   std::filesystem::path database;
   std::int64_t id = 0;  ///< in that database
   std::string assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, counts,
-      input, last_words, judgement;
+      input, last_words, verification;
   std::int64_t seed = 0, signal = 0;
   bool solved = false;
   std::optional<bool> verified;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/host/config.h"
 #include "dismantle/export.h"
+#include "dismantle/host/config.h"
 #include "dismantle/parameters.h"
 
 namespace dismantle::bench {
@@ -56,7 +56,7 @@ struct Suite {
   std::vector<SuiteVariant> variants;
   std::vector<std::int64_t> seeds;
   Limits limits;
-  double max_penetration = 0.01;   ///< assembly units; what the judge allows, whatever a planner's configuration says
+  double max_penetration = 0.01;  ///< assembly units; what the verifier allows, whatever a planner's configuration says
   std::vector<std::string> notes;  ///< what was left aside because it is not there
 };
 

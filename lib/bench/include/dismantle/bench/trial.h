@@ -1,4 +1,4 @@
-/// One trial, as the processes see it that do it: files in, files out. A process plans, another one judges.
+/// One trial, as the processes see it that do it: files in, files out. A process plans, another one verifies.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct TrialRequest {
   std::string part;               ///< empty: the whole assembly
   std::filesystem::path inputs;   ///< folder for assemblies that are made: samples, turned ones, moved ones
   std::string input_name;         ///< of such an assembly in that folder
-  double max_penetration = 0.01;  ///< of an assembly of size 10; for the judge
+  double max_penetration = 0.01;  ///< of an assembly of size 10; for the verifier
 };
 
 /// Files in the folder of a trial.
@@ -28,7 +28,7 @@ inline constexpr const char* kRequestFile = "request.json";
 inline constexpr const char* kResultFile = "result.json";     ///< absent when the trial did not end by itself
 inline constexpr const char* kProgressFile = "progress.txt";  ///< a line "seconds removed" per step
 inline constexpr const char* kPlanFile = "plan.json";         ///< saved while it grows
-inline constexpr const char* kJudgementFile = "judgement.json";
+inline constexpr const char* kVerificationFile = "verification.json";
 
 /// Exit status of a trial whose memory was not enough: it ends at the first request that is refused.
 inline constexpr int kOutOfMemory = 86;
@@ -38,6 +38,6 @@ DISMANTLE_API void write_request(const TrialRequest& request, const std::filesys
 /// Plans what `folder` asks for. @throws ConfigError, InputError, PluginError as `dismantle plan` does.
 DISMANTLE_API void plan_trial(const std::filesystem::path& folder);
 /// Checks the plan in `folder` with the verifier, in a process that no planner was loaded into.
-DISMANTLE_API void judge_trial(const std::filesystem::path& folder);
+DISMANTLE_API void verify_trial(const std::filesystem::path& folder);
 
 }  // namespace dismantle::bench

@@ -28,7 +28,7 @@ struct NamedProver {
 };
 
 /// How each kind is made; called once per thread for path and transfer planners.
-struct Ingredients {
+struct PlanningSetup {
   std::shared_ptr<Simulator> simulator;
   std::function<std::shared_ptr<PathPlanner>()> path_planner;
   std::shared_ptr<SequencePlanner> sequence_planner;  ///< unused when `only_part` is set
@@ -42,7 +42,7 @@ struct Ingredients {
 struct RunOptions {
   double path_timeout = 120;     ///< seconds per attempt, 0 = none
   std::uint64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
-  std::string only_part;         ///< plan just this part's path, all others still
+  std::string only_part;         ///< plan just this part's path, all others fixed
   VerifyOptions verify;
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
@@ -64,15 +64,15 @@ struct RunResult {
 
 /// Runs to the end, the deadline or cancellation; in each case the result holds every finished step.
 /// `on_step` (may be empty) is called after each step with the plan so far.
-DISMANTLE_API RunResult run(const Assembly& assembly, const Ingredients& ingredients, const RunOptions& options,
+DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options,
                             RunContext& context, const std::function<void(const Plan&)>& on_step = {});
 
 /// The plan before the first step: what can be saved of a run that a plugin never gave back.
 DISMANTLE_API Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options);
 
 /// The oracle that `run` uses; public for tests and for sequence planners' authors.
-DISMANTLE_API std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const Prepared& prepared,
-                                                      const Ingredients& ingredients, const RunOptions& options,
+DISMANTLE_API std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,
+                                                      const PlanningSetup& setup, const RunOptions& options,
                                                       const Verifier& verifier, RunContext& context);
 
 }  // namespace dismantle

@@ -59,7 +59,7 @@ struct Escape {
 Escape escape_at(const Eigen::Vector3d& point, const Solid& solid);
 
 /// An edge of the patch whose ends have different ways out, and the place on it where both ways are equally long: there
-/// the depth has a ridge, and pieces on either side of it are easier to judge. None after two halvings in a row: where
+/// the depth has a ridge, and pieces on either side of it are easier to verify. None after two halvings in a row: where
 /// ridges meet, cutting along one would never come to an end.
 struct Ridge {
   std::size_t edge;

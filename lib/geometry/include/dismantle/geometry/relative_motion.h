@@ -23,14 +23,14 @@ struct Placement {
 /// Time runs from 0 to segments(); segment k joins instants k and k + 1 by the screw motions of both parts.
 class RelativeMotion {
  public:
-  /// Poses of part A and of part B, instant by instant; one pose alone stands still. `box` holds the points of A
+  /// Poses of part A and of part B, instant by instant; one pose alone stay fixed. `box` holds the points of A
   /// (its assembled frame) for which deviation() has to hold. At least one pose each; equal numbers if both move.
   RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const Aabb& box);
 
   std::size_t segments() const { return at_instant_.size() - 1; }
   /// Takes points of A to the frame of B.
   Pose at(double s) const;
-  /// One of the parts stands still in segment k, so that the other's screw motion is the relative motion.
+  /// One of the parts stay fixed in segment k, so that the other's screw motion is the relative motion.
   bool is_screw(std::size_t k) const { return screws_[k].known; }
   const std::array<Eigen::Vector3d, 8>& corners() const { return corners_; }  ///< of the box
   /// No point of the box leaves where it is in the frame of B by more than `tolerance`.
@@ -38,7 +38,7 @@ class RelativeMotion {
   /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are
   /// (1 - w) x(s0) + w x(s1) for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
   double deviation(double s0, double s1) const;
-  /// A segment on which one of the parts stands still: velocity v + w x (x - origin) of the other where the points of
+  /// A segment on which one of the parts stay fixed: velocity v + w x (x - origin) of the other where the points of
   /// A are at its beginning (world).
   struct Screw {
     bool known = false;

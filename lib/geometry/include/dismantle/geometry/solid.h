@@ -1,17 +1,17 @@
-/// A part as the judge sees it: closed shells grouped into solids, with all that sweeps need of each, built once.
+/// A part as the verifier sees it: closed shells grouped into solids, with all that sweeps need of each, built once.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/mesh.h"
 #include "dismantle/pose.h"
-#include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::geometry {
 
-/// One outer shell and the voids within it. A part whose shells overlap is judged solid by solid: the surface of
+/// One outer shell and the voids within it. A part whose shells overlap is verified solid by solid: the surface of
 /// one shell inside another must not make a deep penetration look shallow. Immutable.
 struct Solid {
   explicit Solid(const Mesh& m);

@@ -1,4 +1,4 @@
-/// The judge: checks plans on the original triangles, sharing nothing with any simulator (DESIGN section 7).
+/// The verifier: checks plans on the original triangles, sharing nothing with any simulator (DESIGN section 7).
 #pragma once
 
 #include <cstdint>
@@ -69,16 +69,16 @@ class DISMANTLE_API Verifier {
   Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
   ~Verifier();
 
-  /// (b): the moving parts follow `path` (columns as `moving`) past `still`. Pairs that do not move
+  /// (b): the moving parts follow `path` (columns as `moving`) past `fixed`. Pairs that do not move
   /// relative to each other are not looked at.
-  MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still,
+  MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                            const Path& path) const;
   /// The same with so many threads, until told to stop.
-  MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& still, const Path& path,
+  MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed, const Path& path,
                            const RunContext& context) const;
   /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
   /// means refused, or not proved with a small share of the effort.
-  bool passes(PartId moving, PartId still, const Pose& still_at, const std::vector<Pose>& way) const;
+  bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;

@@ -12,9 +12,9 @@ namespace dismantle::abi {
 
 inline constexpr std::uint64_t kBoundaryLayout =
     layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
-                Importer, Capabilities, PlacedPart, Cast, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
-                World, Prepared, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState, Goal,
-                PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
+                Importer, Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
+                World, PreparedAssembly, Simulator, Outcome, Budget, VerifiedPath, PathCheck, PathChecker, SearchState,
+                Goal, PathQuery, SearchStats, PathResult, PathPlannerTraits, SearchStatus, PathSearch, PathPlanner,
                 FunctionPathPlanner, TransferQuery, TransferPlanner, Constraints, Attempt, AttemptResult, OracleCounts,
                 PathOracle, Removal, Unsolved, SequenceResult, SequenceObserver, SequencePlanner, Certificate,
                 ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,

@@ -71,9 +71,9 @@ class FakeOracle final : public PathOracle {
       return results_.back();
     }
     const PartId part = a.moving.at(0).part;
-    for (const auto& still : a.still)
-      if (std::count(machine_.before[part].begin(), machine_.before[part].end(), still.part) != 0)
-        r.blocked_by.push_back(still.part);
+    for (const auto& fixed : a.fixed)
+      if (std::count(machine_.before[part].begin(), machine_.before[part].end(), fixed.part) != 0)
+        r.blocked_by.push_back(fixed.part);
     const bool deep_enough = a.max_depth == 0 || a.max_depth >= machine_.depth[part];
     if (!deep_enough) {
       r.fail(Outcome::depth_limit);

@@ -83,20 +83,20 @@ inline Assembly row(unsigned n) {
 class Physics final : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return has; }
-  std::shared_ptr<const Prepared> prepare(const Assembly&, double, RunContext& context) override {
+  std::shared_ptr<const PreparedAssembly> prepare(const Assembly&, double, RunContext& context) override {
     if (on_prepare) on_prepare(context);
-    return std::make_shared<Prepared>();
+    return std::make_shared<PreparedAssembly>();
   }
-  std::unique_ptr<World> world(const Assembly&, const Prepared&, const Cast&, MotionSpace) const override {
+  std::unique_ptr<World> world(const Assembly&, const PreparedAssembly&, const Scene&, MotionSpace) const override {
     throw std::logic_error("the fake simulator has no worlds");
   }
   Capabilities has{.dynamics = true, .contacts = true, .distance = true, .max_moving = 4};
   std::function<void(RunContext&)> on_prepare;
 };
 
-inline Path straight(const Cast& cast, const Eigen::Vector3d& way) {
+inline Path straight(const Scene& scene, const Eigen::Vector3d& way) {
   Path path(2);
-  for (const auto& p : cast.moving) {
+  for (const auto& p : scene.moving) {
     path[0].push_back(p.pose);
     path[1].push_back(Pose{p.pose.t + way, p.pose.q});
   }
@@ -117,14 +117,14 @@ inline PathResult push(const PathQuery& query, RunContext& context) {
       result.fail(Outcome::cancelled);
       return result;
     }
-    PathCheck check = query.checker.check(straight(query.cast, ways[i]));
+    PathCheck check = query.checker.check(straight(query.scene, ways[i]));
     result.stats.extra["checked"] += 1;
     if (check.accepted()) {
       result.solve(std::move(*check.verified), 1);
       return result;
     }
     if (check.has_witness)
-      result.blocked_by.push_back(check.part == query.cast.moving[0].part ? check.other : check.part);
+      result.blocked_by.push_back(check.part == query.scene.moving[0].part ? check.other : check.part);
   }
   return result;
 }
@@ -161,8 +161,8 @@ class Scripted final : public FunctionPathPlanner {
   Script script_;
 };
 
-inline Ingredients ingredients(Script script, std::shared_ptr<SequencePlanner> sequence = nullptr) {
-  Ingredients i;
+inline PlanningSetup setup(Script script, std::shared_ptr<SequencePlanner> sequence = nullptr) {
+  PlanningSetup i;
   i.simulator = std::make_shared<Physics>();
   i.path_planner = [script] { return std::make_shared<Scripted>(script); };
   i.sequence_planner = std::move(sequence);
@@ -183,7 +183,7 @@ inline Attempt leave(const Assembly& assembly, PartId part, unsigned max_depth =
   a.max_depth = max_depth;
   a.moving.push_back({part, Pose{}});
   for (const auto& p : assembly.parts)
-    if (p.id != part) a.still.push_back({p.id, Pose{}});
+    if (p.id != part) a.fixed.push_back({p.id, Pose{}});
   return a;
 }
 

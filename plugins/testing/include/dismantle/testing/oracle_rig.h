@@ -12,7 +12,7 @@
 namespace dismantle::fake {
 
 struct Rig {
-  Rig(Assembly a, Ingredients i, unsigned threads = 1, RunOptions o = {})
+  Rig(Assembly a, PlanningSetup i, unsigned threads = 1, RunOptions o = {})
       : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {
     context.threads = threads;
     if (threads > 1) context.executor = std::make_shared<Executor>(threads);
@@ -25,10 +25,10 @@ struct Rig {
   const AttemptResult& ask(const Attempt& a) { return oracle->attempt(a, context); }
 
   Assembly assembly;
-  Ingredients parts;
+  PlanningSetup parts;
   RunOptions options;
   Verifier verifier;
-  Prepared prepared;
+  PreparedAssembly prepared;
   RunContext context;
   std::vector<std::string> errors;
   std::unique_ptr<PathOracle> oracle;

@@ -49,14 +49,14 @@ class InTurn : public SequencePlanner {
     Attempt a;
     a.moving.push_back({part, Pose{}});
     for (const PartId id : left)
-      if (id != part) a.still.push_back({id, Pose{}});
+      if (id != part) a.fixed.push_back({id, Pose{}});
     return a;
   }
 };
 
 /// The tube could go first, downwards: here it stands on a table.
 inline PathResult push_blocks(const PathQuery& query, RunContext& context) {
-  return query.cast.moving[0].part == 0 ? outcome(Outcome::exhausted) : push(query, context);
+  return query.scene.moving[0].part == 0 ? outcome(Outcome::exhausted) : push(query, context);
 }
 
 using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, SequenceObserver&, RunContext&)>;
@@ -72,7 +72,7 @@ class Custom final : public SequencePlanner {
 };
 
 inline RunResult run_in_turn(const Assembly& assembly, RunContext context = {}, const RunOptions& options = {}) {
-  return run(assembly, ingredients(push, std::make_shared<InTurn>()), options, context);
+  return run(assembly, setup(push, std::make_shared<InTurn>()), options, context);
 }
 
 inline std::string text_without_times(Plan plan) {

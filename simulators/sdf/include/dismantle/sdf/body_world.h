@@ -13,7 +13,7 @@
 
 namespace dismantle::sdf {
 
-/// A body of the cast; assembled frame, assembly units.
+/// A body of the scene; assembled frame, assembly units.
 struct MovingBody {
   Eigen::Vector3d center;  ///< mass centre
   double radius = 0;       ///< largest distance of a vertex from it, > 0
@@ -35,24 +35,24 @@ struct ContactOptions {
 /// in place. A displacement x holds per body a shift and (rigid) a rotation vector about the centre, world axes.
 class BodyWorld : public World {
  public:
-  const Cast& cast() const override { return cast_; }
+  const Scene& scene() const override { return scene_; }
   MotionSpace space() const override { return space_; }
   State initial_state() const override;
   Eigen::Vector3d center(std::size_t body) const override { return bodies_[body].center; }
   double radius(std::size_t body) const override { return bodies_[body].radius; }
   double torque_arm(std::size_t body) const override { return bodies_[body].radius; }
   double penetration(const State& state) override;
-  void retreat(State& state, double clearance) override;
+  void project_to_clearance(State& state, double clearance) override;
   void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
-  bool leaves(const State& state, std::size_t body) override;
-  void learn(PartId part, PartId other, const Eigen::Vector3d& point) override;
-  bool strict() const override { return scene_.strict(); }
+  bool body_separated(const State& state, std::size_t body) override;
+  void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) override;
+  bool strict() const override { return contact_scene_.strict(); }
   void relax() override;
 
  protected:
   /// @throws std::invalid_argument unless 1 to kMaxBodies parts move.
-  BodyWorld(const PreparedShapes& prepared, const Cast& cast, MotionSpace space, const ContactOptions& options);
+  BodyWorld(const PreparedShapes& prepared, const Scene& scene, MotionSpace space, const ContactOptions& options);
 
   const std::vector<MovingBody>& bodies() const { return bodies_; }
   int per_body() const { return per_body_; }  ///< degrees of freedom: 3 or 6
@@ -97,15 +97,15 @@ class BodyWorld : public World {
   double room(const State& state, double most);
   void forget_contacts();
 
-  Cast cast_;
+  Scene scene_;
   MotionSpace space_;
   ContactOptions options_;
-  ContactScene scene_;
+  ContactScene contact_scene_;
   std::unique_ptr<ContactScene> sensor_;  ///< sees penetration only; made when first asked for
   std::vector<ContactPoint> sensed_;      // scratch
   std::vector<MovingBody> bodies_;
   int per_body_ = 3;
-  std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all still parts, world
+  std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all fixed parts, world
   std::vector<Pose> poses_;                 // scratch
   std::vector<ContactPoint> touching_;      // at the state of the last update or follow
   std::vector<Pose> touching_at_;           // poses that touching_ belongs to; empty: to none

@@ -22,7 +22,7 @@ struct ContactPoint {
   Eigen::Vector3d point;   ///< world
   /// Moved by less than this, the point meets no surface but the ones listed here.
   double certain = 0;
-  int owner = -1;    ///< moving body that carries the point, -1 = a part that stands still
+  int owner = -1;    ///< moving body that carries the point, -1 = a part that stay fixed
   int surface = -1;  ///< moving body that carries the surface, likewise
   PartId owner_part = 0, surface_part = 0;
   /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
@@ -62,7 +62,7 @@ struct ContactPair {
 class RestContacts {
  public:
   struct Entry {
-    ContactPair pair;  ///< a = 0 moves, b = 1 stands still; odometer 0
+    ContactPair pair;  ///< a = 0 moves, b = 1 stay fixed; odometer 0
     std::vector<ContactPoint> points;
   };
   /// `measure(entry)` is called once for each (moving, other), whoever asks first.

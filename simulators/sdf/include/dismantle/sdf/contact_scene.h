@@ -1,4 +1,4 @@
-/// Contacts between a few moving parts and those that stand still, kept up to date while they move.
+/// Contacts between a few moving parts and those that stay fixed, kept up to date while they move.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ class ContactScene {
   struct Member {
     PartId part = 0;
     const Placed* placed = nullptr;
-    Pose pose;  ///< of a still part; start pose of a moving one
+    Pose pose;  ///< of a fixed part; start pose of a moving one
   };
   /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap; `threshold` is
   /// granted on top of it, to all pairs everywhere.
@@ -36,10 +36,10 @@ class ContactScene {
   ///
   /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
-  ContactScene(std::vector<Member> moving, std::vector<Member> still, DistanceModel model, double margin,
+  ContactScene(std::vector<Member> moving, std::vector<Member> fixed, DistanceModel model, double margin,
                const Allowed& allowed, double threshold = 0, double slack = 0, RestContacts* rest = nullptr)
       : model_(model), margin_(margin), threshold_(threshold), slack_(slack), rest_(rest) {
-    set_members(std::move(moving), std::move(still));
+    set_members(std::move(moving), std::move(fixed));
     for (auto& pair : pairs_) {
       const double overlap = allowed(members_[pair.a].part, members_[pair.b].part);
       pair.allowed = overlap + threshold;
@@ -71,7 +71,7 @@ class ContactScene {
   std::uint64_t distance_queries() const { return queries_; }
 
  private:
-  void set_members(std::vector<Member> moving, std::vector<Member> still);
+  void set_members(std::vector<Member> moving, std::vector<Member> fixed);
   void update_pair(ContactPair& pair, std::vector<ContactPoint>& out);
   void begin_at_rest(std::vector<ContactPoint>& out);
   void scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface, double margin,

@@ -17,7 +17,7 @@ namespace dismantle::sdf {
 constexpr double kFacetShare = 0.3;
 
 /// Shapes, and the depth to which each pair overlaps when assembled.
-class PreparedShapes final : public Prepared {
+class PreparedShapes final : public PreparedAssembly {
  public:
   std::vector<Placed> placed;
   std::map<std::pair<PartId, PartId>, double> overlap;  ///< a < b; only pairs that overlap
@@ -35,7 +35,7 @@ class PreparedShapes final : public Prepared {
 std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options, double tolerance,
                                                RunContext& context);
 
-/// The shapes in `prepared`. @throws InputError naming the first part of the cast that was not prepared.
-const PreparedShapes& shapes_of(const Prepared& prepared, const Assembly& assembly, const Cast& cast);
+/// The shapes in `prepared`. @throws InputError naming the first part of the scene that was not prepared.
+const PreparedShapes& shapes_of(const PreparedAssembly& prepared, const Assembly& assembly, const Scene& scene);
 
 }  // namespace dismantle::sdf

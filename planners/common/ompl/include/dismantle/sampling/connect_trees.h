@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dismantle/sampling/nearest.h"
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::sampling {
 
@@ -20,10 +20,10 @@ namespace dismantle::sampling {
 /// come from the generator given. solve() again starts with fresh trees and other numbers.
 class ConnectTrees final : public ompl::base::Planner {
  public:
-  using StateType = Scene::StateType;
+  using StateType = SamplingProblem::StateType;
 
   /// `range`: longest extension, assembly units.
-  ConnectTrees(Scene& scene, double range, const Rng& rng);
+  ConnectTrees(SamplingProblem& problem, double range, const Rng& rng);
 
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
   void clear() override;
@@ -48,7 +48,7 @@ class ConnectTrees final : public ompl::base::Planner {
   std::optional<std::uint32_t> extend(Tree& tree, std::uint32_t node, const StateType& target);
   void report(std::uint32_t in_first, std::uint32_t in_second);
 
-  Scene& scene_;
+  SamplingProblem& problem_;
   double range_;
   Rng rng_;
   Tree trees_[2];  // from the start, from the goal

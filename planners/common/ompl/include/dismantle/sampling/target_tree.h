@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dismantle/sampling/nearest.h"
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 namespace dismantle::sampling {
 
@@ -19,7 +19,7 @@ class TargetTree;
 /// Where the tree grows when it does not grow towards a random state.
 class TargetRule {
  public:
-  using StateType = Scene::StateType;
+  using StateType = SamplingProblem::StateType;
   struct Target {
     std::uint32_t node = 0;  ///< grows
     StateType state;         ///< towards this
@@ -37,13 +37,13 @@ class TargetRule {
 /// All random numbers come from the generator given.
 class TargetTree final : public ompl::base::Planner {
  public:
-  using StateType = Scene::StateType;
+  using StateType = SamplingProblem::StateType;
   struct Settings {
     double goal_bias = 0.05;
     double range = 1;  ///< assembly units
   };
 
-  TargetTree(Scene& scene, const Settings& settings, std::unique_ptr<TargetRule> rule, const Rng& rng);
+  TargetTree(SamplingProblem& problem, const Settings& settings, std::unique_ptr<TargetRule> rule, const Rng& rng);
 
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
   void clear() override;
@@ -54,7 +54,7 @@ class TargetTree final : public ompl::base::Planner {
   /// Takes a node and all that grew from it out of the tree. Not for the root.
   void discard(std::uint32_t node);
 
-  Scene& scene() { return scene_; }
+  SamplingProblem& problem() { return problem_; }
   const StateType& state(std::uint32_t node) const { return nodes_[node].state; }
   std::size_t size() const { return nodes_.size(); }
   std::uint64_t iterations() const { return iterations_; }
@@ -72,7 +72,7 @@ class TargetTree final : public ompl::base::Planner {
                                       const ompl::base::PlannerTerminationCondition& stop);
   void report(std::uint32_t node);
 
-  Scene& scene_;
+  SamplingProblem& problem_;
   Settings settings_;
   std::unique_ptr<TargetRule> rule_;
   Rng rng_;

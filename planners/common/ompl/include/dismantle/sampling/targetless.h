@@ -14,15 +14,15 @@ namespace dismantle::sampling {
 /// same extension again would end at the same place.
 class NearestExit final : public TargetRule {
  public:
-  explicit NearestExit(Scene& scene) : scene_(scene) {}
+  explicit NearestExit(SamplingProblem& problem) : problem_(problem) {}
   std::optional<Target> target(TargetTree& tree, Rng& rng) override;
 
  private:
-  Scene& scene_;
+  SamplingProblem& problem_;
   std::vector<std::uint8_t> tried_;  ///< by node: how many of its exits
 };
 
 /// The six ways out of the box, shortest first; of equals the lower side (-x, +x, -y, ...).
-std::array<int, 6> exits_by_distance(const Scene& scene, const Scene::StateType& from);
+std::array<int, 6> exits_by_distance(const SamplingProblem& problem, const SamplingProblem::StateType& from);
 
 }  // namespace dismantle::sampling

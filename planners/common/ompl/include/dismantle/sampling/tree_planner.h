@@ -66,7 +66,7 @@ void describe_tree(Schema<P>& s, const std::string& goal_doc) {
 }
 
 /// How a planner chooses goals: one rule per tree. `rng` is the rule's own.
-using MakeRule = std::function<std::unique_ptr<TargetRule>(Scene& scene, Rng rng)>;
+using MakeRule = std::function<std::unique_ptr<TargetRule>(SamplingProblem& problem, Rng rng)>;
 /// Straight lines to try before any tree, as unit directions in the world. May be empty.
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 

@@ -1,4 +1,4 @@
-/// A random tree that is led: what is free between the still parts says where to go.
+/// A random tree that is led: what is free between the fixed parts says where to go.
 #pragma once
 
 #include <array>
@@ -100,7 +100,7 @@ class LedWalk final : public PathSearch {
   double best_left_ = 0, asked_at_ = 0;  // of the way: there; where it was last asked whether it is out
   Left least_{};                         // where there was progress last, ...
   double progress_at_ = 0;               // ... after so much work
-  std::uint64_t first_look_ = 0;         // when the walk began, or the judge has last refused a way
+  std::uint64_t first_look_ = 0;         // when the walk began, or the verifier has last refused a way
   double first_work_ = 0;
   bool resumed_ = false, begun_ = false, over_ = false;
   const Effort effort_;

@@ -1,4 +1,4 @@
-/// How far it is, through what is free, from anywhere between still parts to outside of them.
+/// How far it is, through what is free, from anywhere between fixed parts to outside of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +12,13 @@
 
 namespace dismantle::free_space {
 
-/// Cubic cells over the box of the still parts and a little more. A cell is free when no surface passes through it and
+/// Cubic cells over the box of the fixed parts and a little more. A cell is free when no surface passes through it and
 /// a small ball about its centre fits. Ways go from cell to neighbouring cell, keep away from walls where there is
 /// room, and end at the rim, which is outside. World frame, assembly units.
 class WaysOut {
  public:
   /// About `most_cells` cells. `ball`: radius of the ball that is to come out; it may be a cell wider than its way.
-  WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& still, double ball, std::size_t most_cells);
+  WaysOut(const Assembly& assembly, const std::vector<PlacedPart>& fixed, double ball, std::size_t most_cells);
 
   double cell() const { return cell_; }  ///< edge of a cell
   /// Length of the way out; negative outside of all cells. Where nothing is free, or free but closed in, that of the

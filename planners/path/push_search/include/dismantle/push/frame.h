@@ -10,20 +10,20 @@ namespace dismantle::push {
 
 /// Columns: three orthonormal axes (right-handed, world) told by the parts alone: the normal of most of the surface of
 /// the moving parts, then the one of most surface among those square to it, of the moving parts or else of those that
-/// stand still. Round parts without a second one: towards the point furthest from the first axis. Turned input gives
+/// stay fixed. Round parts without a second one: towards the point furthest from the first axis. Turned input gives
 /// turned axes, up to their signs, and the order of axes that have equally much surface.
-Eigen::Matrix3d own_axes(const Assembly& assembly, const Cast& cast);
+Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene);
 
-/// Boxes of what moves and of what stands still, along axes of our own.
+/// Boxes of what moves and of what stay fixed, along axes of our own.
 class Extents {
  public:
-  Extents(const Assembly& assembly, const Cast& cast, const Eigen::Matrix3d& axes);
+  Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes);
   /// How far the moving parts have to go along `direction` (world, unit) until the boxes are apart; infinite for none.
   double way_out(const Eigen::Vector3d& direction) const;
 
  private:
   Eigen::Matrix3d axes_;
-  Aabb moving_, still_;
+  Aabb moving_, fixed_;
 };
 
 }  // namespace dismantle::push

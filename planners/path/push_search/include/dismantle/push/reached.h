@@ -19,7 +19,7 @@ struct Node {
   std::size_t stage = 0;          ///< the next to come
   bool middle = false;            ///< of a run
   bool may_wait = false;          ///< to be searched from; else it only tells what is known
-  std::vector<PartId> touched{};  ///< still parts that ended runs there; ascending
+  std::vector<PartId> touched{};  ///< fixed parts that ended runs there; ascending
   std::uint64_t work = 0;         ///< simulated steps and looks of the runs from it
 };
 
@@ -31,7 +31,7 @@ struct Middle {
   Path way;
 };
 
-/// A place where the judge found the world too permissive (World::learn).
+/// A place where the verifier found the world too permissive (World::add_contact_sample).
 struct Lesson {
   PartId part, other;
   Eigen::Vector3d point;
@@ -39,7 +39,7 @@ struct Lesson {
 
 /// Of a search in one motion space.
 struct Tree {
-  std::vector<PartId> still;  ///< ascending
+  std::vector<PartId> fixed;  ///< ascending
   std::vector<Node> nodes;    ///< parents before their children
   std::vector<Middle> passed;
   std::size_t passed_before = 0;  ///< states in the middle of runs that became nodes, or were dropped

@@ -19,7 +19,7 @@ namespace dismantle::push {
 
 /// One search in one motion space. States form a tree; each knows the instants that lead to it.
 ///
-/// Translating, a run ends where the part stands still: under a constant push it cannot go round in circles. States
+/// Translating, a run ends where the part stay fixed: under a constant push it cannot go round in circles. States
 /// in the middle of runs are looked at last. Turning, it can, and often must be stopped half-way: there every look is
 /// a state, and a run ends at states that are known.
 ///
@@ -30,7 +30,7 @@ class Search {
   Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context);
 
   /// Before the first run(): begins with the states of an earlier search of the same moving parts from the same places,
-  /// among these still parts and perhaps others. Where runs ended at those they are gone on with; no run is made again.
+  /// among these fixed parts and perhaps others. Where runs ended at those they are gone on with; no run is made again.
   /// `tree` as tree() gave it.
   void resume(const Tree& tree);
   /// What has been reached so far.
@@ -129,10 +129,10 @@ class Search {
   bool sweep_paused_ = false;    ///< under a limit of expansions, which goes on to hold
   std::uint64_t sweep_end_ = 0;  ///< expansions at which it ends
   bool may_relax_ = true;
-  bool short_glides_ = false;  ///< the judge refused one
+  bool short_glides_ = false;  ///< the verifier refused one
   std::vector<Lesson> lessons_;
   bool begun_ = false;                                 ///< run() has been called
-  bool others_left_ = false;                           ///< there are fewer still parts than in the search resumed
+  bool others_left_ = false;                           ///< there are fewer fixed parts than in the search resumed
   std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes taken over
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;

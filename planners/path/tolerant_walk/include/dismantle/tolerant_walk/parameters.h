@@ -33,14 +33,16 @@ struct Parameters {
            .min = 0,
            .max = 1,
            .doc = "Share of the steps from poses that are furthest out in some direction."});
-    s.add("looks", &Parameters::looks, {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before it gives up."});
-    s.add("level_looks", &Parameters::level_looks,
-          {.unit = "1",
-           .min = 0,
-           .max = 1e12,
-           .min_open = true,
-           .doc = "The same for a search of depth 1 where the sequence planner limits depth; each further level doubles "
-                  "them, up to `looks`."});
+    s.add("state_checks", &Parameters::looks,
+          {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before it gives up."});
+    s.add(
+        "level_state_checks", &Parameters::level_looks,
+        {.unit = "1",
+         .min = 0,
+         .max = 1e12,
+         .min_open = true,
+         .doc = "The same for a search of depth 1 where the sequence planner limits depth; each further level doubles "
+                "them, up to `state_checks`."});
     s.add("shortcuts", &Parameters::shortcuts,
           {.unit = "1", .min = 0, .max = 1e6, .doc = "Attempts to replace pieces of a path by straight ones."});
     s.add("thinning", &Parameters::thinning,

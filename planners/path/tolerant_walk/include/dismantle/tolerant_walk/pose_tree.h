@@ -1,4 +1,4 @@
-/// A tree of displacements that the judge tolerates, and what makes a path of a branch of it.
+/// A tree of displacements that the verifier tolerates, and what makes a path of a branch of it.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class PoseTree {
     Pose pose;
     Eigen::Vector3d center;  ///< of the moving parts, there
     std::uint32_t parent = 0;
-    bool cut = false;                ///< the judge has refused the way there
-    std::optional<PartId> cut_by{};  ///< ... because of that still part, if it said so
+    bool cut = false;                ///< the verifier has refused the way there
+    std::optional<PartId> cut_by{};  ///< ... because of that fixed part, if it said so
   };
   /// A small displacement about the centre of the moving parts: of the centre; rotation vector (rad).
   struct Step {
@@ -35,7 +35,7 @@ class PoseTree {
    public:
     /// Has what it was stuck at left since? Else it is stuck still: a random tree that begins anew, with other dice, is
     /// worth more than one that goes on from the same dead ends.
-    bool has_room_now(const Cast& cast) const;
+    bool has_room_now(const Scene& scene) const;
 
    private:
     friend class PoseTree;
@@ -64,11 +64,11 @@ class PoseTree {
   /// Distances to parts that the looks have taken: one look takes hundreds or tens of thousands.
   std::uint64_t distances() const { return tolerance_.asked(); }
   bool halted() const;
-  /// The judge has refused as often as it may.
+  /// The verifier has refused as often as it may.
   bool given_up() const { return refused_ >= static_cast<std::uint64_t>(parameters_.max_refusals); }
 
   /// Before anything else: takes over what an earlier search of the same moving parts from the same places has reached
-  /// among these still parts, and perhaps others. Where these were in the way the judge has refused nothing.
+  /// among these fixed parts, and perhaps others. Where these were in the way the verifier has refused nothing.
   void resume(const Reached& reached);
   std::shared_ptr<const Reached> reached() const;
 

@@ -1,4 +1,4 @@
-/// A random tree of poses that may penetrate as deep as the judge allows.
+/// A random tree of poses that may penetrate as deep as the verifier allows.
 #pragma once
 
 #include <array>

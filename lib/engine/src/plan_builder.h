@@ -14,8 +14,8 @@
 
 namespace dismantle {
 
-/// A step that was booked. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
-struct BookedStep {
+/// A step that was recorded. Step i makes group i + 1 (unless part_way); group 0 is what was never left.
+struct RecordedStep {
   std::vector<PartId> parts;
   std::size_t from = 0;              ///< the group that they left
   std::shared_ptr<const Path> path;  ///< of the oracle's answer, or of several, one after the other
@@ -26,23 +26,23 @@ struct BookedStep {
   bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
 };
 
-/// A removal is booked only if the oracle answered exactly this question with a success: these parts, where they
+/// A removal is recorded only if the oracle answered exactly this question with a success: these parts, where they
 /// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
 /// sequence planner does.
 /// The deepest contact of a part, placed so, with each of the others that are left; ascending by the other part.
 using ContactsOf = std::function<std::vector<Contact>(PartId part, const Pose& at)>;
 
-class StepLedger {
+class PlanBuilder {
  public:
-  StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
+  PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
 
   /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: to
   /// whoever follows the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
   /// has changed then.
-  void book(const Removal& removal);
+  void record(const Removal& removal);
 
   const Plan& plan() const { return plan_; }
-  const std::vector<BookedStep>& booked() const { return booked_; }
+  const std::vector<RecordedStep>& recorded() const { return recorded_; }
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
   bool complete() const;
@@ -75,7 +75,7 @@ class StepLedger {
   Plan plan_;
   std::vector<Pose> poses_;                  // by part id
   std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
-  std::vector<BookedStep> booked_;
+  std::vector<RecordedStep> recorded_;
 };
 
 /// The disassembly step run backwards (Algorithm 3 from the disassembled poses).

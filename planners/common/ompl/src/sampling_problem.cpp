@@ -1,4 +1,4 @@
-#include "dismantle/sampling/scene.h"
+#include "dismantle/sampling/sampling_problem.h"
 
 #include <ompl/util/Console.h>
 
@@ -45,7 +45,7 @@ bool CheckBudget::spent() const {
 Outcome CheckBudget::why() const { return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout; }
 
 Surroundings::Surroundings(const PathQuery& query, const World& world, const Pose& goal) {
-  const auto& moving = query.cast.moving;
+  const auto& moving = query.scene.moving;
   std::vector<Eigen::Vector3d> points;
   for (const auto& m : moving)
     for (const auto& v : query.assembly.parts[m.part].mesh->vertices) points.push_back(m.pose * v);
@@ -53,7 +53,7 @@ Surroundings::Surroundings(const PathQuery& query, const World& world, const Pos
   for (std::size_t i = 0; i < moving.size(); ++i)
     mover.center += moving[i].pose * world.center(i) / static_cast<double>(moving.size());
   for (const auto& p : moving_hull) mover.radius = std::max(mover.radius, (p - mover.center).norm());
-  for (const auto& s : query.cast.still)
+  for (const auto& s : query.scene.fixed)
     for (const auto& v : query.assembly.parts[s.part].mesh->vertices) rest.extend(s.pose * v);
   bounds = rest;
   bounds.extend(moving_box({}));
@@ -67,46 +67,46 @@ Aabb Surroundings::moving_box(const Pose& displacement) const {
   return box;
 }
 
-class Scene::Checker final : public ompl::base::StateValidityChecker {
+class SamplingProblem::Checker final : public ompl::base::StateValidityChecker {
  public:
-  Checker(Scene& scene, const ompl::base::SpaceInformationPtr& information)
-      : StateValidityChecker(information.get()), scene_(scene) {}
+  Checker(SamplingProblem& problem, const ompl::base::SpaceInformationPtr& information)
+      : StateValidityChecker(information.get()), problem_(problem) {}
   bool isValid(const ompl::base::State* state) const override {
-    return scene_.is_free(*static_cast<const StateType*>(state));
+    return problem_.is_free(*static_cast<const StateType*>(state));
   }
 
  private:
-  Scene& scene_;
+  SamplingProblem& problem_;
 };
 
 /// OMPL's discrete validator takes its step as a fraction of the space's extent; ours is a length.
-class Scene::Validator final : public ompl::base::MotionValidator {
+class SamplingProblem::Validator final : public ompl::base::MotionValidator {
  public:
-  Validator(Scene& scene, const ompl::base::SpaceInformationPtr& information)
-      : MotionValidator(information.get()), scene_(scene) {}
+  Validator(SamplingProblem& problem, const ompl::base::SpaceInformationPtr& information)
+      : MotionValidator(information.get()), problem_(problem) {}
   bool checkMotion(const ompl::base::State* a, const ompl::base::State* b) const override {
-    return scene_.motion_is_free(*static_cast<const StateType*>(a), *static_cast<const StateType*>(b));
+    return problem_.motion_is_free(*static_cast<const StateType*>(a), *static_cast<const StateType*>(b));
   }
   bool checkMotion(const ompl::base::State* a, const ompl::base::State* b,
                    std::pair<ompl::base::State*, double>& last) const override {
-    last.second = scene_.free_share(*static_cast<const StateType*>(a), *static_cast<const StateType*>(b));
-    if (last.first != nullptr) scene_.space().interpolate(a, b, last.second, last.first);
+    last.second = problem_.free_share(*static_cast<const StateType*>(a), *static_cast<const StateType*>(b));
+    if (last.first != nullptr) problem_.space().interpolate(a, b, last.second, last.first);
     return last.second >= 1;
   }
 
  private:
-  Scene& scene_;
+  SamplingProblem& problem_;
 };
 
-Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
-             const Pose& goal)
+SamplingProblem::SamplingProblem(const PathQuery& query, MotionSpace motion, double max_penetration, double step,
+                                 CheckBudget& budget, const Pose& goal)
     : query_(query),
-      world_(query.simulator.world(query.assembly, query.prepared, query.cast, motion)),
+      world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       surroundings_(query, *world_, goal),
       space_(std::make_shared<DisplacementSpace>(surroundings_.mover, motion, surroundings_.bounds)),
       budget_(budget),
       step_(step),
-      start_(poses_of(query.cast.moving)) {
+      start_(poses_of(query.scene.moving)) {
   silence_ompl();
   // Noise of CAD may put the start itself beyond the limit; what is there already is no obstacle.
   allowed_ = std::max(max_penetration, world_->penetration(world_->initial_state()));
@@ -117,29 +117,29 @@ Scene::Scene(const PathQuery& query, MotionSpace motion, double max_penetration,
   space_->setLongestValidSegmentFraction(step / space_->getMaximumExtent());
 }
 
-std::vector<Pose> Scene::poses(const StateType& state) const {
+std::vector<Pose> SamplingProblem::poses(const StateType& state) const {
   const Pose displacement = space_->displacement(state);
   std::vector<Pose> all;
   for (const auto& p : start_) all.push_back(displacement * p);
   return all;
 }
 
-State Scene::world_state(const StateType& state) const {
+State SamplingProblem::world_state(const StateType& state) const {
   State s;
   for (const auto& p : poses(state)) s.bodies.push_back({p, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   return s;
 }
 
-bool Scene::is_free(const StateType& state) {
+bool SamplingProblem::is_free(const StateType& state) {
   ++budget_.checks;
   if (world_->penetration(world_state(state)) <= allowed_) return true;
   note_blocked(state);
   return false;
 }
 
-bool Scene::is_out(const StateType& state) { return world_->separated(world_state(state)); }
+bool SamplingProblem::is_out(const StateType& state) { return world_->separated(world_state(state)); }
 
-double Scene::free_share(const StateType& from, const StateType& to) {
+double SamplingProblem::free_share(const StateType& from, const StateType& to) {
   const double steps = std::ceil(space_->distance(from, to) / step_ - 1e-9);
   for (double k = 1; k <= steps; ++k) {
     if (std::fmod(k, kPollEvery) == 0 && budget_.spent()) return (k - 1) / steps;
@@ -148,14 +148,14 @@ double Scene::free_share(const StateType& from, const StateType& to) {
   return 1;
 }
 
-StateType Scene::state_after(const Pose& displacement) const {
+StateType SamplingProblem::state_after(const Pose& displacement) const {
   StateType state;
   state.center = displacement * surroundings_.mover.center;
   state.turn = displacement.q;
   return state;
 }
 
-std::optional<StateType> Scene::draw_disassembled(Rng& rng) {
+std::optional<StateType> SamplingProblem::draw_disassembled(Rng& rng) {
   StateType state;
   for (int attempt = 0; attempt < 10'000; ++attempt) {
     space_->draw(rng, state);
@@ -164,7 +164,7 @@ std::optional<StateType> Scene::draw_disassembled(Rng& rng) {
   return std::nullopt;
 }
 
-StateType Scene::exit(const StateType& from, int side) const {
+StateType SamplingProblem::exit(const StateType& from, int side) const {
   const Aabb box = surroundings_.moving_box(space_->displacement(from));
   StateType to = from;
   const int axis = side / 2;
@@ -173,7 +173,7 @@ StateType Scene::exit(const StateType& from, int side) const {
   return to;
 }
 
-Path Scene::path(const std::vector<StateType>& states, std::vector<std::size_t>* edge_of_instant) const {
+Path SamplingProblem::path(const std::vector<StateType>& states, std::vector<std::size_t>* edge_of_instant) const {
   Path path{start_};
   if (edge_of_instant != nullptr) *edge_of_instant = {0};
   for (std::size_t k = 1; k < states.size(); ++k) {
@@ -188,31 +188,31 @@ Path Scene::path(const std::vector<StateType>& states, std::vector<std::size_t>*
   return path;
 }
 
-std::vector<StateType> Scene::shortcut(const std::vector<StateType>& states) {
+std::vector<StateType> SamplingProblem::shortcut(const std::vector<StateType>& states) {
   return path::shortcut_by_halving(states,
                                    [this](const StateType& a, const StateType& b) { return motion_is_free(a, b); });
 }
 
-void Scene::note_blocked(const StateType& state) {
+void SamplingProblem::note_blocked(const StateType& state) {
   // The first few, then fewer and fewer: enough to tell who is in the way.
   const std::uint64_t n = ++blocked_;
   if (n <= 16 || (n & (n - 1)) == 0) blocked_states_.push_back(state);
 }
 
-std::vector<PartId> Scene::blockers() const {
+std::vector<PartId> SamplingProblem::blockers() const {
   constexpr std::size_t kMostReplays = 64;  // checks of their own, beyond the budget
   std::vector<std::pair<std::size_t, PartId>> hits;
   const std::size_t states =
       std::min(blocked_states_.size(),
-               std::max<std::size_t>(1, kMostReplays / std::max<std::size_t>(1, query_.cast.still.size())));
+               std::max<std::size_t>(1, kMostReplays / std::max<std::size_t>(1, query_.scene.fixed.size())));
   const auto end = blocked_states_.begin() + static_cast<std::ptrdiff_t>(states);
-  for (const auto& still : query_.cast.still) {
+  for (const auto& fixed : query_.scene.fixed) {
     const auto alone =
-        query_.simulator.world(query_.assembly, query_.prepared, {query_.cast.moving, {still}}, world_->space());
+        query_.simulator.world(query_.assembly, query_.prepared, {query_.scene.moving, {fixed}}, world_->space());
     const auto count = static_cast<std::size_t>(std::count_if(blocked_states_.begin(), end, [&](const StateType& s) {
       return alone->penetration(world_state(s)) > allowed_;
     }));
-    if (count > 0) hits.emplace_back(count, still.part);
+    if (count > 0) hits.emplace_back(count, fixed.part);
   }
   std::sort(hits.begin(), hits.end(),
             [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });

@@ -24,7 +24,7 @@ TEST_P(Retreat, ManyContactsDoNotPushIntoTheFewOnTheOtherSide) {
     // A plate between a table and the point of a nail, with less room than is asked for.
     const double gap = rng.uniform(0.006, 0.03), below = rng.uniform(0.1, 0.9) * gap;
     const double x = rng.uniform(0.3, 0.7), y = rng.uniform(0.3, 0.7), top = 0.2 + gap - below;
-    const Scene scene(
+    const TestScene scene(
         GetParam(),
         {box(Vector3d(0, 0, 0), Vector3d(1, 1, 0.2)), box(Vector3d(-1, -1, -1 - below), Vector3d(2, 2, -below)),
          box(Vector3d(x, y, top), Vector3d(x + 0.02, y + 0.02, top + 1))},
@@ -32,7 +32,7 @@ TEST_P(Retreat, ManyContactsDoNotPushIntoTheFewOnTheOtherSide) {
     auto world = scene.world({0}, MotionSpace::rigid);
     State s = world->initial_state();
     const double before = room(*world, s);
-    world->retreat(s, 0.02);
+    world->project_to_clearance(s, 0.02);
     EXPECT_EQ(world->penetration(s), 0);
     EXPECT_GE(room(*world, s), before - 1e-9);
     EXPECT_GE(room(*world, s), 0.15 * gap);

@@ -5,16 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/host/config.h"
-#include "dismantle/export.h"
-#include "dismantle/importer.h"
-#include "dismantle/host/registry.h"
 #include "dismantle/engine/run.h"
+#include "dismantle/export.h"
+#include "dismantle/host/config.h"
+#include "dismantle/host/registry.h"
+#include "dismantle/importer.h"
 
 namespace dismantle {
 
 /// The plugins that `config` chooses. `registry` must outlive what is returned. @throws PluginError.
-DISMANTLE_API Ingredients ingredients_of(const RunConfig& config, const Registry& registry);
+DISMANTLE_API PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry);
 
 /// `part`: plan just this one; empty: all.
 DISMANTLE_API RunOptions run_options_of(const RunConfig& config, const std::string& part);

@@ -1,9 +1,9 @@
-#include "dismantle/host/ingredients.h"
+#include "dismantle/host/planning_setup.h"
 
 namespace dismantle {
 
-Ingredients ingredients_of(const RunConfig& config, const Registry& registry) {
-  Ingredients out;
+PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry) {
+  PlanningSetup out;
   out.simulator = registry.create<Simulator>(config.simulator.type, config.simulator.parameters);
   out.path_planner = [&registry, choice = config.path_planner] {
     return registry.create<PathPlanner>(choice.type, choice.parameters);

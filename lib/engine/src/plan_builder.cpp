@@ -1,4 +1,4 @@
-#include "step_ledger.h"
+#include "plan_builder.h"
 
 #include <fmt/format.h>
 
@@ -41,8 +41,8 @@ Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options)
   return plan;
 }
 
-StepLedger::StepLedger(const Assembly& assembly, const Oracle& oracle, const RunOptions& options,
-                       std::string planner_id)
+PlanBuilder::PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options,
+                         std::string planner_id)
     : assembly_(assembly),
       oracle_(oracle),
       planner_id_(std::move(planner_id)),
@@ -54,7 +54,7 @@ StepLedger::StepLedger(const Assembly& assembly, const Oracle& oracle, const Run
   refresh_status();
 }
 
-std::vector<PartId>& StepLedger::group_of(const std::vector<PartId>& parts) {
+std::vector<PartId>& PlanBuilder::group_of(const std::vector<PartId>& parts) {
   if (parts.empty()) throw std::logic_error("a removal of no part");
   for (auto& group : groups_) {
     const auto in_group = [&](PartId id) { return std::find(group.begin(), group.end(), id) != group.end(); };
@@ -63,7 +63,7 @@ std::vector<PartId>& StepLedger::group_of(const std::vector<PartId>& parts) {
   throw std::logic_error("the parts of a removal are unknown or not together any more");
 }
 
-PlanStep StepLedger::to_step(const Removal& removal) const {
+PlanStep PlanBuilder::to_step(const Removal& removal) const {
   const PathResult& result = removal.attempt->result;
   PlanStep step;
   step.step = static_cast<unsigned>(plan_.disassembly.size()) + 1;
@@ -87,7 +87,7 @@ PlanStep StepLedger::to_step(const Removal& removal) const {
   return step;
 }
 
-void StepLedger::book(const Removal& removal) {
+void PlanBuilder::record(const Removal& removal) {
   const AttemptKey* key = oracle_.key_of(removal.attempt);
   if (key == nullptr || !is_success(removal.attempt->result.outcome()))
     throw std::logic_error("a removal that is not a successful answer of the oracle");
@@ -100,9 +100,9 @@ void StepLedger::book(const Removal& removal) {
   for (const PartId id : group)
     if (std::find(removal.parts.begin(), removal.parts.end(), id) == removal.parts.end()) rest.push_back(id);
   if (rest.empty() && !removal.attempt->out) throw std::logic_error("a removal that leaves nothing behind");
-  for (const PartId id : rest) question.still.push_back({id, poses_[id]});
+  for (const PartId id : rest) question.fixed.push_back({id, poses_[id]});
   if (removal.parts != ids_of(removal.attempt->attempt.moving) ||
-      digest_of(canonical(question, assembly_.parts.size())) != key->cast)
+      digest_of(canonical(question, assembly_.parts.size())) != key->scene)
     throw std::logic_error("a removal whose path was found for other parts or other places");
 
   if (removal.attempt->out)
@@ -120,20 +120,20 @@ void StepLedger::book(const Removal& removal) {
   for (std::size_t i = 0; i < plan_.assembly_steps.size(); ++i)
     plan_.assembly_steps[i].step = static_cast<unsigned>(i) + 1;
   const std::optional<PartId> alone = removal.attempt->out;
-  booked_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), goal.placement, alone});
+  recorded_.push_back({removal.parts, from, std::make_shared<const Path>(std::move(path)), goal.placement, alone});
   if (!goal.placement) groups_[from] = std::move(rest);
   groups_.push_back(goal.placement ? std::vector<PartId>{} : alone ? std::vector<PartId>{*alone} : removal.parts);
   refresh_status();
 }
 
 /// Does the removal move on what the last step has left part-way?
-bool StepLedger::goes_on(const Removal& removal, std::size_t from) const {
-  return !booked_.empty() && booked_.back().part_way && booked_.back().from == from &&
-         booked_.back().parts == removal.parts;
+bool PlanBuilder::goes_on(const Removal& removal, std::size_t from) const {
+  return !recorded_.empty() && recorded_.back().part_way && recorded_.back().from == from &&
+         recorded_.back().parts == removal.parts;
 }
 
-/// Puts the last step before `step` and its path before `path`, as one; it is booked no more.
-void StepLedger::take_back_last(PlanStep& step, Path& path) {
+/// Puts the last step before `step` and its path before `path`, as one; it is recorded no more.
+void PlanBuilder::take_back_last(PlanStep& step, Path& path) {
   const PlanStep& last = plan_.disassembly.back();
   step.step = last.step;
   for (std::size_t i = 0; i < step.moves.size(); ++i) {
@@ -147,14 +147,14 @@ void StepLedger::take_back_last(PlanStep& step, Path& path) {
   for (const std::string& name : last.contacts)
     if (std::find(step.contacts.begin(), step.contacts.end(), name) == step.contacts.end())
       step.contacts.push_back(name);
-  path.insert(path.begin(), booked_.back().path->begin(), booked_.back().path->end() - 1);
+  path.insert(path.begin(), recorded_.back().path->begin(), recorded_.back().path->end() - 1);
   plan_.disassembly.pop_back();
   plan_.assembly_steps.erase(plan_.assembly_steps.begin());
   groups_.pop_back();  // of a step that leaves parts part-way: empty
-  booked_.pop_back();
+  recorded_.pop_back();
 }
 
-void StepLedger::check_constraints(const Removal& removal, const std::vector<PartId>& rest) const {
+void PlanBuilder::check_constraints(const Removal& removal, const std::vector<PartId>& rest) const {
   const auto holds = [](const std::vector<PartId>& parts, PartId id) {
     return std::find(parts.begin(), parts.end(), id) != parts.end();
   };
@@ -172,7 +172,7 @@ void StepLedger::check_constraints(const Removal& removal, const std::vector<Par
 }
 
 /// One part, or parts that lists of the constraints hold together.
-bool StepLedger::stays_together(const std::vector<PartId>& group) const {
+bool PlanBuilder::stays_together(const std::vector<PartId>& group) const {
   if (group.size() <= 1) return true;
   std::vector<PartId> reached{group.front()};
   for (std::size_t k = 0; k < reached.size(); ++k)
@@ -184,7 +184,7 @@ bool StepLedger::stays_together(const std::vector<PartId>& group) const {
                      [&](PartId id) { return std::find(reached.begin(), reached.end(), id) != reached.end(); });
 }
 
-std::vector<PlacedPart> StepLedger::around(PartId part) const {
+std::vector<PlacedPart> PlanBuilder::around(PartId part) const {
   std::vector<PlacedPart> others;
   for (const auto& group : groups_)
     if (std::find(group.begin(), group.end(), part) != group.end())
@@ -193,7 +193,7 @@ std::vector<PlacedPart> StepLedger::around(PartId part) const {
   return others;
 }
 
-bool StepLedger::fulfilled() const {
+bool PlanBuilder::fulfilled() const {
   for (const auto& group : groups_)
     if (constraints_.target && stays_together(group) &&
         std::find(group.begin(), group.end(), *constraints_.target) != group.end())
@@ -201,18 +201,18 @@ bool StepLedger::fulfilled() const {
   return std::all_of(groups_.begin(), groups_.end(), [&](const auto& group) { return stays_together(group); });
 }
 
-bool StepLedger::complete() const {
+bool PlanBuilder::complete() const {
   return std::all_of(groups_.begin(), groups_.end(), [](const auto& group) { return group.size() <= 1; });
 }
 
-std::vector<PartId> StepLedger::left() const {
+std::vector<PartId> PlanBuilder::left() const {
   std::vector<PartId> ids;
   for (const auto& group : groups_)
     if (group.size() > 1) ids.insert(ids.end(), group.begin(), group.end());
   return ids;
 }
 
-void StepLedger::refresh_status() {
+void PlanBuilder::refresh_status() {
   plan_.status = complete() ? PlanStatus::complete : PlanStatus::partial;
   plan_.remaining.clear();
   for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -220,7 +220,7 @@ void StepLedger::refresh_status() {
       for (const PartId id : groups_[g]) plan_.remaining.push_back(assembly_.parts[id].name);
 }
 
-PlanCertificate StepLedger::to_plan(const Certificate& certificate) const {
+PlanCertificate PlanBuilder::to_plan(const Certificate& certificate) const {
   PlanCertificate written;
   written.kind = certificate.kind;
   for (const PartId id : certificate.parts) written.parts.push_back(assembly_.parts.at(id).name);
@@ -235,7 +235,7 @@ PlanCertificate StepLedger::to_plan(const Certificate& certificate) const {
   return written;
 }
 
-void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places) {
+void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places) {
   plan_.unsolved.clear();
   plan_.certificates.clear();
   std::vector<const Certificate*> written;
@@ -268,7 +268,7 @@ void StepLedger::set_unsolved(const std::vector<Unsolved>& unsolved, const Conta
   }
 }
 
-void StepLedger::set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message) {
+void PlanBuilder::set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message) {
   plan_.assembly_steps = std::move(steps);
   plan_.assembly_status = status;
   plan_.assembly_message = std::move(message);
@@ -282,7 +282,7 @@ PlanStep reversed(const PlanStep& step) {
   return back;
 }
 
-void StepLedger::set_needed(const std::vector<std::vector<std::size_t>>& needed) {
+void PlanBuilder::set_needed(const std::vector<std::vector<std::size_t>>& needed) {
   const std::vector<unsigned> layers = layers_of(needed);
   for (std::size_t i = 0; i < plan_.disassembly.size(); ++i) {
     plan_.disassembly[i].after.clear();

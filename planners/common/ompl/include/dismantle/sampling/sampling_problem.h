@@ -33,7 +33,7 @@ struct Surroundings {
   /// `goal`: a displacement that must be within the bounds, too.
   Surroundings(const PathQuery& query, const World& world, const Pose& goal = {});
   Mover mover;
-  Aabb rest;                                 ///< of all that stands still, world
+  Aabb rest;                                 ///< of all that stay fixed, world
   std::vector<Eigen::Vector3d> moving_hull;  ///< corners of all that moves, where they are at the start
   Aabb bounds;                               ///< of the mover's centre: room to get out on every side
   /// Box of what moves after a displacement.
@@ -41,16 +41,16 @@ struct Surroundings {
 };
 
 /// One state space over one world, with OMPL's objects for it.
-class Scene {
+class SamplingProblem {
  public:
   using StateType = DisplacementSpace::StateType;
 
   /// States penetrating no deeper than `max_penetration` (assembly units), or than the start does, are free; motions
   /// are looked at every `step` of the space's metric.
-  Scene(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
-        const Pose& goal = {});
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
+  SamplingProblem(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
+                  const Pose& goal = {});
+  SamplingProblem(const SamplingProblem&) = delete;
+  SamplingProblem& operator=(const SamplingProblem&) = delete;
 
   const DisplacementSpace& space() const { return *space_; }
   const Surroundings& surroundings() const { return surroundings_; }
@@ -105,13 +105,13 @@ class Scene {
 /// The OMPL goal "disassembled": hulls apart.
 class SeparatedGoal final : public ompl::base::Goal {
  public:
-  explicit SeparatedGoal(Scene& scene) : Goal(scene.information()), scene_(scene) {}
+  explicit SeparatedGoal(SamplingProblem& problem) : Goal(problem.information()), problem_(problem) {}
   bool isSatisfied(const ompl::base::State* state) const override {
-    return scene_.is_out(*static_cast<const Scene::StateType*>(state));
+    return problem_.is_out(*static_cast<const SamplingProblem::StateType*>(state));
   }
 
  private:
-  Scene& scene_;
+  SamplingProblem& problem_;
 };
 
 }  // namespace dismantle::sampling
