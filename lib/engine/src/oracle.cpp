@@ -40,7 +40,7 @@ Oracle::Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const
       constraints_(options.constraints),
       make_planner_(setup.path_planner),
       runner_(assembly, prepared, setup, options, verifier, context.rng),
-      proofs_(assembly, verifier, setup.provers, context),
+      proofs_(assembly, verifier, setup.provers, options.proofs, context),
       computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
 
 std::shared_ptr<PathPlanner> Oracle::borrow_planner() {

@@ -26,12 +26,12 @@ struct RecordedStep {
   bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
 };
 
-/// A removal is recorded only if the oracle answered exactly this question with a success: these parts, where they
-/// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
-/// sequence planner does.
 /// The deepest contact of a part, placed so, with each of the others that are left; ascending by the other part.
 using ContactsOf = std::function<std::vector<Contact>(PartId part, const Pose& at)>;
 
+/// A removal is recorded only if the oracle answered exactly this question with a success: these parts, where they
+/// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
+/// sequence planner does.
 class PlanBuilder {
  public:
   PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);

@@ -15,9 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr unsigned kDepthForLow = 3;   // searches so deep take longer than a proof of low effort
-constexpr unsigned kDepthForHigh = 4;  // likewise of high effort
-constexpr double kLastShare = 0.5;     // of the tolerance: with half of it more is proved than with all of it
 constexpr double kWhole = 1 - 1e-9;
 
 bool has_part(const std::vector<PlacedPart>& group, PartId part) {
@@ -38,8 +35,8 @@ PathResult infeasible_by(const Certificate& certificate, const Attempt& attempt)
 }
 
 ProofSchedule::ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
-                             const RunContext& context)
-    : assembly_(assembly), tolerance_(verifier.options().max_penetration) {
+                             const ProofOptions& options, const RunContext& context)
+    : assembly_(assembly), tolerance_(verifier.options().max_penetration), options_(options) {
   for (NamedProver& named : provers) {
     const ProverTraits traits = named.prover->traits();
     provers_.push_back({std::move(named), traits});
@@ -153,24 +150,31 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
 const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContext& context) {
   if (provers_.empty() || attempt.goal.placement) return nullptr;
   if (const Certificate* lock = locked(attempt)) return lock;
-  if (!attempt.goal.any_of.empty() || attempt.fixed.empty() || !as_deep(attempt, kDepthForLow)) return nullptr;
+  if (!attempt.goal.any_of.empty() || attempt.fixed.empty() || !as_deep(attempt, options_.low_effort_depth))
+    return nullptr;
   if (const Certificate* found = prove_placed(attempt, context)) return found;
   if (attempt.moving.size() != 1 || attempt.fixed.size() != 1) return nullptr;
   return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
 }
 
-/// `for_half`: also for half of the tolerance, with which more is proved.
-const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool for_half, const RunContext& context) {
-  for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
+/// `last`: nothing else will be tried about this pair.
+const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool last, const RunContext& context) {
+  const Certificate* reduced = nullptr;
+  for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high}) {
+    if (last && effort == ProofEffort::high) {
+      reduced = prove({{a, b}, effort, options_.reduced_tolerance}, context);
+      if (reduced == nullptr) return nullptr;
+    }
     if (const Certificate* found = prove({{a, b}, effort, 1}, context)) return found;
-  return for_half ? prove({{a, b}, ProofEffort::high, kLastShare}, context) : nullptr;
+  }
+  return reduced;
 }
 
 /// Only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at the end, for
 /// most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
-      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, kDepthForHigh))
+      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, options_.high_effort_depth))
     return nullptr;
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
   return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, last, context);
@@ -186,7 +190,7 @@ const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>
     holder = blocked_by.front();
   if (holder && *holder != part)
     if (const Certificate* found = prove_pair(part, *holder, true, context)) return found;
-  return left.size() > 2 ? prove({left, ProofEffort::high, kLastShare}, context) : nullptr;
+  return left.size() > 2 ? prove({left, ProofEffort::high, options_.reduced_tolerance}, context) : nullptr;
 }
 
 }  // namespace dismantle

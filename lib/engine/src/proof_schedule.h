@@ -23,14 +23,16 @@ namespace dismantle {
 ///
 /// - Trivial: when the schedule is made, about all pairs that overlap when assembled.
 /// - Low: before attempts of some depth or without limit, about the moving against the fixed parts.
-/// - Medium and high: after such attempts of one part against one other that found nothing; for all of the tolerance,
-///   and where more depth would not help for half of it, with which more is proved.
+/// - Medium and high: after deep attempts of one part against one other that found nothing.
 /// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
+///
+/// The last questions about a pair, after which nothing else is tried, begin with the reduced tolerance: what is not
+/// proved with that is not proved with all of it, and the other way round it often is.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
   ProofSchedule(const Assembly& assembly, const Verifier& verifier, std::vector<NamedProver> provers,
-                const RunContext& context);
+                const ProofOptions& options, const RunContext& context);
 
   /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of
   /// them is in such a pair.
@@ -59,11 +61,12 @@ class ProofSchedule {
   bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
-  const Certificate* prove_pair(PartId a, PartId b, bool for_half, const RunContext& context);
+  const Certificate* prove_pair(PartId a, PartId b, bool last, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
 
   const Assembly& assembly_;
   double tolerance_;
+  const ProofOptions options_;
   std::vector<Prover> provers_;
   PartMemo memo_;
   std::mutex mutex_;  // of the maps; answers are computed without it

@@ -145,16 +145,14 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, R
   return result;
 }
 
-constexpr std::size_t kLastProofs = 8;  // parts that proofs are sought for at the end; up to a minute each
-
 /// Proofs for parts that are left and have none, the same whichever planners were used.
 void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left, Oracle& oracle,
-                const RunContext& context) {
+                const ProofOptions& options, const RunContext& context) {
   std::size_t asked = 0;
   for (Unsolved& u : unsolved) {
     if (u.certificate != nullptr || context.should_stop()) continue;
     if (u.outcome != Outcome::depth_limit && u.outcome != Outcome::exhausted && u.outcome != Outcome::timeout) continue;
-    if (asked++ == kLastProofs) return;
+    if (asked++ == options.final_parts) return;
     u.certificate = oracle.proofs().at_last(u.part, u.blocked_by, left, context);
     if (u.certificate == nullptr || !u.certificate->full_tolerance) continue;
     u.outcome = Outcome::infeasible;
@@ -268,7 +266,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
               fmt::format("the sequence planner reports success with {} parts still together", builder.left().size()));
     }
     std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
-    prove_left(unsolved, builder.left(), oracle, own);
+    prove_left(unsolved, builder.left(), oracle, options.proofs, own);
     builder.set_unsolved(unsolved, places);
   }
   AssemblyPlan back;

@@ -11,9 +11,9 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/animation.h"
+#include "json/hex_colour.h"
 #include "shading.h"
 #include "timeline.h"
-#include "json/hex_colour.h"
 
 namespace dismantle {
 namespace {

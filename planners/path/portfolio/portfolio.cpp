@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "dismantle/path/ended_search.h"
 #include "dismantle/plugin.h"
 #include "parameters.h"
 #include "portfolio_search.h"
@@ -29,6 +30,14 @@ class Portfolio final : public PathPlanner {
   PathPlannerTraits traits() const noexcept override { return traits_; }
 
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    // A portfolio without one of its members would be another planner under the same name.
+    const Capabilities has = query.simulator.capabilities();
+    for (std::size_t k = 0; k < planners_.size(); ++k) {
+      const Capabilities needs = planners_[k]->traits().needs;
+      if ((needs.dynamics && !has.dynamics) || (needs.contacts && !has.contacts) || (needs.distance && !has.distance))
+        return path::unsupported("its member '" + parameters_.of[k].plugin.type() +
+                                 "' needs what the simulator does not have; 'dismantle plugins list' shows the needs");
+    }
     return std::make_unique<PortfolioSearch>(parameters_, planners_, query, context);
   }
 

@@ -40,13 +40,13 @@ SearchStatus Growth::run(const Budget& portion) {
     result_.start_is_goal();
     return SearchStatus::solved;
   }
-  until_ = path::end_of_portion(used(), portion.max_steps, most_steps_);
-  const Deadline end = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
+  portion_.last_step = path::end_of_portion(used(), portion.max_steps, most_steps_);
+  portion_.deadline = portion.timeout > 0 ? Deadline::after_seconds(portion.timeout) : Deadline();
   bool solved = false;
-  while (!solved && !over() && used() < until_ && !end.passed()) {
-    Grown& grown = forests_[next_];
-    next_ = (next_ + 1) % forests_.size();
-    if (grown.barren < kBarren) solved = take_turn(grown);
+  while (!solved && !over() && !portion_over()) {
+    Grown& grown = forests_[current_];
+    if (grown.barren < kBarren && (solved = continue_turn(grown), turn_)) continue;
+    current_ = (current_ + 1) % forests_.size();
   }
   if (solved) return SearchStatus::solved;
   result_.fail(context_.cancel.cancelled() ? Outcome::cancelled
@@ -56,16 +56,21 @@ SearchStatus Growth::run(const Budget& portion) {
   return over() || used() >= most_steps_ ? status_of(result_.outcome()) : SearchStatus::paused;
 }
 
-bool Growth::take_turn(Grown& grown) {
-  const std::uint64_t begin = used(), end = std::min(until_, begin + grown.turn);
-  const auto stop = [&] { return used() >= end || stopped(); };
+/// Stops at the end of the turn or of the portion. The end of a portion does not cut an extension and does not end the
+/// turn, so that the length of the portions has no influence on the trees.
+bool Growth::continue_turn(Grown& grown) {
+  if (!turn_) turn_ = Turn{used(), 0};
+  const std::uint64_t end = turn_->begin + grown.turn;
+  const auto stop = [&] { return used() >= end || used() >= most_steps_ || stopped(); };
   bool solved = false;
-  // Extensions that are stopped at once, as where nothing can move, need a count of their own.
-  std::uint64_t extensions = 0;
-  for (; !solved && !stop() && !given_up() && extensions < grown.turn; ++extensions)
+  // Extensions that use no step, as where nothing can move, need a count of their own.
+  while (!solved && !stop() && !given_up() && turn_->extensions < grown.turn) {
+    if (portion_over()) return false;
     solved = grown.forest->iterate(result_, stop);
+    ++turn_->extensions;
+  }
   const std::size_t cells = grown.forest->cells();
-  const bool whole = used() - begin >= grown.turn || extensions == grown.turn;
+  const bool whole = used() >= end || turn_->extensions == grown.turn;
   if (cells != grown.cells)
     grown.barren = 0;
   else if (whole)
@@ -74,8 +79,11 @@ bool Growth::take_turn(Grown& grown) {
   grown.cells = cells;
   if (!grown.relaxed) grown.forest->relax();
   grown.relaxed = true;
+  turn_.reset();
   return solved;
 }
+
+bool Growth::portion_over() const { return used() >= portion_.last_step || portion_.deadline.passed(); }
 
 std::uint64_t Growth::used() const {
   std::uint64_t steps = 0;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "forest.h"
@@ -33,8 +34,18 @@ class Growth final : public PathSearch {
     bool relaxed = false;
   };
 
+  struct Turn {
+    std::uint64_t begin = 0;  ///< used() when it began
+    std::uint64_t extensions = 0;
+  };
+  struct PortionEnd {
+    std::uint64_t last_step = 0;
+    Deadline deadline;
+  };
+
   void add(MotionSpace motion, std::uint64_t stream);
-  bool take_turn(Grown& grown);
+  bool continue_turn(Grown& grown);
+  bool portion_over() const;
   bool halted() const;
   bool stopped() const;
   bool given_up() const;
@@ -45,9 +56,10 @@ class Growth final : public PathSearch {
   RunContext& context_;
   Deadline deadline_;
   std::vector<Grown> forests_;
-  std::size_t next_ = 0;  ///< whose turn it is
+  std::size_t current_ = 0;   ///< the forest whose turn it is
+  std::optional<Turn> turn_;  ///< the turn that has begun and not ended
   const std::uint64_t most_steps_;
-  std::uint64_t until_ = 0;  ///< steps at which this portion ends
+  PortionEnd portion_;
   PathResult result_;
 };
 

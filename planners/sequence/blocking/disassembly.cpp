@@ -39,7 +39,7 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
   if (sweep_ && params.straight) {
     straight_ = std::make_unique<StraightMotion>(state_, oracle, *sweep_);
     state_.add_listener(*straight_);
-    if (params.cages) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
+    if (params.merge_immobile) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
   }
   lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle, immobility_.get(), straight_.get());
   if (immobility_)
@@ -62,11 +62,12 @@ void Disassembly::make_strategies() {
     add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) add(std::make_unique<FreeGroup>(state_, *straight_, params_));
   }
-  if (params_.slide_states > 0 && sweep_)
+  if (params_.translation_states > 0 && sweep_)
     add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), *lookahead_, params_));
   if (immobility_) add(std::make_unique<MergeImmobile>(*immobility_));
-  if (straight_ && params_.turns) add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
-  if (straight_ && params_.at_once)
+  if (straight_ && params_.rotations)
+    add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
+  if (straight_ && params_.simultaneous)
     add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, params_, params_.max_depth));
   add(std::make_unique<PathSearch>(state_, history_, *searcher_, immobility_.get(), params_));
   add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, immobility_.get(), params_));

@@ -24,45 +24,45 @@ void FreeGroupParams::describe(S& s) {
 
 void PartialTranslationParams::describe(S& s) {
   s.add<std::int64_t>(
-      "translation_states", &PartialTranslationParams::slide_states,
+      "translation_states", &PartialTranslationParams::translation_states,
       {.unit = "1",
        .min = 0,
        .max = 1e8,
        .doc = "Strategy partial_translation: when neither parts nor groups are free, largest number of states in the "
               "search for translations that leave parts part-way (puzzles). 0 = no such search."});
-  s.add<unsigned>("translation_refusals", &PartialTranslationParams::slide_refusals,
+  s.add<unsigned>("translation_refusals", &PartialTranslationParams::translation_refusals,
                   {.unit = "1",
                    .min = 1,
                    .doc = "Advanced. The search is given up after this number of translations that the verifier "
                           "refused."});
-  s.add<double>("translation_work", &PartialTranslationParams::slide_work,
+  s.add<double>("translation_work", &PartialTranslationParams::translation_work,
                 {.unit = "1",
                  .min = 0,
                  .doc = "Advanced. Pairs of edges that the first search for partial translations may compare."});
-  s.add<double>("translation_work_growth", &PartialTranslationParams::slide_work_growth,
+  s.add<double>("translation_work_growth", &PartialTranslationParams::translation_work_growth,
                 {.unit = "1", .min = 1, .doc = "Advanced. Factor by which each later search may compare more."});
-  s.add<double>("translation_inset", &PartialTranslationParams::slide_inset,
+  s.add<double>("translation_inset", &PartialTranslationParams::translation_inset,
                 {.unit = "1",
                  .min = 0.1,
                  .max = 0.5,
                  .min_open = true,
                  .max_open = true,
                  .doc = "Advanced. Share of the verifier's tolerance by which the search takes parts to be thinner."});
-  s.add<double>("translation_least_step", &PartialTranslationParams::slide_least_step,
+  s.add<double>("translation_least_step", &PartialTranslationParams::translation_least_step,
                 {.unit = "assembly units",
                  .min = 0,
                  .min_open = true,
                  .doc = "Advanced. Shortest translation; the largest edge of an assembly is 10."});
-  s.add<double>("translation_play", &PartialTranslationParams::slide_play,
+  s.add<double>("translation_play", &PartialTranslationParams::translation_play,
                 {.unit = "assembly units",
                  .min = 0,
                  .doc = "Advanced. Translations up to contact that are shorter only use up play, and are not made."});
-  s.add<unsigned>("translation_axes", &PartialTranslationParams::slide_axes,
+  s.add<unsigned>("translation_axes", &PartialTranslationParams::translation_axes,
                   {.unit = "1", .min = 1, .max = 32, .doc = "Advanced. Axes along which parts move, at most."});
 }
 
 void ImmobilityParams::describe(S& s) {
-  s.add<bool>("merge_immobile", &ImmobilityParams::cages,
+  s.add<bool>("merge_immobile", &ImmobilityParams::merge_immobile,
               {.doc = "Strategies merge_immobile, merge_immobile_late: prove that parts cannot be separated (a ring in "
                       "a groove, a bent bar in a hole), and move those as one. Expensive proofs wait for unsuccessful "
                       "searches."});
@@ -93,22 +93,22 @@ void ImmobilityParams::describe(S& s) {
 }
 
 void RotationParams::describe(S& s) {
-  s.add<bool>("rotations", &RotationParams::turns,
+  s.add<bool>("rotations", &RotationParams::rotations,
               {.doc = "Strategy rotation_in_place: rotate parts about the axes of their round surfaces, and leave them "
                       "there where that frees another part (latches)."});
-  s.add<unsigned>("rotation_axes", &RotationParams::turn_axes,
+  s.add<unsigned>("rotation_axes", &RotationParams::rotation_axes,
                   {.unit = "1", .min = 1, .doc = "Advanced. Axes of one part, at most."});
   s.add<unsigned>(
-      "rotation_stops", &RotationParams::turn_stops,
+      "rotation_stops", &RotationParams::rotation_stops,
       {.unit = "1", .min = 4, .doc = "Advanced. Orientations in a full turn at which the other parts are examined."});
-  s.add<unsigned>("rotation_halvings", &RotationParams::turn_halvings,
+  s.add<unsigned>("rotation_halvings", &RotationParams::rotation_halvings,
                   {.unit = "1", .max = 30, .doc = "Advanced. Bisections to find where a rotating part meets another."});
-  s.add<unsigned>("rotation_sweeps", &RotationParams::turn_sweeps,
+  s.add<unsigned>("rotation_sweeps", &RotationParams::rotation_sweeps,
                   {.unit = "1", .doc = "Advanced. Sweeps of pairs for one group as it is, at most."});
 }
 
 void SimultaneousMotionParams::describe(S& s) {
-  s.add<bool>("simultaneous", &SimultaneousMotionParams::at_once,
+  s.add<bool>("simultaneous", &SimultaneousMotionParams::simultaneous,
               {.doc = "Strategy simultaneous_motion: move two or three parts, each in its own way, where nothing else "
                       "is in the way of one of them (interlocks). Needs a path planner that can (bfs, guided)."});
   s.add<unsigned>("simultaneous_parts", &SimultaneousMotionParams::simultaneous_parts,

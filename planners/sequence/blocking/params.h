@@ -26,19 +26,19 @@ struct FreeGroupParams {
 };
 
 struct PartialTranslationParams {
-  std::int64_t slide_states = 60'000;
-  unsigned slide_refusals = 12;
-  double slide_work = 5e8;
-  double slide_work_growth = 4;
-  double slide_inset = 0.3;
-  double slide_least_step = 0.05;
-  double slide_play = 0.25;
-  unsigned slide_axes = 9;
+  std::int64_t translation_states = 60'000;
+  unsigned translation_refusals = 12;
+  double translation_work = 5e8;
+  double translation_work_growth = 4;
+  double translation_inset = 0.3;
+  double translation_least_step = 0.05;
+  double translation_play = 0.25;
+  unsigned translation_axes = 9;
   static void describe(Schema<BlockingParams>& schema);
 };
 
 struct ImmobilityParams {
-  bool cages = true;
+  bool merge_immobile = true;
   unsigned cage_proofs = 120;
   unsigned flat_proofs = 30;
   unsigned early_confinement_proofs = 6;
@@ -49,16 +49,16 @@ struct ImmobilityParams {
 };
 
 struct RotationParams {
-  bool turns = true;
-  unsigned turn_axes = 2;
-  unsigned turn_stops = 24;
-  unsigned turn_halvings = 4;
-  unsigned turn_sweeps = 300;
+  bool rotations = true;
+  unsigned rotation_axes = 2;
+  unsigned rotation_stops = 24;
+  unsigned rotation_halvings = 4;
+  unsigned rotation_sweeps = 300;
   static void describe(Schema<BlockingParams>& schema);
 };
 
 struct SimultaneousMotionParams {
-  bool at_once = true;
+  bool simultaneous = true;
   unsigned simultaneous_parts = 3;
   unsigned simultaneous_sets = 12;
   unsigned simultaneous_deep_sets = 2;

@@ -72,7 +72,8 @@ bool TranslationSearch::prepare(const Places& places) {
     }
     const Mesh& mesh = *assembly_.parts[part].mesh;
     if (mesh.triangles.size() > 200 * Polyhedron::kMostEdges) return false;
-    const auto [entry, is_new] = shapes_.emplace(part, Shape{Polyhedron(mesh, params_.slide_inset * tolerance_), {}});
+    const auto [entry, is_new] =
+        shapes_.emplace(part, Shape{Polyhedron(mesh, params_.translation_inset * tolerance_), {}});
     if (!entry->second.body.simple()) return false;
   }
   if (directions_.empty()) {
@@ -91,7 +92,7 @@ bool TranslationSearch::prepare(const Places& places) {
       }
     }
     std::stable_sort(axes.begin(), axes.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
-    if (axes.size() > params_.slide_axes) axes.resize(params_.slide_axes);
+    if (axes.size() > params_.translation_axes) axes.resize(params_.translation_axes);
     for (const auto& [axis, weight] : axes) {
       directions_.push_back(axis);
       directions_.push_back(-axis);
@@ -252,13 +253,14 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
             for (const double a : shape(id[i]).planes[side])
               for (const double b : shape(id[j]).planes[side]) {
                 const double length = sign * (b - a) + along;
-                if (length > params_.slide_least_step && length < next) next = length;
+                if (length > params_.translation_least_step && length < next) next = length;
               }
           }
         }
         std::vector<double> lengths;
         if (next < kInfinity) lengths.push_back(next);
-        if (to_contact && meets < next && meets - stand_off > params_.slide_play && next - meets > params_.slide_play)
+        if (to_contact && meets < next && meets - stand_off > params_.translation_play &&
+            next - meets > params_.translation_play)
           lengths.push_back(meets - stand_off);
         for (const double length : lengths) {
           const Set set = taken_along(i, length);

@@ -109,14 +109,14 @@ class RrtConnect final : public TransferPlanner {
       SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
                               goal);
       ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
-      auto problem = std::make_shared<ob::ProblemDefinition>(problem.information());
+      auto definition = std::make_shared<ob::ProblemDefinition>(problem.information());
       const auto start = problem.space().start();
       const auto end = problem.state_after(goal);
-      problem->addStartState(&start);
+      definition->addStartState(&start);
       auto target = std::make_shared<ob::GoalState>(problem.information());
       target->setState(&end);
-      problem->setGoal(target);
-      trees.setProblemDefinition(problem);
+      definition->setGoal(target);
+      trees.setProblemDefinition(definition);
       const ob::PlannerTerminationCondition stop(
           [&] { return budget.spent() || (limit > 0 && budget.checks >= limit); });
       ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;

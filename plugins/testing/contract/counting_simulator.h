@@ -37,6 +37,7 @@ class CountingWorld final : public World {
     if (!dynamics_) count(1);
     return inner_->penetration(state);
   }
+  void project_to_clearance(State& state, double clearance) override { inner_->project_to_clearance(state, clearance); }
   void contacts(const State& state, std::vector<Contact>& out) override { inner_->contacts(state, out); }
   bool separated(const State& state) override { return inner_->separated(state); }
   bool body_separated(const State& state, std::size_t body) override { return inner_->body_separated(state, body); }

@@ -52,7 +52,7 @@ TEST_P(PathPlannerContract, CancelledOnTheWay) {
     if (run.counted.steps >= 20) cancel.cancel();
   };
   plan(run, 1, {}, context);
-  if (run.result.outcome() != Outcome::solved) {
+  if (run.result.outcome() != Outcome::solved && cancel.cancelled()) {  // a search may end before it has used 20 steps
     EXPECT_EQ(run.result.outcome(), Outcome::cancelled);
   }
   EXPECT_LE(run.counted.steps, 20 + 2 * kLook);

@@ -39,7 +39,7 @@ bool PartialTranslation::search(GroupState& group) {
   };
   if (!std::all_of(group.members.begin(), group.members.end(), suits)) return false;
   lookahead_.before_translations(group);
-  for (unsigned refusals = 0; refusals < params_.slide_refusals && !state_.stop(); ++refusals) {
+  for (unsigned refusals = 0; refusals < params_.translation_refusals && !state_.stop(); ++refusals) {
     const TranslationSearch::Answer found = find(group);
     if (found.end != TranslationSearch::End::found) return false;
     for (const Translation& slide : found.translations) {
@@ -55,9 +55,9 @@ bool PartialTranslation::search(GroupState& group) {
 TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
   Places places;
   for (const PartId id : state_.parts_of(group.members)) places[id] = state_.pose(id).t;
-  const double work = params_.slide_work * std::pow(params_.slide_work_growth, group.search_depth - 1);
+  const double work = params_.translation_work * std::pow(params_.translation_work_growth, group.search_depth - 1);
   TranslationSearch::Answer found =
-      translations_.search(places, static_cast<std::size_t>(params_.slide_states), work, state_.context());
+      translations_.search(places, static_cast<std::size_t>(params_.translation_states), work, state_.context());
   using End = TranslationSearch::End;
   group.translations_limited = found.end == End::too_long;
   group.translations_exhausted = found.end == End::exhausted;

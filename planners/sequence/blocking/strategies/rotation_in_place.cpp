@@ -31,14 +31,14 @@ bool RotationInPlace::rotate_any(GroupState& group) {
   for (const SubassemblyId id : Subassemblies(group.members)) {
     if (!state_.is_single(id) || state_.is_base(state_.part_of(id))) continue;
     const auto [entry, is_new] = axes_.try_emplace(state_.part_of(id));
-    if (is_new) entry->second = rotation_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.turn_axes);
+    if (is_new) entry->second = rotation_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.rotation_axes);
     for (const RotationAxis& axis : entry->second)
       if (rotate(group, id, axis)) return true;
   }
   return false;
 }
 
-double RotationInPlace::arc() const { return 2 * std::numbers::pi / params_.turn_stops; }
+double RotationInPlace::arc() const { return 2 * std::numbers::pi / params_.rotation_stops; }
 
 /// Both ways about the axis, until another subassembly is free.
 bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const RotationAxis& axis) {
@@ -46,7 +46,7 @@ bool RotationInPlace::rotate(GroupState& group, SubassemblyId id, const Rotation
     const Rotation rotation{id, axis, state_.pose(state_.part_of(id)), sense};
     Path path{{rotation.start}};
     bool met = false;
-    for (unsigned stop = 1; stop < params_.turn_stops && !met; ++stop) {
+    for (unsigned stop = 1; stop < params_.rotation_stops && !met; ++stop) {
       if (state_.stop() || limit_reached()) return false;
       const std::size_t length = path.size();
       met = !step(group, rotation, stop, path);
@@ -72,7 +72,7 @@ bool RotationInPlace::step(const GroupState& group, const Rotation& rotation, un
     return true;
   }
   double clear = 0, blocked = arc();
-  for (unsigned h = 0; h < params_.turn_halvings; ++h) {
+  for (unsigned h = 0; h < params_.rotation_halvings; ++h) {
     const double middle = 0.5 * (clear + blocked);
     (sweeps_clear(group, rotation.id, last, rotation.at((stop - 1) * arc() + middle)) ? clear : blocked) = middle;
   }

@@ -45,7 +45,7 @@ class RotationInPlace final : public Strategy {
                                                                 const Pose& pose);
   std::optional<std::pair<SubassemblyId, std::size_t>> freed_by(const GroupState& group, SubassemblyId id);
   bool commit(GroupState& group, SubassemblyId id, const Path& path);
-  bool limit_reached() const { return sweeps_ > params_.turn_sweeps; }
+  bool limit_reached() const { return sweeps_ > params_.rotation_sweeps; }
 
   DisassemblyState& state_;
   PathOracle& oracle_;

@@ -80,7 +80,7 @@ TEST(Blocking, ShiftsWhatIsInTheWayAndLeavesItThere) {
   EXPECT_EQ(r.plan.disassembly[1].after, std::vector<unsigned>{1});
   EXPECT_EQ(r.plan.status, PlanStatus::partial) << "the bar never leaves";
   BlockingParams no_slides;
-  no_slides.slide_states = 0;
+  no_slides.translation_states = 0;
   RunContext context;
   const RunResult without =
       run(barred_shaft(), fake::setup(helpless, std::make_shared<Blocking>(no_slides)), RunOptions{}, context);
@@ -159,8 +159,8 @@ TEST(Blocking, TurnsWhatIsInTheWayAndLeavesItTurned) {
     const Assembly assembly = latched_rails(rng.uniform(-0.4, 0.4), rng.uniform(0.6, 0.9));
     for (const bool turns : {true, false}) {
       BlockingParams params;
-      params.turns = turns;
-      params.slide_states = 0;
+      params.rotations = turns;
+      params.translation_states = 0;
       RunContext context;
       const RunResult r =
           run(assembly, fake::setup(helpless, std::make_shared<Blocking>(params)), RunOptions{}, context);

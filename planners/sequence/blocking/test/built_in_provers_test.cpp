@@ -68,7 +68,7 @@ TEST(BlockingWithProvers, InseparablePartsLeaveAsOneAndAreReported) {
       EXPECT_EQ(u.blocked_by, std::vector<std::string>{u.part == "part1" ? "part2" : "part1"});
     }
     BlockingParams without;
-    without.cages = false;
+    without.merge_immobile = false;
     RunContext context;
     const RunResult searched =
         run(assembly, fake::setup(fake::helpless, std::make_shared<Blocking>(without)), options, context);

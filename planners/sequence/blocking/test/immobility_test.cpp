@@ -86,7 +86,7 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
 
 TEST(BlockingProofs, NothingIsMergedWhereThatIsSwitchedOff) {
   BlockingParams params;
-  params.cages = false;
+  params.merge_immobile = false;
   const auto prover =
       std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{{0, 1}, {2, 3}});
   RunResult off = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}}, params);

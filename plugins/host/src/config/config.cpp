@@ -39,9 +39,11 @@ class Loader {
       }
       config_.sections[name] = binder().section(specs, section, {name, "", ""});
     }
-    ParamSet immobility = binder().section({provers_parameter(registry_)}, node("immobility"), {"immobility", "", ""});
+    ParamSet& immobility = config_.sections["immobility"];
+    immobility = binder().section(immobility_parameters(registry_), node("immobility"), {"immobility", "", ""});
     if (const auto found = immobility.find("provers"); found != immobility.end()) {
       config_.provers = std::get<std::vector<PluginChoice>>(std::move(found->second));
+      immobility.erase(found);
       check_provers();
     }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
@@ -329,6 +331,7 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
   config.layout = Schema<LayoutOptions>().bind(config.sections.at("layout"));
   config.layout.poses = std::move(poses);
   config.run = Schema<RunSettings>().bind(config.sections.at("run"));
+  config.proofs = Schema<ProofOptions>().bind(config.sections.at("immobility"));
   config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
   return config;
 }

@@ -1,4 +1,4 @@
-// The section `immobility:` which provers run, in which order.
+// The section `immobility:` which provers run, in which order, and when.
 #include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 
@@ -18,6 +18,13 @@ ParamSpec provers_parameter(const Registry& registry) {
     if (registry.lookup(PluginKind::immobility_prover, id) != nullptr) fallback.push_back({id, {}, {}});
   spec.fallback = std::move(fallback);
   return spec;
+}
+
+std::vector<ParamSpec> immobility_parameters(const Registry& registry) {
+  std::vector<ParamSpec> all = {provers_parameter(registry)};
+  const std::vector<ParamSpec>& when = Schema<ProofOptions>().specs();
+  all.insert(all.end(), when.begin(), when.end());
+  return all;
 }
 
 }  // namespace dismantle

@@ -28,6 +28,7 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
   out.only_part = part;
   out.verify = config.verify;
+  out.proofs = config.proofs;
   out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
   return out;

@@ -64,9 +64,10 @@ class Writer {
     }
   }
 
-  void provers(const std::vector<PluginChoice>& choices, const Registry& registry) {
+  void immobility(ParamSet values, const std::vector<PluginChoice>& provers, const Registry& registry) {
     line("immobility:");
-    yaml_.values("immobility", 2, {provers_parameter(registry)}, {{"provers", choices}});
+    values["provers"] = provers;
+    yaml_.values("immobility", 2, immobility_parameters(registry), values);
   }
 
   const std::string& text() const { return yaml_.text(); }
@@ -120,7 +121,7 @@ std::string resolved_yaml(const RunConfig& config, const Registry& registry, con
   const PluginChoice* choices[] = {&config.simulator, &config.path_planner, &config.sequence_planner,
                                    &config.transfer_planner};
   for (std::size_t i = 0; i < plugin_sections().size(); ++i) writer.plugin(plugin_sections()[i], *choices[i]);
-  writer.provers(config.provers, registry);
+  writer.immobility(config.sections.at("immobility"), config.provers, registry);
   fixed("layout");
   if (!config.layout.poses.empty()) {
     writer.line("  poses:");

@@ -57,6 +57,9 @@ std::string describe_sections_markdown() {
   std::string out =
       "# Sections of a configuration\n\nWhat they mean together: [configuration.md](../configuration.md).\n";
   for (const auto& [name, specs] : fixed_sections()) out += fmt::format("\n## {}\n\n{}", name, table(specs));
+  out += fmt::format("\n## immobility\n\n`provers`: {}\n\n{}",
+                     "list of immobility provers in the order of asking, `[]` = none; all of this project by default.",
+                     table(Schema<ProofOptions>().specs()));
   return out;
 }
 

@@ -120,10 +120,11 @@ std::string json_schema(const Registry& registry) {
   for (const auto& [name, specs] : fixed_sections()) properties[name] = object(properties_of(specs, name, definitions));
   Json importers = Json::object();
   for (const auto* type : registry.types(PluginKind::importer))
-    if (!type->type.params.empty()) importers[type->type.id] = object(properties_of(type->type.params, "importers." + type->type.id, definitions));
+    if (!type->type.params.empty())
+      importers[type->type.id] = object(properties_of(type->type.params, "importers." + type->type.id, definitions));
   properties["importers"] = object(std::move(importers));
   properties["importers"]["description"] = "Parameters of importers, by id.";
-  properties["immobility"] = object(properties_of({provers_parameter(registry)}, "immobility", definitions));
+  properties["immobility"] = object(properties_of(immobility_parameters(registry), "immobility", definitions));
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
   const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};

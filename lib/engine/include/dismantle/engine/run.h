@@ -10,6 +10,7 @@
 
 #include "dismantle/assembly.h"
 #include "dismantle/engine/layout.h"
+#include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
 #include "dismantle/immobility_prover.h"
 #include "dismantle/path_oracle.h"
@@ -44,6 +45,7 @@ struct RunOptions {
   std::uint64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   std::string only_part;         ///< plan just this part's path, all others fixed
   VerifyOptions verify;
+  ProofOptions proofs;
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dismantle/engine/layout.h"
+#include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/parameters.h"
@@ -57,13 +58,14 @@ struct RunConfig {
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
+  ProofOptions proofs;
   LayoutOptions layout;
   NamedConstraints constraints;
-  std::vector<ConstraintName> constraint_names;            ///< in reading order
   std::map<std::string, ParamSet> importers;               ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
-  /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`; complete (but for `layout.poses`).
+  /// The untyped values of the sections `assembly`, `layout`, `run`, `verify`, `immobility`; complete (but for
+  /// `layout.poses` and `immobility.provers`).
   std::map<std::string, ParamSet> sections;
   /// "run.seed" -> "configs/a.yaml:4", "<--set>:1", "<--seed>" or "default".
   std::map<std::string, std::string> origins;
@@ -108,6 +110,8 @@ struct PluginSection {
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
 /// The parameter `provers` of the section `immobility`. Its default: the built-in provers, as far as they are there.
 DISMANTLE_API ParamSpec provers_parameter(const Registry& registry);
+/// All parameters of the section `immobility:`.
+DISMANTLE_API std::vector<ParamSpec> immobility_parameters(const Registry& registry);
 inline constexpr std::int64_t kConfigSchema = 1;  ///< the value of the key `schema`
 
 }  // namespace dismantle

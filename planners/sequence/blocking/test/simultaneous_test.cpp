@@ -30,10 +30,10 @@ struct AtOnce {
 
 TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
   BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
+  params.groups = params.rotations = false;
+  params.translation_states = 0;
   for (const bool at_once : {true, false}) {
-    params.at_once = at_once;
+    params.simultaneous = at_once;
     std::set<std::string> plans;
     for (const unsigned threads : {1U, 3U}) {
       std::vector<std::vector<PartId>> leaving;
@@ -63,8 +63,8 @@ TEST(Blocking, MovesTwoAtOnceWhereOneIsHeldByTheOtherAlone) {
 
 TEST(Blocking, WhoMayNotLeaveOrMoveIsNotAskedForAtOnce) {
   BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
+  params.groups = params.rotations = false;
+  params.translation_states = 0;
   const auto asked = [&](const Constraints& constraints) {
     std::vector<std::vector<PartId>> leaving;
     RunOptions options;
@@ -120,8 +120,8 @@ TEST(Blocking, SetsThatMoveAtOnceAreFewHoweverManyPartsAreLeft) {
     return r;
   };
   BlockingParams params;
-  params.groups = params.turns = false;
-  params.slide_states = 0;
+  params.groups = params.rotations = false;
+  params.translation_states = 0;
   RunContext context;
   const RunResult r = run(many, fake::setup(in_vain, std::make_shared<Blocking>(params)), RunOptions{}, context);
   EXPECT_TRUE(r.plan.disassembly.empty());

@@ -1,0 +1,33 @@
+#include "dismantle/engine/proof_options.h"
+
+namespace dismantle {
+
+void ProofOptions::describe(Schema<ProofOptions>& s) {
+  s.add("low_effort_depth", &ProofOptions::low_effort_depth,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Cheap proofs are tried before searches of at least this depth, and before searches without "
+                "a limit: "
+                "such a search takes longer than the proof."});
+  s.add("high_effort_depth", &ProofOptions::high_effort_depth,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Expensive proofs about one part against one other are tried after an unsuccessful search of "
+                "at least "
+                "this depth."});
+  s.add("reduced_tolerance", &ProofOptions::reduced_tolerance,
+        {.unit = "1",
+         .min = 0.05,
+         .max = 1,
+         .doc = "Advanced. Share of the tolerance for which the last proofs are tried first. With less tolerance more "
+                "is proved, "
+                "but the proof covers fewer motions."});
+  s.add(
+      "final_parts", &ProofOptions::final_parts,
+      {.unit = "1",
+       .min = 0,
+       .doc =
+           "Advanced. Parts for which proofs are tried at the end of a run, at most; up to a minute each. 0 = none."});
+}
+
+}  // namespace dismantle
