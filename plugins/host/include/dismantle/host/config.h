@@ -61,6 +61,7 @@ struct RunConfig {
   ProofOptions proofs;
   LayoutOptions layout;
   NamedConstraints constraints;
+  std::vector<ConstraintName> constraint_names;  ///< in reading order
   std::map<std::string, ParamSet> importers;               ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
