@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dismantle/host/config.h"
+#include "dismantle/host/config_node.h"
 
 namespace dismantle {
 
