@@ -25,6 +25,8 @@ endif()
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
+dismantle_built_with(Eigen "${Eigen3_VERSION}")
+dismantle_built_with(fmt "${fmt_VERSION}")
 
 add_library(dismantle_settings INTERFACE)
 target_compile_options(dismantle_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)

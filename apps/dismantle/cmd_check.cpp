@@ -67,7 +67,7 @@ void add_check(CLI::App& app, Action& action) {
       "parts inside the solid of others, and parts that touch nothing.\n"
       "Exit status: 0 nothing found, 1 something was found, 3 the input cannot be planned with.\n"
       "Examples:\n"
-      "  dismantle check gearbox.step\n"
+      "  dismantle check gearbox/\n"
       "  dismantle check gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return check(*options); }; });
 }

@@ -1,23 +1,79 @@
 // dismantle explain PLAN.json
+#include <fmt/format.h>
+
 #include "dismantle/command.h"
 #include "dismantle/console.h"
-#include "dismantle/plan_io/summary.h"
+#include "dismantle/errors.h"
+#include "dismantle/host/config_node.h"
+#include "dismantle/host/suggest.h"
 #include "dismantle/plan_file.h"
+#include "dismantle/plan_io/explain.h"
 
 namespace dismantle::app {
+namespace {
+
+struct ExplainOptions {
+  std::string file, part;
+  ConsoleOptions console;
+};
+
+void flatten(const ConfigNode& node, const std::string& key, ExplainSettings& out) {
+  if (node.is_scalar()) out[key] = node.scalar;
+  for (const auto& member : node.members) flatten(member.value, key.empty() ? member.key : key + "." + member.key, out);
+}
+
+/// The values of the run, where resolved.yaml lies beside the plan; advice then names what they were.
+ExplainSettings settings_beside(const std::filesystem::path& plan) {
+  ExplainSettings out;
+  const std::filesystem::path file = std::filesystem::path(plan).replace_filename("resolved.yaml");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return out;
+  std::vector<Diagnostic> problems;
+  std::string unreadable;
+  ConfigNode root;
+  if (read_yaml(file.string(), root, problems, unreadable) && problems.empty()) flatten(root, "", out);
+  return out;
+}
+
+void check_part(const Plan& plan, const std::string& part, const std::string& file) {
+  std::vector<std::string> names;
+  for (const auto& p : plan.assembly.parts) names.push_back(p.name);
+  for (const auto& [name, reason] : plan.assembly.excluded)
+    if (name == part) throw InputError(file, fmt::format("part '{}' was left out of the plan: {}", part, reason));
+  if (part.empty() || std::find(names.begin(), names.end(), part) != names.end()) return;
+  const auto near = nearest(part, names);
+  throw InputError(file, fmt::format("the plan has no part '{}'{}", part,
+                                     near ? fmt::format("; did you mean '{}'?", *near)
+                                          : fmt::format("; its parts: {}", fmt::join(names, ", "))));
+}
+
+int explain_plan(const ExplainOptions& options) {
+  Console console(options.console);
+  const Plan plan = read_plan(options.file);
+  check_part(plan, options.part, options.file);
+  const Explanation why = explain(plan, settings_beside(options.file), options.part);
+  console.text(explain_text(why));
+  if (options.console.format == Format::json) {
+    auto result = nlohmann::ordered_json::parse(explain_json(why));
+    result["plan"] = options.file;
+    console.result(std::move(result));
+  }
+  return kComplete;
+}
+
+}  // namespace
 
 void add_explain(CLI::App& app, Action& action) {
-  auto* command =
-      app.add_subcommand("explain", "Say why parts did not come out: what was tried, what blocked it, where");
-  auto file = std::make_shared<std::string>();
-  command->add_option("PLAN.json", *file, "Plan file")->required()->option_text(" ");
-  command->footer("Example:\n  dismantle explain out/plan.json");
-  command->callback([&action, file] {
-    action = [file] {
-      Console(ConsoleOptions{}).text(explain_text(read_plan(*file)));
-      return static_cast<int>(kComplete);
-    };
-  });
+  auto* command = app.add_subcommand(
+      "explain", "Say why parts did not come out, what to do about it, and why the others came out in this order");
+  auto options = std::make_shared<ExplainOptions>();
+  command->add_option("PLAN.json", options->file, "Plan file")->required()->option_text(" ");
+  command->add_option("--part", options->part, "Only this part")->option_text("NAME");
+  add_format(*command, options->console);
+  command->footer(
+      "Lengths are in the unit of the input. Values of the run are read from resolved.yaml beside the plan.\n"
+      "Example:\n  dismantle explain out/plan.json --part shaft_1");
+  command->callback([&action, options] { action = [options] { return explain_plan(*options); }; });
 }
 
 }  // namespace dismantle::app

@@ -58,7 +58,7 @@ void add_prepare(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
-  command->footer("Example:\n  dismantle prepare scans/ -o clean --set assembly.max_overlap=0.1");
+  command->footer("Example:\n  dismantle prepare gearbox/ -o clean --set assembly.max_overlap=0.1");
   command->callback([&action, options] { action = [options] { return prepare(*options); }; });
 }
 

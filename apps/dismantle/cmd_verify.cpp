@@ -3,16 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/plan_file.h"
-#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/loaded_plan.h"
 #include "dismantle/report_text.h"
-#include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 #include "dismantle/verification/check_plan.h"
 
@@ -43,20 +39,8 @@ double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console
 int verify(const Verify& options) {
   Console console(options.console);
   Registry registry;
-  registry.scan();
-  warn_of_problems(registry, console);
-  RunSettings settings;
-  settings.timeout = 0;
-  RunContext context = context_of(settings, console);
-
-  const Plan plan = read_plan(options.plan);
-  const std::string source = source_of(plan, options.plan, options.assembly);
-  ReadOptions read;
-  read.max_triangles = std::numeric_limits<std::int64_t>::max();
-  const Assembly assembly = stoppable(context, [&] {
-    const auto importers = importers_of(registry, plan.assembly.import_params);
-    return assembly_of_plan(plan, read_input(source, importers, read, context), source, context);
-  });
+  RunContext context = context_for_reading(registry, console);
+  const auto [plan, assembly] = load_plan(options.plan, options.assembly, registry, context);
   VerifyOptions tolerance;
   tolerance.max_penetration = tolerance_of(plan, assembly, console);
   if (const SurfaceRepair& r = plan.assembly.repair; r != SurfaceRepair{})

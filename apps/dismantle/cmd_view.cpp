@@ -1,18 +1,12 @@
 // dismantle view PLAN.json
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/host/planning_setup.h"
-#include "dismantle/plan_file.h"
+#include "dismantle/loaded_plan.h"
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/write_file.h"
-#include "dismantle/preparation/assembly_of_plan.h"
-#include "dismantle/settings.h"
-#include "dismantle/stopped.h"
 #include "dismantle/viewer_template.h"
 
 namespace dismantle::app {
@@ -28,19 +22,8 @@ int view(const ViewOptions& options) {
   const auto page_template = viewer_template();
   if (!page_template) throw Error(kNoViewer);
   Registry registry;
-  registry.scan();
-  warn_of_problems(registry, console);
-  RunSettings settings;
-  settings.timeout = 0;
-  RunContext context = context_of(settings, console);
-
-  const Plan plan = read_plan(options.plan);
-  const std::string source = source_of(plan, options.plan, options.assembly);
-  ReadOptions read;
-  read.max_triangles = std::numeric_limits<std::int64_t>::max();
-  const Assembly assembly = stoppable(context, [&] {
-    return assembly_of_plan(plan, read_input(source, importers_of(registry), read, context), source, context);
-  });
+  RunContext context = context_for_reading(registry, console);
+  const auto [plan, assembly] = load_plan(options.plan, options.assembly, registry, context);
   const std::filesystem::path page = options.output.empty()
                                          ? std::filesystem::path(options.plan).replace_filename("index.html")
                                          : std::filesystem::path(options.output);

@@ -30,5 +30,6 @@ void add_plugins(CLI::App& app, Action& action);
 void add_sample(CLI::App& app, Action& action);
 void add_bench(CLI::App& app, Action& action);
 void add_report(CLI::App& app, Action& action);
+void add_completion(CLI::App& app, Action& action);
 
 }  // namespace dismantle::app

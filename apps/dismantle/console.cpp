@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
 #include <map>
+
+#include "dismantle/colour.h"
 
 namespace dismantle::app {
 namespace {
@@ -35,18 +38,23 @@ Console::Console(const ConsoleOptions& options)
 
 void Console::attach(RunContext& context) {
   context.on_progress = [this](const ProgressEvent& event) { progress_->event(event); };
+  progress_->ends_by(context.deadline);
   context.on_log = [this](LogLevel level, std::string_view text) { log(level, text); };
 }
 
 void Console::log(LogLevel level, std::string_view text) {
   const LogLevel least = options_.quiet ? LogLevel::error : options_.verbose ? LogLevel::debug : LogLevel::info;
   if (level < least) return;
-  const char* prefix = level == LogLevel::error ? "error: " : level == LogLevel::warning ? "warning: " : "";
+  const std::string prefix = level == LogLevel::error     ? coloured(stderr, Colour::red, "error:") + " "
+                             : level == LogLevel::warning ? coloured(stderr, Colour::yellow, "warning:") + " "
+                                                          : "";
   progress_->line(fmt::format("{}{}", prefix, text));
 }
 
 void Console::line(std::string_view text) { log(LogLevel::info, text); }
 void Console::warning(std::string_view text) { log(LogLevel::warning, text); }
+void Console::error(std::string_view text) { log(LogLevel::error, text); }
+std::string Console::busy_with() const { return progress_->busy_with(); }
 void Console::end_progress() { progress_ = std::make_unique<Progress>(Progress::Style::none); }
 
 void Console::text(std::string_view text) {

@@ -36,6 +36,9 @@ class Console {
   /// A line about something that happened; nothing with -q.
   void line(std::string_view text);
   void warning(std::string_view text);
+  void error(std::string_view text);
+  /// What is going on: the phase and the part in hand.
+  std::string busy_with() const;
   /// Prints `result` (with times and memory added) if the format is JSON.
   void result(nlohmann::ordered_json result);
   /// Takes the bar away.

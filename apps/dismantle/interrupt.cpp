@@ -21,7 +21,7 @@ extern "C" void on_signal(int) {
   const int saved = errno;
   if (g_signals.fetch_add(1) > 0) _exit(kInterrupted);
   g_token->cancel();
-  constexpr std::string_view text = "\nstopping: saving what is done (once more to stop at once)\n";
+  constexpr std::string_view text = "\nstopping: saving what is done (once more to stop now)\n";
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) {
     // Nobody is there to read it.
   }

@@ -6,15 +6,17 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dismantle/colour.h"
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
-#include "dismantle/stopped.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/stopped.h"
 
 namespace dismantle::app {
 namespace {
@@ -30,7 +32,7 @@ bool asks_for_json(int argc, char** argv) {
 }
 
 int report_failure(bool json, int status, const std::string& message) {
-  fmt::print(stderr, "dismantle: error: {}\n", message);
+  fmt::print(stderr, "dismantle: {} {}\n", coloured(stderr, Colour::red, "error:"), message);
   if (json)
     fmt::print("{}", result_line({{"status", status == kInterrupted ? "interrupted" : "error"}, {"message", message}}));
   return status;
@@ -45,6 +47,14 @@ int report_diagnostics(bool json, const ConfigError& e) {
   return kUsage;
 }
 
+/// Those that the help shows.
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    if (!command->get_group().empty()) names.push_back(command->get_name());
+  return names;
+}
+
 /// What is wrong with the names of the command and its sub-command, or nothing: the parser would only say that one
 /// is missing.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
@@ -52,12 +62,10 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
     const auto commands = at->get_subcommands([](const CLI::App*) { return true; });
     if (commands.empty()) break;
-    std::vector<std::string> names;
+    const std::vector<std::string> names = commands_of(*at);  // the others are for ourselves
     const CLI::App* next = nullptr;
-    for (const CLI::App* command : commands) {
-      if (!command->get_group().empty()) names.push_back(command->get_name());  // the others are for ourselves
+    for (const CLI::App* command : commands)
       if (command->get_name() == argv[i]) next = command;
-    }
     if (next == nullptr) {
       const auto near = nearest(argv[i], names);
       return fmt::format("{} has no command '{}'{}; its commands are {}", at->get_name(), argv[i],
@@ -66,6 +74,25 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
     at = next;
   }
   return "";
+}
+
+/// What is wrong with the arguments, with what to do next.
+std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const CLI::App* at = &app;
+  std::string path = app.get_name();
+  for (int i = 1; i < argc; ++i) {
+    const auto below = at->get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[i]; });
+    if (below.empty()) break;
+    at = below.front();
+    path += " " + at->get_name();
+  }
+  std::string what = error.what();
+  const auto commands = commands_of(*at);
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !commands.empty())
+    what = fmt::format("a command is missing; the commands of '{}' are {}", path, fmt::join(commands, ", "));
+  else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && what.ends_with(" missing"))
+    what = fmt::format("{} needs a value", what.substr(0, what.find(':')));
+  return fmt::format("{}\nTry '{} --help'.", what, path);
 }
 
 int run(CLI::App& app, Action& action, int argc, char** argv) {
@@ -77,9 +104,7 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   } catch (const CLI::Success& e) {  // --help and --version
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    const int status = report_failure(json, kUsage, e.what());
-    fmt::print(stderr, "Try 'dismantle --help' or 'dismantle COMMAND --help'.\n");
-    return status;
+    return report_failure(json, kUsage, usage_problem(app, e, argc, argv));
   }
   try {
     return action();
@@ -109,6 +134,15 @@ void open_standard_streams() {
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
 }
 
+/// The first line is the program's own version; DISMANTLE_BUILT_WITH is a list that the build makes.
+std::string version_text() {
+  std::string out = "dismantle " DISMANTLE_VERSION "\nbuilt with";
+  std::istringstream libraries(DISMANTLE_BUILT_WITH);
+  bool first = true;
+  for (std::string library; std::getline(libraries, library, ','); first = false) out += (first ? " " : ", ") + library;
+  return out;
+}
+
 /// What did not reach standard output was not done.
 int flushed(int status) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
@@ -123,7 +157,7 @@ int main(int argc, char** argv) {
   using namespace dismantle::app;
   open_standard_streams();
   CLI::App app("Takes assemblies apart, to find out how to put them together.", "dismantle");
-  app.set_version_flag("--version", "dismantle " DISMANTLE_VERSION);
+  app.set_version_flag("--version", version_text(), "Print the version, and those of the libraries it was built with");
   app.require_subcommand(1);
   app.footer(
       "Examples:\n"
@@ -131,7 +165,8 @@ int main(int argc, char** argv) {
       "  dismantle plan gearbox/ -c configs/paper.yaml -o out\n"
       "  dismantle verify out/plan.json\n"
       "  dismantle bench configs/bench/smoke.yaml -o smoke && dismantle report smoke\n"
-      "Exit status: 0 complete, 1 not all parts came out, 2 usage or configuration, 3 unusable input,\n"
+      "Exit status: 0 complete, 1 not all parts came out or some could not be used, 2 usage or configuration, 3 "
+      "unusable input,\n"
       "4 a plugin failed, 130 interrupted.");
   Action action;
   add_plan(app, action);
@@ -146,5 +181,6 @@ int main(int argc, char** argv) {
   add_sample(app, action);
   add_bench(app, action);
   add_report(app, action);
+  add_completion(app, action);
   return flushed(run(app, action, argc, argv));
 }

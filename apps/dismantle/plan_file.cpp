@@ -23,7 +23,9 @@ Plan read_plan(const std::filesystem::path& file) {
   std::ostringstream text;
   if (in.peek() != std::ifstream::traits_type::eof()) text << in.rdbuf();
   if (!in.is_open() || in.bad() || text.bad())
-    throw InputError(file.string(), "cannot be read: " + std::generic_category().message(errno));
+    throw InputError(file.string(),
+                     "cannot be read: " + std::generic_category().message(errno) +
+                         (errno == ENOENT ? "; 'dismantle plan INPUT -o DIR' writes DIR/plan.json" : ""));
   return plan_from_json(text.str(), file.string());
 }
 

@@ -5,14 +5,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+
+#include "dismantle/colour.h"
 
 namespace dismantle::app {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds kRedraw{100}, kLine{1000};
+constexpr milliseconds kRedraw{100};
+constexpr std::chrono::seconds kFirstLines{1}, kLastLines{30};  // between two lines, at first and after ten minutes
 
 std::size_t columns() {
   winsize size = {};
@@ -30,6 +34,18 @@ std::string cut(const std::string& text, std::size_t width) {
 void put(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+/// Are the items of the phase alike, so that the time for some tells the time for all?
+bool is_even(std::string_view phase) {
+  return phase == "read" || phase == "prepare" || phase == "hulls" || phase == "subdivide" || phase == "overlaps" ||
+         phase == "fields" || phase == "verify";
+}
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.0f} s", seconds);
+  const auto minutes = static_cast<long>(seconds / 60 + 0.5);
+  return minutes < 100 ? fmt::format("{} min", minutes) : fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
 
 const char* words_of(std::string_view phase) {
@@ -64,12 +80,19 @@ std::string Progress::status(Clock::time_point now) const {
   std::string out = words != nullptr ? words : phase_;
   if (total_ > 0) out += fmt::format(" {}/{}", done_, total_);
   if (!detail_.empty()) out += ": " + detail_;
-  return out + fmt::format(" ({:.0f} s)", std::chrono::duration<double>(now - begin_).count());
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  out += " (" + duration(elapsed);
+  constexpr std::size_t kSample = 3;  // items that say how long others take
+  constexpr double kWorthSaying = 5;  // s
+  if (is_even(phase_) && done_ >= kSample && 10 * done_ >= total_ && done_ < total_ && elapsed >= kWorthSaying)
+    out += fmt::format(", about {} left", duration(elapsed * double(total_ - done_) / double(done_)));
+  else if (phase_ == "sequence" && elapsed >= kWorthSaying && std::isfinite(deadline_.seconds_left()))
+    out += fmt::format(", ends within {}", duration(std::max(0.0, deadline_.seconds_left())));
+  return out + ")";
 }
 
 void Progress::event(const ProgressEvent& event) {
   const std::lock_guard lock(mutex_);
-  if (style_ == Style::none) return;
   const auto now = Clock::now();
   const bool fresh = event.phase != phase_;
   const bool changed = fresh || event.done != done_ || event.total != total_ || event.detail != detail_;
@@ -78,12 +101,25 @@ void Progress::event(const ProgressEvent& event) {
   detail_ = event.detail;
   done_ = event.done;
   total_ = event.total;
+  if (style_ == Style::none) return;
+  // Long runs say less often how far they are; each step that is found is a line of its own.
+  const auto pause = std::clamp<Clock::duration>((now - begin_) / 20, kFirstLines, kLastLines);
   if (style_ == Style::bar) {
     if (fresh || now - drawn_ >= kRedraw) draw(now);
-  } else if (changed && (fresh || now - drawn_ >= kLine)) {
+  } else if (changed && (fresh || now - drawn_ >= pause)) {
     drawn_ = now;
     put(status(now) + "\n");
   }
+}
+
+void Progress::ends_by(const Deadline& deadline) {
+  const std::lock_guard lock(mutex_);
+  deadline_ = deadline;
+}
+
+std::string Progress::busy_with() {
+  const std::lock_guard lock(mutex_);
+  return phase_.empty() ? "the beginning" : status(Clock::now());
 }
 
 void Progress::line(std::string_view text) {
@@ -100,7 +136,9 @@ void Progress::draw(Clock::time_point now) {
     const std::size_t full = kBar * std::min(done_, total_) / total_;
     bar = '[' + std::string(full, '#') + std::string(kBar - full, '.') + "] ";
   }
-  put("\r" + cut(bar + status(now), columns() - 1) + "\x1b[K");
+  const std::string text = cut(bar + status(now), columns() - 1);
+  const std::size_t painted = std::min(bar.size(), text.size());
+  put("\r" + coloured(stderr, Colour::green, text.substr(0, painted)) + text.substr(painted) + "\x1b[K");
   visible_ = true;
 }
 

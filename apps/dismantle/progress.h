@@ -1,4 +1,5 @@
-/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere.
+/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. How long it still takes is said only
+/// where it is known: in phases whose items are alike. Of the parts that are left nobody knows that; there the limit is said.
 #pragma once
 
 #include <chrono>
@@ -26,6 +27,10 @@ class Progress {
   static Style style_of_stderr();
 
   void event(const ProgressEvent& event);
+  /// When the run ends at the latest; shown where nothing better is known.
+  void ends_by(const Deadline& deadline);
+  /// The phase and the part in hand: "parts out 3/9: shaft (12 s)".
+  std::string busy_with();
   /// A line above the bar.
   void line(std::string_view text);
 
@@ -42,6 +47,7 @@ class Progress {
   std::string phase_, detail_;
   std::size_t done_ = 0, total_ = 0;
   Clock::time_point begin_, drawn_;
+  Deadline deadline_;
   bool visible_ = false;
   std::jthread ticker_;  // last: it stops before what it uses is gone
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
@@ -11,6 +12,7 @@ namespace dismantle {
 std::string check_text(const Plan& plan, const PlanCheck& check) {
   std::string out = fmt::format("{}: {}\n", plan.assembly.source, text::counted(plan.disassembly.size(), "step"));
   const std::size_t width = text::widest_step(plan);
+  const double scale = plan.assembly.scale > 0 ? plan.assembly.scale : 1;  // people read input units
   for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
     const auto& step = plan.disassembly[i];
     const bool bad = std::ranges::any_of(check.problems, [&](const PlanProblem& p) { return p.step == step.step; });
@@ -18,7 +20,7 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     if (bad)
       out += "NOT VALID\n";
     else if (i < check.step_penetration.size())
-      out += fmt::format("valid, penetration <= {:.2g}\n", check.step_penetration[i]);
+      out += fmt::format("valid, penetration <= {}\n", length_text(plan, check.step_penetration[i] / scale));
     else
       out += "not checked\n";
   }
@@ -26,8 +28,9 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
-  out += fmt::format("The plan is valid, penetration <= {:.2g} assembly units, and {}.\n", check.max_penetration,
-                     check.complete ? "complete" : "partial: some parts are still together");
+  out +=
+      fmt::format("The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
+                  check.complete ? "complete" : "partial: some parts are still together");
   return out;
 }
 
@@ -45,8 +48,9 @@ std::string prepare_text(const Assembly& assembly, const PrepareReport& report) 
                        part.shells, part.volume, done.empty() ? "nothing" : done);
   }
   for (const auto& o : assembly.overlaps)
-    out += fmt::format("overlap when assembled: {} and {}, {:.2g} assembly units\n", assembly.parts[o.a].name,
-                       assembly.parts[o.b].name, o.depth);
+    out += fmt::format("overlap when assembled: {} and {}, {:.3g} {}\n", assembly.parts[o.a].name,
+                       assembly.parts[o.b].name, o.depth / assembly.normalization.scale,
+                       assembly.unit.empty() ? "input units" : assembly.unit);
   for (const auto& warning : report.warnings) out += fmt::format("warning: {}\n", warning);
   const Eigen::Vector3d size = assembly.input_box.size();
   out += fmt::format("size {:.6g} x {:.6g} x {:.6g} input units, scale {:.6g}\n", size.x(), size.y(), size.z(),

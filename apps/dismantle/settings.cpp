@@ -59,13 +59,17 @@ RunContext context_of(const RunSettings& settings, Console& console) {
 
 namespace {
 
-void check_part(const std::string& part, const std::vector<RawPart>& parts, const std::string& input) {
+std::vector<std::string> names_of(const std::vector<RawPart>& parts) {
   std::vector<std::string> names;
-  for (const auto& raw : parts) {
+  for (const auto& raw : parts) names.push_back(raw.name);
+  return names;
+}
+
+void check_part(const std::string& part, const std::vector<RawPart>& parts, const std::string& input) {
+  const std::vector<std::string> names = names_of(parts);
+  for (const auto& raw : parts)
     if (raw.name == part && !raw.problem.empty())
       throw InputError(input, fmt::format("part '{}' cannot be used: {}", part, raw.problem));
-    names.push_back(raw.name);
-  }
   if (part.empty() || std::find(names.begin(), names.end(), part) != names.end()) return;
   std::string text = fmt::format("has no part '{}'", part);
   if (const auto near = nearest(part, names)) {
@@ -90,6 +94,7 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
     InputParts parts = read_input(input, importers_of(registry, import_params), options, context);
     for (const auto& warning : parts.warnings) context.log(LogLevel::warning, warning);
     check_part(part, parts.parts, input);
+    check_constraint_names(config, names_of(parts.parts), input);
     const auto& ignore = config.constraints.ignore;
     std::vector<ExcludedPart> ignored;
     for (const auto& raw : parts.parts)
@@ -97,9 +102,6 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
         ignored.push_back({raw.name, "the configuration says to ignore it (constraints.ignore)", true});
     std::erase_if(parts.parts,
                   [&](const auto& raw) { return std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end(); });
-    for (const auto& name : ignore)
-      if (std::none_of(ignored.begin(), ignored.end(), [&](const ExcludedPart& p) { return p.name == name; }))
-        throw InputError(input, "has no part '" + name + "', which constraints.ignore names");
     Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
     assembly.import_params = import_params;
     assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());

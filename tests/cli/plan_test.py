@@ -33,7 +33,7 @@ class Plan(CliTest):
 
         verified = self.run_program("verify", result["plan"], "--format", "json", status=0)
         self.assertEqual(self.result_of(verified)["status"], "complete")
-        self.assertIn("nothing to explain", self.run_program("explain", result["plan"], status=0).stdout)
+        self.assertIn("every part came out", self.run_program("explain", result["plan"], status=0).stdout)
 
     def test_same_seed_same_bytes_and_the_resolved_file_repeats_the_run(self):
         self.make("machine", "parts=4")

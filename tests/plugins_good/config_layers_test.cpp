@@ -30,7 +30,7 @@ TEST_F(Layers, ErrorsPointAtTheRightFile) {
   write("top.yaml", "schema: 1\nextends: base.yaml\nrun: {threads: -1}\n");
   EXPECT_EQ(errors({"top.yaml", {"run.path_steps=many"}, {}}),
             "base.yaml:2:7: error: unknown key 'sed' in run; did you mean 'seed'?\n"
-            "base.yaml:3:27: error: verify.max_penetration must be > 0, got 0 assembly units\n"
+            "base.yaml:3:27: error: verify.max_penetration must be in (0, 0.5], got 0 assembly units\n"
             "top.yaml:3:16: error: run.threads must be in [0, 1024], got -1\n"
             "<--set>:1: error: run.path_steps must be an integer, got 'many'\n");
 }
@@ -47,7 +47,7 @@ TEST_F(Layers, Cycles) {
 
 TEST_F(Layers, MissingBase) {
   EXPECT_EQ(errors_of("schema: 1\nextends: gone.yaml\nrun: {sed: 1}\n"),
-            "run.yaml:2:10: error: cannot read 'gone.yaml'\n"
+            "run.yaml:2:10: error: cannot read 'gone.yaml': No such file or directory\n"
             "run.yaml:3:7: error: unknown key 'sed' in run; did you mean 'seed'?\n");
   EXPECT_EQ(errors_of("schema: 1\nextends: [a, b]\n"), "run.yaml:2:10: error: extends must be the name of a file\n");
 }
@@ -63,9 +63,10 @@ TEST_F(Layers, ChangedTypeDropsTheParametersOfTheOther) {
   EXPECT_EQ(std::get<double>(load("same.yaml").path_planner.parameters.at("similarity_translation")), 0.1);
   write("implied.yaml", "schema: 1\npath_planner: {similarity_translation: 0.1}\n");  // guided by default
   EXPECT_EQ(load("implied.yaml", {}, {{"--path-planner", "path_planner.type", "t_rrt"}}).path_planner.type, "t_rrt");
-  EXPECT_EQ(std::get<double>(
-                load("implied.yaml", {"path_planner.type=guided"}).path_planner.parameters.at("similarity_translation")),
-            0.1);
+  EXPECT_EQ(
+      std::get<double>(
+          load("implied.yaml", {"path_planner.type=guided"}).path_planner.parameters.at("similarity_translation")),
+      0.1);
 }
 
 TEST_F(Layers, SetAndOptions) {

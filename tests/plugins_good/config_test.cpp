@@ -202,7 +202,7 @@ TEST_F(Config, SearchPathsAreRelativeToTheFile) {
 }
 
 TEST_F(Config, UnreadableFiles) {
-  EXPECT_EQ(errors({"absent.yaml", {}, {}}), "error: cannot read 'absent.yaml'\n");
+  EXPECT_EQ(errors({"absent.yaml", {}, {}}), "error: cannot read 'absent.yaml': No such file or directory\n");
   std::filesystem::create_directory("folder.yaml");
   EXPECT_EQ(errors({"folder.yaml", {}, {}}), "error: 'folder.yaml' is a folder, not a YAML file\n");
 }

@@ -79,7 +79,8 @@ TEST_F(Describe, JsonSchemaOfPluginsThatHoldOthers) {
   const Json& held = schema["$defs"]["team.of"]["oneOf"];
   ASSERT_EQ(held.size(), 8u);
   for (const Json& alternative : held) EXPECT_TRUE(alternative["properties"].contains("after"));
-  EXPECT_EQ(held[7]["properties"]["of"]["anyOf"][0]["items"]["anyOf"][1]["$ref"], "#/$defs/team.of");  // a team in a team
+  EXPECT_EQ(held[7]["properties"]["of"]["anyOf"][0]["items"]["anyOf"][1]["$ref"],
+            "#/$defs/team.of");  // a team in a team
   EXPECT_FALSE(schema["$defs"]["team.last"]["oneOf"][0]["properties"].contains("after"));
 }
 

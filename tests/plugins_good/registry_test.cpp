@@ -38,8 +38,9 @@ TEST(Registry, FindsWhatWasRegistered) {
   registry.add_search_path(kAcme);
   registry.scan();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
-  EXPECT_EQ(ids(registry, PluginKind::path_planner),
-            (std::vector<std::string>{"acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo", "t_rrt", "team"}));
+  EXPECT_EQ(
+      ids(registry, PluginKind::path_planner),
+      (std::vector<std::string>{"acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo", "t_rrt", "team"}));
   EXPECT_EQ(ids(registry, PluginKind::simulator),
             (std::vector<std::string>{"acme.stepper", "geometry_only", "sdf_penalty"}));
   const RegisteredType& bfs = registry.find(PluginKind::path_planner, "bfs");

@@ -132,9 +132,10 @@ TEST_F(Resolved, RandomValuesRoundTrip) {
       config.layout.poses["part \"" + std::to_string(rng.below(9)) + "\"\n: x"] = {
           {rng.normal(), 1e9 * rng.normal(), rng.normal()},
           rotation_from_vector({rng.normal(), rng.normal(), rng.normal()})};
-    const auto names = [&rng](std::size_t least) {
+    unsigned drawn = 0;  // no name twice: constraints that contradict each other are refused
+    const auto names = [&rng, &drawn](std::size_t least) {
       std::vector<std::string> list;
-      for (auto n = least + rng.below(3); n > 0; --n) list.push_back("p: \"" + std::to_string(rng.below(99)) + "'");
+      for (auto n = least + rng.below(3); n > 0; --n) list.push_back("p: \"" + std::to_string(++drawn) + "'");
       return list;
     };
     config.constraints.base = names(0);

@@ -40,6 +40,12 @@ struct PlanStep {
   unsigned layer = 0;
 };
 
+/// Where a part touches another.
+struct PlanPlace {
+  std::string part;                              ///< the other
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< input units, world
+};
+
 struct PlanUnsolved {
   std::string part;
   Outcome outcome = Outcome::exhausted;
@@ -47,6 +53,11 @@ struct PlanUnsolved {
   Pose best_pose;
   std::string message;
   std::optional<std::size_t> certificate{};  ///< index into Plan::certificates
+  std::string planner{};                     ///< id of the path planner that searched; empty: no search was made
+  unsigned attempts = 0;                     ///< searches in which the part was to leave, alone or with others
+  double seconds = 0;                        ///< of these, together
+  unsigned depth = 0;                        ///< the largest depth that was allowed; 0: none of them had a limit
+  std::vector<PlanPlace> places{};  ///< what the part touches at `best_pose`: the deepest contact with each other part
 };
 
 /// A Certificate with names in place of ids. Poses act on input coordinates, in input units; numbers as in Certificate.

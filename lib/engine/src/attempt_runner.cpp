@@ -130,6 +130,7 @@ void AttemptRunner::explain(const MotionCheck& motion, const NormalizedPath& wri
       motion.interrupted ? "the run was stopped before the path was verified" : "the path cuts into another part";
   if (!motion.violation) return;
   const Violation& v = *motion.violation;
+  const double scale = assembly_.normalization.scale;  // people read input units
   answer.has_witness = true;
   answer.part = v.part;
   answer.other = v.other;
@@ -143,8 +144,9 @@ void AttemptRunner::explain(const MotionCheck& motion, const NormalizedPath& wri
   answer.reason =
       v.uncertain
           ? fmt::format("'{}' and '{}' could not be proved to stay out of each other", name(v.part), name(v.other))
-          : fmt::format("'{}' cuts {:.4g} deep into '{}' ({:.4g} when assembled, {:.4g} more allowed)", name(v.part),
-                        v.depth, name(v.other), v.allowed, verifier_.options().max_penetration);
+          : fmt::format("'{}' cuts {:.4g} deep into '{}' ({:.4g} when assembled, {:.4g} more allowed{})", name(v.part),
+                        v.depth / scale, name(v.other), v.allowed / scale, verifier_.options().max_penetration / scale,
+                        assembly_.unit.empty() ? "" : "; " + assembly_.unit);
 }
 
 ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path& way,

@@ -245,6 +245,21 @@ const AttemptKey* Oracle::key_of(const AttemptResult* result) const {
   return known == keys_.end() ? nullptr : &known->second;
 }
 
+SearchEffort Oracle::effort_on(PartId part) const {
+  SearchEffort effort;
+  for (const AttemptResult& answer : results_) {  // in the order of asking
+    const bool moves = std::ranges::any_of(answer.attempt.moving, [&](const PlacedPart& p) { return p.part == part; });
+    const auto key = keys_.find(&answer);
+    if (!moves || key == keys_.end() || is_success(answer.result.outcome()) || !answers_.contains(key->second))
+      continue;
+    if (answer.certificate != nullptr && answer.seconds == 0) continue;  // proved, so that no search was made
+    ++effort.attempts;
+    effort.depth = std::max({effort.depth, answer.result.depth, answer.attempt.max_depth});
+    effort.seconds += answer.seconds;
+  }
+  return effort;
+}
+
 std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,
                                         const PlanningSetup& setup, const RunOptions& options, const Verifier& verifier,
                                         RunContext& context) {

@@ -26,6 +26,13 @@ struct LoggedAttempt {
   std::vector<LogLine> log;  ///< for the thread that asks to pass on; empty where the attempt had a log to write to
 };
 
+/// What searches cost together.
+struct SearchEffort {
+  unsigned attempts = 0;
+  unsigned depth = 0;  ///< the largest depth that was allowed; 0: none of them had a limit
+  double seconds = 0;
+};
+
 class Oracle final : public PathOracle {
  public:
   Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
@@ -44,6 +51,10 @@ class Oracle final : public PathOracle {
 
   /// Null when `result` is not an answer of this oracle that was planned, remembered, or accepted as proposed.
   const AttemptKey* key_of(const AttemptResult* result) const;
+  /// The searches in which `part` was to leave, alone or with others, as far as they were asked for and ended by
+  /// themselves.
+  SearchEffort effort_on(PartId part) const;
+  const std::string& planner_id() const { return runner_.planner_id(); }
   /// What proves that parts are left for good.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.

@@ -11,9 +11,7 @@
 
 namespace dismantle {
 
-namespace {
-
-Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
+static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   Plan plan;
   plan.generator_version = DISMANTLE_VERSION;
   plan.seed = options.seed;
@@ -37,7 +35,11 @@ Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   return plan;
 }
 
-}  // namespace
+Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options) {
+  Plan plan = empty_plan(assembly, options);
+  for (const auto& part : assembly.parts) plan.remaining.push_back(part.name);
+  return plan;
+}
 
 PlanBuilder::PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options,
                          std::string planner_id)
@@ -182,6 +184,15 @@ bool PlanBuilder::stays_together(const std::vector<PartId>& group) const {
                      [&](PartId id) { return std::find(reached.begin(), reached.end(), id) != reached.end(); });
 }
 
+std::vector<PlacedPart> PlanBuilder::around(PartId part) const {
+  std::vector<PlacedPart> others;
+  for (const auto& group : groups_)
+    if (std::find(group.begin(), group.end(), part) != group.end())
+      for (const PartId id : group)
+        if (id != part) others.push_back({id, poses_[id]});
+  return others;
+}
+
 bool PlanBuilder::fulfilled() const {
   for (const auto& group : groups_)
     if (constraints_.target && stays_together(group) &&
@@ -224,7 +235,7 @@ PlanCertificate PlanBuilder::to_plan(const Certificate& certificate) const {
   return written;
 }
 
-void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved) {
+void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places) {
   plan_.unsolved.clear();
   plan_.certificates.clear();
   std::vector<const Certificate*> written;
@@ -236,6 +247,15 @@ void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved) {
     const Pose reached = u.best_pose.empty() ? poses_[u.part] : u.best_pose.front();
     entry.best_pose = assembly_.normalization.pose_to_input(reached);
     entry.message = u.message;
+    if (const SearchEffort effort = oracle_.effort_on(u.part); effort.attempts > 0) {
+      entry.planner = oracle_.planner_id();
+      entry.attempts = effort.attempts;
+      entry.seconds = effort.seconds;
+      entry.depth = effort.depth;
+    }
+    if (!u.best_pose.empty() && places)
+      for (const Contact& c : places(u.part, reached))
+        entry.places.push_back({assembly_.parts.at(c.other).name, assembly_.normalization.to_input(c.point)});
     if (u.certificate != nullptr) {
       const auto known = std::find(written.begin(), written.end(), u.certificate);
       entry.certificate = static_cast<std::size_t>(known - written.begin());

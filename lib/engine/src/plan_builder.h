@@ -1,6 +1,7 @@
 /// Books the removals of a run: who stands where, in which group, and the plan that comes of it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ struct RecordedStep {
   bool leaves(PartId part) const { return !part_way && (!alone || *alone == part); }
 };
 
+/// The deepest contact of a part, placed so, with each of the others that are left; ascending by the other part.
+using ContactsOf = std::function<std::vector<Contact>(PartId part, const Pose& at)>;
+
 /// A removal is recorded only if the oracle answered exactly this question with a success: these parts, where they
 /// are now, past all the others of their group, where those are now. So no plan holds an unchecked path, whatever a
 /// sequence planner does.
@@ -42,10 +46,13 @@ class PlanBuilder {
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
   bool complete() const;
+  /// What `part` has around it: the others of its group, where they are now.
+  std::vector<PlacedPart> around(PartId part) const;
   /// Nothing more is asked for: every group is one part or what is to stay together, or the target is out.
   bool fulfilled() const;
   /// Sets plan().unsolved, and plan().certificates, each once.
-  void set_unsolved(const std::vector<Unsolved>& unsolved);
+  /// `places` may be empty: then it is not known what a part touches where it came furthest.
+  void set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places = {});
   /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
   void set_needed(const std::vector<std::vector<std::size_t>>& needed);
   /// Sets plan().assembly_steps in place of the disassembly backwards.

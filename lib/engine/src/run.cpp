@@ -162,6 +162,32 @@ void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left
   }
 }
 
+/// Where a part that is left touches others at its best pose, as the simulator sees it.
+ContactsOf contacts_of(const Assembly& assembly, const PreparedAssembly& prepared, const Simulator& simulator,
+                       const PlanBuilder& builder, const RunContext& context) {
+  if (!simulator.capabilities().contacts) return {};
+  return [&](PartId part, const Pose& at) {
+    std::vector<Contact> deepest;
+    if (context.should_stop()) return deepest;
+    try {
+      const Scene scene{{{part, at}}, builder.around(part)};
+      const std::unique_ptr<World> world = simulator.world(assembly, prepared, scene, MotionSpace::rigid);
+      std::vector<Contact> all;
+      world->contacts(world->initial_state(), all);
+      std::ranges::stable_sort(all, [](const Contact& a, const Contact& b) {
+        return a.other != b.other ? a.other < b.other : a.depth > b.depth;
+      });
+      for (const Contact& c : all)
+        if (deepest.empty() || deepest.back().other != c.other) deepest.push_back(c);
+    } catch (const std::exception& e) {
+      context.log(LogLevel::warning,
+                  fmt::format("where '{}' is blocked is not known: {}", assembly.parts[part].name, e.what()));
+      deepest.clear();
+    }
+    return deepest;
+  };
+}
+
 /// What the sequence planner says of the parts that are left, completed and without what cannot be.
 std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<PartId>& left) {
   const auto is_left = [&left](PartId id) { return std::find(left.begin(), left.end(), id) != left.end(); };
@@ -226,10 +252,11 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   else
     sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
 
+  const ContactsOf places = prepared ? contacts_of(assembly, *prepared, *setup.simulator, builder, own) : ContactsOf{};
   result.outcome = sequence.outcome;
   result.sequence_counts = sequence.counts;
   if (only_one) {
-    builder.set_unsolved(sequence.unsolved);
+    builder.set_unsolved(sequence.unsolved, places);
   } else if (builder.fulfilled()) {
     result.outcome = Outcome::solved;
   } else {
@@ -240,7 +267,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     }
     std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
     prove_left(unsolved, builder.left(), oracle, options.proofs, own);
-    builder.set_unsolved(unsolved);
+    builder.set_unsolved(unsolved, places);
   }
   AssemblyPlan back;
   const bool puts_together =

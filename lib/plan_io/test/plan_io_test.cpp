@@ -9,8 +9,8 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/run_context.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle {
 namespace {
@@ -84,6 +84,14 @@ Plan any_plan(Rng& rng) {
   plan.verified_max_penetration = rng.uniform() + 1e-6;
   plan.remaining = {part()};
   if (rng.below(2)) plan.unsolved.push_back({part(), static_cast<Outcome>(rng.below(9)), {part()}, any_pose(rng), "m"});
+  if (!plan.unsolved.empty() && rng.below(2)) {
+    PlanUnsolved& u = plan.unsolved[0];
+    u.planner = "guided";
+    u.attempts = 1 + static_cast<unsigned>(rng.below(9));
+    u.seconds = rng.uniform();
+    u.depth = static_cast<unsigned>(rng.below(9));
+    for (auto k = rng.below(3); k > 0; --k) u.places.push_back({part(), {any_number(rng), any_number(rng), 0}});
+  }
   for (std::uint64_t k = rng.below(3); k > 0 && n > 1; --k) {
     PlanCertificate c{"ring", {a.parts[0].name, a.parts[1].name}, {}, rng.below(2) == 0, rng.uniform() + 1e-6, {},
                       "why"};
@@ -161,6 +169,15 @@ TEST(PlanIo, ReadingGivesBackWhatWasWritten) {
       EXPECT_EQ(a.unsolved[i].blocked_by, b.unsolved[i].blocked_by);
       expect_same(a.unsolved[i].best_pose, b.unsolved[i].best_pose);
       EXPECT_EQ(a.unsolved[i].certificate, b.unsolved[i].certificate);
+      EXPECT_EQ(a.unsolved[i].planner, b.unsolved[i].planner);
+      EXPECT_EQ(a.unsolved[i].attempts, b.unsolved[i].attempts);
+      EXPECT_EQ(a.unsolved[i].seconds, b.unsolved[i].seconds);
+      EXPECT_EQ(a.unsolved[i].depth, b.unsolved[i].depth);
+      ASSERT_EQ(a.unsolved[i].places.size(), b.unsolved[i].places.size());
+      for (std::size_t k = 0; k < a.unsolved[i].places.size(); ++k) {
+        EXPECT_EQ(a.unsolved[i].places[k].part, b.unsolved[i].places[k].part);
+        EXPECT_EQ(a.unsolved[i].places[k].at, b.unsolved[i].places[k].at);
+      }
     }
     ASSERT_EQ(a.certificates.size(), b.certificates.size());
     for (std::size_t i = 0; i < a.certificates.size(); ++i) {

@@ -256,10 +256,10 @@ class Preparation {
       if (!deepest || pair.depth > deepest->depth) deepest = &pair;
     }
     if (deepest)
-      report_.warnings.push_back(
-          fmt::format("{} pair{} of parts overlap when assembled, by up to {:.4f} assembly units ('{}' and '{}')",
-                      assembly_.overlaps.size(), assembly_.overlaps.size() == 1 ? "" : "s", deepest->depth,
-                      parts[deepest->a].name, parts[deepest->b].name));
+      report_.warnings.push_back(fmt::format(
+          "{} pair{} of parts overlap when assembled, by up to {:.4g} {} ('{}' and '{}')", assembly_.overlaps.size(),
+          assembly_.overlaps.size() == 1 ? "" : "s", deepest->depth / assembly_.normalization.scale,
+          assembly_.unit.empty() ? "input units" : assembly_.unit, parts[deepest->a].name, parts[deepest->b].name));
   }
 
   const PrepareOptions& options_;

@@ -41,8 +41,9 @@ std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& quer
                    {"cells", {static_cast<double>(found_in->cells)}}};
   found.text = fmt::format(
       "{0} and {1} hold each other as rigid bodies: cutting in by less than {2:.4g}, {0} comes no further than {3:.4g} "
-      "past {1} and turns by no more than {4:.4g} rad (assembly units; proved over {5} boxes of poses)",
-      name_of(query, a), name_of(query, b), depth, shift, turn, found_in->cells);
+      "past {1} and turns by no more than {4:.4g} rad (proved over {5} boxes of poses)",
+      name_of(query, a), name_of(query, b), input_length(query, depth), input_length(query, shift), turn,
+      found_in->cells);
   return found;
 }
 

@@ -44,8 +44,9 @@ std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunCo
                        {"cells", {static_cast<double>(cage->cells)}}};
       found.text = fmt::format(
           "{0} and {1} hold each other: {0} has a flat disc of diameter {2:.4g} about {3} in a chamber of {1}, none of "
-          "whose openings it gets through, however it is turned (assembly units, less the penetration that is allowed)",
-          name_of(query, inside), name_of(query, other), 2 * disc.radius, place_of(query, disc.center));
+          "whose openings it gets through, however it is turned (less the penetration that is allowed)",
+          name_of(query, inside), name_of(query, other), input_length(query, 2 * disc.radius),
+          place_of(query, disc.center));
       return found;
     }
   return std::nullopt;

@@ -106,10 +106,9 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
   for (const PlacedPart& p : those(outer, around)) found.poses.push_back(p.pose);
   found.numbers = {{"center", numbers_of(ball.center)}, {"radius", {ball.radius}}, {"cell", {room.cell}}};
   found.text = fmt::format(
-      "{} is shut in by {}: a ball of radius {:.4g} (assembly units) about {}, which it holds, is too large for every "
-      "way "
-      "out, less the penetration that is allowed",
-      name_of(query, holder.part), names_of(query, around), ball.radius, place_of(query, center));
+      "{} is shut in by {}: a ball of radius {:.4g} about {}, which it holds, is too large for every "
+      "way out, less the penetration that is allowed",
+      name_of(query, holder.part), names_of(query, around), input_length(query, ball.radius), place_of(query, center));
   return found;
 }
 

@@ -35,9 +35,10 @@ std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunCo
                          {"first_bend", numbers_of(cage->bends[0].corner)},
                          {"second_bend", numbers_of(cage->bends[1].corner)}};
         found.text = fmt::format(
-            "{0} and {1} hold each other: {0} goes through a hole in {1} at {2}, {3:.4g} wide (assembly units), and is "
+            "{0} and {1} hold each other: {0} goes through a hole in {1} at {2}, {3:.4g} wide, and is "
             "bent on both sides; neither bend can follow, less the penetration that is allowed",
-            name_of(query, inside), name_of(query, other), place_of(query, cage->hole), cage->width);
+            name_of(query, inside), name_of(query, other), place_of(query, cage->hole),
+            input_length(query, cage->width));
         return found;
       }
   }

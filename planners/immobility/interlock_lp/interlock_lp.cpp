@@ -44,8 +44,9 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
   found.text = fmt::format(
       "{0} hold each other in place as rigid bodies: cutting in by less than {1:.4g} more than when assembled, and "
       "whichever of them move, none comes further than {2:.4g} past the largest or turns by more than {3:.4g} rad "
-      "(assembly units; proved with {4} half spaces of poses)",
-      names_of(query, ascending), query.margin(), reach->shift, reach->turn, reach->half_spaces);
+      "(proved with {4} half spaces of poses)",
+      names_of(query, ascending), input_length(query, query.margin()), input_length(query, reach->shift), reach->turn,
+      reach->half_spaces);
   return found;
 }
 

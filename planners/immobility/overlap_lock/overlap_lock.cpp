@@ -50,8 +50,9 @@ std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, cons
         found.numbers = {{"point", numbers_of(p->point)}, {"depth", {p->depth}}, {"allowed", {allowed}}};
         found.text = fmt::format(
             "{0} and {1} are locked into each other: {2} lies in both, {3:.4g} below the surface of {0}, so on any way "
-            "apart {1} cuts so deep into it; {4:.4g} is allowed (assembly units; see verify.max_penetration)",
-            name_of(query, inside), name_of(query, other), place_of(query, p->point), p->depth, allowed);
+            "apart {1} cuts so deep into it; {4:.4g} is allowed (see verify.max_penetration)",
+            name_of(query, inside), name_of(query, other), place_of(query, p->point), input_length(query, p->depth),
+            input_length(query, allowed));
         return found;
       }
   return std::nullopt;

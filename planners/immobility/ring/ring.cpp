@@ -30,9 +30,9 @@ std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunCo
                            {"opening", {cage->opening}}};
           found.text = fmt::format(
               "{0} and {1} hold each other: {0} has a ring of diameter {2:.4g} about {3} in a chamber of {1}, which "
-              "opens no wider than {4:.4g} (assembly units, less the penetration that is allowed)",
-              name_of(query, inside), name_of(query, other), 2 * ring.radius, place_of(query, ring.center),
-              cage->opening);
+              "opens no wider than {4:.4g} (less the penetration that is allowed)",
+              name_of(query, inside), name_of(query, other), input_length(query, 2 * ring.radius),
+              place_of(query, ring.center), input_length(query, cage->opening));
           return found;
         }
   return std::nullopt;

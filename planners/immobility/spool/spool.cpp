@@ -30,10 +30,9 @@ std::optional<Certificate> Spool::prove(const SeparationQuery& query, const RunC
                          {"circle", {circle}}};
         found.text = fmt::format(
             "{0} and {1} hold each other: {0} goes through a hole in {1} at {2}, and has rims on both sides, {3:.4g} "
-            "wide, where a circle of {4:.4g} about the hole keeps them off (assembly units, with the penetration that "
-            "is "
-            "allowed)",
-            name_of(query, inside), name_of(query, other), place_of(query, cage->ring.center), cage->rim, circle);
+            "wide, where a circle of {4:.4g} about the hole keeps them off (with the penetration that is allowed)",
+            name_of(query, inside), name_of(query, other), place_of(query, cage->ring.center),
+            input_length(query, cage->rim), input_length(query, circle));
         return found;
       }
   return std::nullopt;

@@ -7,7 +7,9 @@
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <string_view>
 
+#include "appearance.h"
 #include "dismantle/errors.h"
 #include "names_3mf.h"
 #include "readers.h"
@@ -26,14 +28,17 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
 
 class SceneReader {
  public:
-  SceneReader(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
+  /// `linear`: colours are linear light.
+  SceneReader(const std::filesystem::path& file, const aiScene& scene, bool linear)
+      : file_(file), scene_(scene), linear_(linear) {}
 
   std::vector<RawPart> read(bool ignore_root_transform) {
     struct Visit {
       const aiNode* node;
       Eigen::Matrix4d above;
+      std::vector<std::string> parents;
     };
-    std::vector<Visit> todo{{scene_.mRootNode, Eigen::Matrix4d::Identity()}};
+    std::vector<Visit> todo{{scene_.mRootNode, Eigen::Matrix4d::Identity(), {}}};
     std::size_t visited = 0;
     while (!todo.empty()) {
       const Visit visit = todo.back();
@@ -41,8 +46,10 @@ class SceneReader {
       if (++visited > kMaxNodes) fail(fmt::format("more than {} nodes", kMaxNodes));
       Eigen::Matrix4d to_world = visit.above;
       if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
-      add(*visit.node, to_world);
-      for (unsigned i = visit.node->mNumChildren; i-- > 0;) todo.push_back({visit.node->mChildren[i], to_world});
+      add(*visit.node, to_world, visit.parents);
+      std::vector<std::string> path = visit.parents;
+      if (groups(*visit.node)) path.emplace_back(visit.node->mName.C_Str());
+      for (unsigned i = visit.node->mNumChildren; i-- > 0;) todo.push_back({visit.node->mChildren[i], to_world, path});
     }
     if (parts_.empty()) fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
     return std::move(parts_);
@@ -51,16 +58,31 @@ class SceneReader {
  private:
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_.string(), problem); }
 
+  /// Is the node an assembly that people named? The root is the file; what has a part's name, or one that assimp made
+  /// up, is a wrapper around a transform.
+  bool groups(const aiNode& node) const {
+    const std::string_view name = node.mName.C_Str();
+    if (&node == scene_.mRootNode || name.empty() || node.mNumMeshes > 0 || name[0] == '$' || name[0] == '<')
+      return false;
+    return node.mNumChildren > 1 || (node.mNumChildren == 1 && name != node.mChildren[0]->mName.C_Str());
+  }
+
   /// All meshes of one node are one part: formats split them by material only.
-  void add(const aiNode& node, const Eigen::Matrix4d& to_world) {
+  void add(const aiNode& node, const Eigen::Matrix4d& to_world, const std::vector<std::string>& parents) {
     RawPart part;
+    part.parents = parents;
+    OneColour colour;
     part.name = node.mName.C_Str();
     part.file = file_.filename().string();
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
       if (part.name.empty()) part.name = mesh.mName.C_Str();
       append(mesh, to_world, part);
+      colour.add(mesh.mMaterialIndex < scene_.mNumMaterials
+                     ? colour_of(*scene_.mMaterials[mesh.mMaterialIndex], linear_)
+                     : std::nullopt);
     }
+    part.colour = colour.get();
     if (part.mesh.empty()) return;
     total_ += part.mesh.triangles.size();
     if (total_ > kMaxTriangles) fail(fmt::format("more than {} triangles", kMaxTriangles));
@@ -99,6 +121,7 @@ class SceneReader {
 
   const std::filesystem::path& file_;
   const aiScene& scene_;
+  const bool linear_;
   std::vector<RawPart> parts_;
   std::size_t total_ = 0;
   bool other_primitives_ = false;
@@ -123,14 +146,26 @@ std::vector<RawPart> read_with_assimp(const std::filesystem::path& file) {
       throw InputError(file.string(), "cannot be read: " + (why.empty() ? "no scene in it" : why));
     }
     // What assimp puts into the root node of a DAE scene is a conversion to metres: parts keep the units of their file.
-    std::vector<RawPart> parts = SceneReader(file, *scene).read(ending == ".dae");
+    const bool is_gltf = ending == ".glb" || ending == ".gltf";
+    std::vector<RawPart> parts = SceneReader(file, *scene, is_gltf).read(ending == ".dae");
+    std::string unit;
+    if (is_gltf) unit = "m";  // glTF 2.0, section 3.4
+    if (ending == ".dae")
+      unit = unit_of_length(matrix(scene->mRootNode->mTransformation).topLeftCorner<3, 3>().col(0).norm());
     if (ending == ".3mf") {
+      const Facts3mf facts = facts_of_3mf(file);
+      unit = facts.unit;
       // assimp calls them "Object_" and their id.
-      const auto names = object_names_3mf(file);
-      for (auto& part : parts)
-        if (const auto found = names.find(part.name.substr(part.name.find('_') + 1)); found != names.end())
-          part.name = found->second;
+      const auto rename = [&](std::string& name) {
+        if (const auto found = facts.names.find(name.substr(name.find('_') + 1)); found != facts.names.end())
+          name = found->second;
+      };
+      for (auto& part : parts) {
+        rename(part.name);
+        for (auto& parent : part.parents) rename(parent);
+      }
     }
+    for (auto& part : parts) part.unit = unit;
     return parts;
   } catch (const Error&) {
     throw;

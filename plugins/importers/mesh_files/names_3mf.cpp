@@ -102,10 +102,23 @@ void add_object_names(const std::string& xml, std::map<std::string, std::string>
   }
 }
 
-std::map<std::string, std::string> object_names_3mf(const std::filesystem::path& file) {
-  std::map<std::string, std::string> names;
+std::string unit_of_model(const std::string& xml) {
+  static constexpr std::string_view kTag = "<model";
+  const auto at = xml.find(kTag);
+  const auto end = at == std::string::npos ? at : xml.find('>', at);
+  if (end == std::string::npos) return {};
+  const std::string unit = attribute(std::string_view(xml).substr(at + kTag.size(), end - at - kTag.size()), "unit");
+  static const std::map<std::string, std::string> kUnits = {
+      {"", "mm"},       {"millimeter", "mm"}, {"centimeter", "cm"}, {"meter", "m"},
+      {"inch", "inch"}, {"foot", "foot"},     {"micron", "micron"}};
+  const auto found = kUnits.find(unit);
+  return found == kUnits.end() ? std::string() : found->second;
+}
+
+Facts3mf facts_of_3mf(const std::filesystem::path& file) {
+  Facts3mf facts;
   const Archive archive(file);
-  if (!archive.handle) return names;
+  if (!archive.handle) return facts;
   for (int state = unzGoToFirstFile(archive.handle); state == UNZ_OK; state = unzGoToNextFile(archive.handle)) {
     char name[1024] = {};
     unz_file_info64 info{};
@@ -118,9 +131,10 @@ std::map<std::string, std::string> object_names_3mf(const std::filesystem::path&
            (n = unzReadCurrentFile(archive.handle, block.data(), static_cast<unsigned>(block.size()))) > 0)
       xml.append(block.data(), static_cast<std::size_t>(n));
     unzCloseCurrentFile(archive.handle);
-    add_object_names(xml, names);
+    add_object_names(xml, facts.names);
+    if (facts.unit.empty()) facts.unit = unit_of_model(xml);
   }
-  return names;
+  return facts;
 }
 
 }  // namespace dismantle::mesh_files

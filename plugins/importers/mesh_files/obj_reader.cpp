@@ -1,8 +1,12 @@
 // Wavefront OBJ in double precision.
 #include <fmt/format.h>
 
+#include <map>
+#include <optional>
+#include <set>
 #include <unordered_map>
 
+#include "appearance.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "readers.h"
@@ -15,6 +19,8 @@ namespace {
 struct Section {
   std::string name;
   std::vector<Triangle> triangles;
+  std::set<std::string> materials{};  ///< of its faces; "" where none was named
+  std::string last_material{};        ///< of the last face
 };
 
 class ObjReader {
@@ -69,8 +75,12 @@ class ObjReader {
       object_open_ = false;
     } else if (keyword == "g") {
       group_ = std::string(trimmed(line));
+    } else if (keyword == "usemtl") {
+      material_ = std::string(trimmed(line));
+    } else if (keyword == "mtllib") {
+      libraries_.emplace_back(trimmed(line));
     }
-    // All else is appearance, or geometry that is no mesh.
+    // All else is geometry that is no mesh.
   }
 
   std::uint32_t index(std::string_view word) const {
@@ -96,7 +106,12 @@ class ObjReader {
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
       corners_.push_back(index(word));
     if (corners_.size() < 3) lines_.fail(fmt::format("a face needs three corners, this one has {}", corners_.size()));
-    auto& out = section().triangles;
+    Section& here = section();
+    if (here.materials.empty() || here.last_material != material_) {
+      here.materials.insert(material_);
+      here.last_material = material_;
+    }
+    auto& out = here.triangles;
     if (corners_.size() == 3) {
       out.push_back({corners_[0], corners_[1], corners_[2]});
       return;
@@ -130,21 +145,41 @@ class ObjReader {
       for (std::size_t g = 0; g < groups_.size(); ++g) {
         auto& to = objects_[object_of_group_[g]].triangles;
         to.insert(to.end(), groups_[g].triangles.begin(), groups_[g].triangles.end());
+        objects_[object_of_group_[g]].materials.insert(groups_[g].materials.begin(), groups_[g].materials.end());
       }
       // One object around all groups names the file, not a part.
-      if (objects_.size() == 1 && groups_.size() > 1) return built(groups_);
+      if (objects_.size() == 1 && groups_.size() > 1) return built(groups_, objects_[0].name);
       return built(objects_);
     }
     return built(groups_);
   }
 
-  std::vector<RawPart> built(const std::vector<Section>& sections) const {
+  /// The colours of all materials that the file's libraries define; they lie beside it.
+  std::map<std::string, Rgba> colours() const {
+    std::map<std::string, Rgba> all;
+    for (const std::string& library : libraries_) {
+      const std::filesystem::path name(library);
+      if (!name.is_absolute()) all.merge(read_material_library(file_.parent_path() / name));
+    }
+    return all;
+  }
+
+  /// `object`: what the sections are groups of; empty: nothing.
+  std::vector<RawPart> built(const std::vector<Section>& sections, const std::string& object = {}) const {
+    const std::map<std::string, Rgba> known = colours();
     std::vector<RawPart> parts;
     std::vector<std::uint32_t> local(vertices_.size(), 0), owner(vertices_.size(), 0xffffffffu);
     for (std::uint32_t s = 0; s < sections.size(); ++s) {
       RawPart part;
       part.name = sections[s].name;
       part.file = file_.filename().string();
+      if (!object.empty()) part.parents = {object};
+      OneColour colour;
+      for (const std::string& material : sections[s].materials) {
+        const auto found = known.find(material);
+        colour.add(found == known.end() ? std::nullopt : std::optional(found->second));
+      }
+      part.colour = colour.get();
       for (Triangle t : sections[s].triangles) {
         for (auto& v : t) {
           if (owner[v] != s) {
@@ -166,7 +201,8 @@ class ObjReader {
   std::string joined_;
   std::vector<Eigen::Vector3d> vertices_, points_;
   std::vector<std::uint32_t> corners_;
-  std::string object_, group_;
+  std::string object_, group_, material_;
+  std::vector<std::string> libraries_;
   bool object_open_ = false;
   std::vector<Section> objects_, groups_;
   std::vector<std::size_t> object_of_group_;

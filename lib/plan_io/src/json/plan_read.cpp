@@ -13,6 +13,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/hex_colour.h"
+#include "json/parse_json.h"
 
 namespace dismantle {
 namespace {
@@ -290,7 +291,8 @@ std::vector<PlanStep> read_steps(const Place& place, StepKind kind, const Names&
 }
 
 PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
-  place.object({"part", "outcome", "blocked_by", "best_pose", "message"}, {"certificate"});
+  place.object({"part", "outcome", "blocked_by", "best_pose", "message"},
+               {"certificate", "planner", "attempts", "seconds", "depth", "places"});
   PlanUnsolved u;
   u.part = read_part(place.at("part"), parts);
   const std::string outcome = place.at("outcome").text();
@@ -301,6 +303,15 @@ PlanUnsolved read_unsolved(const Place& place, const Names& parts) {
   u.best_pose = read_pose(place.at("best_pose"));
   u.message = place.at("message").text();
   if (place.has("certificate")) u.certificate = place.at("certificate").count();
+  if (place.has("planner")) u.planner = place.at("planner").text();
+  if (place.has("attempts")) u.attempts = place.at("attempts").small_count();
+  if (place.has("seconds")) u.seconds = place.at("seconds").number_from_zero();
+  if (place.has("depth")) u.depth = place.at("depth").small_count();
+  if (place.has("places"))
+    for (const Place& item : place.at("places").items()) {
+      item.object({"part", "at"});
+      u.places.push_back({read_part(item.at("part"), parts), read_vector(item.at("at"))});
+    }
   return u;
 }
 
@@ -331,29 +342,10 @@ AssemblyStatus read_assembly_status(const Place& place) {
   place.fail("expected \"complete\", \"partial\" or \"reversed\"");
 }
 
-/// Parses; a key that stands twice in one object is an error, since the library would keep the last silently.
-Json parse(const std::string& text, const std::string& source) {
-  std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int, Json::parse_event_t event, Json& parsed) {
-    if (event == Json::parse_event_t::object_start) keys.emplace_back();
-    if (event == Json::parse_event_t::object_end) keys.pop_back();
-    if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-      throw InputError(source, fmt::format("the key '{}' stands twice in one object", parsed.get<std::string>()));
-    return true;
-  };
-  try {
-    return Json::parse(text, watch);
-  } catch (const Json::exception& e) {
-    std::string what = e.what();  // "[json.exception.parse_error.101] parse error at line 3, column 7: ..."
-    if (const auto end = what.find("] "); end != std::string::npos) what.erase(0, end + 2);
-    throw InputError(source, "not valid JSON: " + what);
-  }
-}
-
 }  // namespace
 
 Plan plan_from_json(const std::string& text, const std::string& source) {
-  const Json json = parse(text, source);
+  const Json json = parse_json(text, source);
   const Place root(json, source, "");
   if (!json.is_object()) root.fail("expected an object");
   if (!json.contains("format") || json["format"] != "dismantle.plan")

@@ -1,8 +1,8 @@
 // Plan -> plan.json (DESIGN section 7, docs/plan-format.md).
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "json/json_text.h"
 #include "json/hex_colour.h"
+#include "json/json_text.h"
 
 namespace dismantle {
 namespace {
@@ -63,7 +63,8 @@ Json steps_json(const std::vector<PlanStep>& steps, bool assembly) {
 Json import_json(const ImportParams& params) {
   Json out;
   for (const auto& [importer, values] : params)
-    for (const auto& [name, value] : values) std::visit(
+    for (const auto& [name, value] : values)
+      std::visit(
           [&](const auto& v) {
             if constexpr (std::is_constructible_v<Json, decltype(v)>)
               out[importer][name] = v;
@@ -141,8 +142,19 @@ std::string to_json(const Plan& plan) {
                         {"blocked_by", u.blocked_by},
                         {"best_pose", pose_json(u.best_pose, canonical_sign(u.best_pose.q))},
                         {"message", u.message}});
-  for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
-    if (plan.unsolved[i].certificate) unsolved[i]["certificate"] = *plan.unsolved[i].certificate;
+  for (std::size_t i = 0; i < plan.unsolved.size(); ++i) {
+    const PlanUnsolved& u = plan.unsolved[i];
+    if (u.certificate) unsolved[i]["certificate"] = *u.certificate;
+    if (u.attempts > 0) {
+      unsolved[i]["planner"] = u.planner;
+      unsolved[i]["attempts"] = u.attempts;
+      unsolved[i]["seconds"] = u.seconds;
+      unsolved[i]["depth"] = u.depth;
+    }
+    Json places = Json::array();
+    for (const PlanPlace& p : u.places) places.push_back({{"part", p.part}, {"at", vector_json(p.at)}});
+    if (!places.empty()) unsolved[i]["places"] = std::move(places);
+  }
   Json out;
   out["format"] = "dismantle.plan";
   out["version"] = 1;

@@ -102,8 +102,10 @@ class Checker {
       problem(fmt::format("{}'{}' could not be shown to clear '{}' {}", what, state_.name(v.part), state_.name(v.other),
                           where));
     else
-      problem(fmt::format("{}'{}' penetrates '{}' by {:.4f} assembly units ({:.4f} when assembled) {}", what,
-                          state_.name(v.part), state_.name(v.other), v.depth, v.allowed, where));
+      problem(fmt::format("{}'{}' penetrates '{}' by {:.4g} {} ({:.4g} when assembled) {}", what, state_.name(v.part),
+                          state_.name(v.other), v.depth / assembly_.normalization.scale,
+                          assembly_.unit.empty() ? "input units" : assembly_.unit,
+                          v.allowed / assembly_.normalization.scale, where));
     return false;
   }
 

@@ -52,6 +52,10 @@ std::string names_of(const SeparationQuery& query, const std::vector<PartId>& pa
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+double input_length(const SeparationQuery& query, double length) {
+  return length / query.assembly.normalization.scale;
+}
+
 std::string place_of(const SeparationQuery& query, const Eigen::Vector3d& point) {
   const Eigen::Vector3d p = query.assembly.normalization.to_input(point);
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());

@@ -107,10 +107,9 @@ std::string unknown_key_message(const std::string& key, const SectionContext& co
 ParamSet bind_section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
                       const KeyHomes& homes, std::map<std::string, std::string>& origins,
                       std::vector<Diagnostic>& problems) {
-  const TypeSource none{[](PluginKind, const std::string&) { return nullptr; },
-                        [](PluginKind, const std::string& id) {
-                          return fmt::format("'{}': plugins cannot be chosen here", id);
-                        }};
+  const TypeSource none{
+      [](PluginKind, const std::string&) { return nullptr; },
+      [](PluginKind, const std::string& id) { return fmt::format("'{}': plugins cannot be chosen here", id); }};
   return Binder(none, homes, origins, problems).section(specs, node, context);
 }
 

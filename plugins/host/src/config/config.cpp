@@ -47,7 +47,7 @@ class Loader {
       check_provers();
     }
     if (const ConfigNode* section = node("constraints"); section != nullptr)
-      config_.constraints = read_constraints(*section, problems_);
+      config_.constraints = read_constraints(*section, config_.constraint_names, problems_);
     check_capabilities();
     return std::move(config_);
   }

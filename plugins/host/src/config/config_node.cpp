@@ -6,10 +6,12 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 namespace dismantle {
@@ -194,7 +196,7 @@ std::string_view ConfigNode::kind_name() const {
 ConfigNode parse_yaml(const std::string& text, const std::string& source, std::vector<Diagnostic>& problems) {
   auto name = std::make_shared<const std::string>(source);
   TreeBuilder builder(name, problems);
-  bool any = false;
+  bool any = false, cut_off = false;
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -208,13 +210,15 @@ ConfigNode parse_yaml(const std::string& text, const std::string& source, std::v
     }
   } catch (const YAML::Exception& e) {
     problems.push_back(builder.place(e.mark).error("invalid YAML: " + e.msg));
+    cut_off = true;
   } catch (const Stop&) {
-    // reported where it was thrown
+    cut_off = true;  // reported where it was thrown
   }
   if (!any || builder.root.kind == ConfigNode::Kind::null) {
     builder.root.kind = ConfigNode::Kind::map;
     builder.root.mark = {name, 1, 1};
   }
+  builder.root.cut_off = cut_off;
   return std::move(builder.root);
 }
 
@@ -224,9 +228,10 @@ bool read_yaml(const std::string& file, ConfigNode& node, std::vector<Diagnostic
     unreadable = fmt::format("'{}' is a folder, not a YAML file", file);
     return false;
   }
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) {
-    unreadable = fmt::format("cannot read '{}'", file);
+    unreadable = fmt::format("cannot read '{}': {}", file, std::generic_category().message(errno));
     return false;
   }
   std::string text;

@@ -90,6 +90,7 @@ class FileChain {
       problems_.push_back(from != nullptr ? from->error(unreadable) : Diagnostic{"", 0, 0, unreadable});
       return empty();
     }
+    if (root.cut_off) return empty();  // what is missing may stand in the part that could not be read
     if (!root.is_map()) {
       problems_.push_back(
           root.mark.error(fmt::format("a configuration must be a map of keys, not {}", root.kind_name())));

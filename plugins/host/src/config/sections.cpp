@@ -3,14 +3,22 @@
 namespace dismantle {
 namespace {
 
+constexpr double kLargestTolerance = 0.5;  // assembly units: a twentieth of the assembly
+
 struct VerifySettings {
   double max_penetration = VerifyOptions{}.max_penetration;
   static void describe(Schema<VerifySettings>& s) {
-    s.add("max_penetration", &VerifySettings::max_penetration,
-          {.unit = "assembly units",
-           .min = 0,
-           .min_open = true,
-           .doc = "Deepest penetration that a path may have, above what the pair had when assembled."});
+    s.add(
+        "max_penetration", &VerifySettings::max_penetration,
+        {.unit = "assembly units",
+         .min = 0,
+         .max = kLargestTolerance,
+         .min_open = true,
+         .doc =
+             "Deepest penetration that a path may have, above what the pair had when assembled. The largest edge of "
+             "the "
+             "assembly is 10; at more than a twentieth of it parts pass through each other's walls, and that a plan is "
+             "valid says nothing."});
   }
 };
 
@@ -30,6 +38,13 @@ void RunSettings::describe(Schema<RunSettings>& s) {
          .min = 0,
          .doc = "Simulated time steps for one attempt; 0 = no limit. Unlike seconds, the same on every machine."});
   s.add("timeout", &RunSettings::timeout, {.unit = "s", .min = 0, .doc = "Time for the whole run; 0 = no limit."});
+  s.add(
+      "grace", &RunSettings::grace,
+      {.unit = "s",
+       .min = 0,
+       .doc =
+           "Time that plugins have to end after the run's time is up or Ctrl-C; then the plan so far is saved and the "
+           "process ends with status 4. 0 = wait for ever."});
 }
 
 const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections() {

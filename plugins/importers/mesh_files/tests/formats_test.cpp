@@ -151,6 +151,7 @@ TEST(Dae, KeepsUnitsAndAxesOfTheFile) {
       const auto parts = importer.read(folder.write("a.dae", dae(unit, up)), {});
       ASSERT_EQ(parts.size(), 2u) << unit << up;
       EXPECT_EQ(parts[0].name, "gear one");
+      EXPECT_EQ(parts[0].unit, unit == "1" ? "m" : unit == "0.001" ? "mm" : "inch") << up;
       EXPECT_EQ(parts[1].name, "gear two");
       expect_box(parts[0], {5, 0, 0}, {6, 2, 3});
       expect_box(parts[1], {0, 0, 0}, {1, 2, 3});

@@ -69,6 +69,9 @@ struct RunResult {
 DISMANTLE_API RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOptions& options,
                             RunContext& context, const std::function<void(const Plan&)>& on_step = {});
 
+/// The plan before the first step: what can be saved of a run that a plugin never gave back.
+DISMANTLE_API Plan plan_before_first_step(const Assembly& assembly, const RunOptions& options);
+
 /// The oracle that `run` uses; public for tests and for sequence planners' authors.
 DISMANTLE_API std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,
                                                       const PlanningSetup& setup, const RunOptions& options,

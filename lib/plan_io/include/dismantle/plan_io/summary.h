@@ -11,7 +11,4 @@ namespace dismantle {
 /// What came out in which order, what stays, what was left out, what could not be solved.
 DISMANTLE_API std::string summary_text(const Plan& plan);
 
-/// Why each unsolved part is still there: how its attempt ended, what it touched, how far it came.
-DISMANTLE_API std::string explain_text(const Plan& plan);
-
 }  // namespace dismantle

@@ -27,6 +27,7 @@ struct RunSettings {
   double path_timeout = 120;    ///< seconds per attempt, 0 = none
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
+  double grace = 30;            ///< seconds that plugins have to stop when they are told to, 0 = wait for ever
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
@@ -39,8 +40,15 @@ struct NamedConstraints {
   std::vector<std::string> ignore;               ///< parts that are left out of the assembly
   bool operator==(const NamedConstraints&) const = default;
 };
-/// @throws InputError when a part is not there.
+/// @throws InputError naming every part that is not there.
 DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
+
+/// A name in the `constraints:` section and where it stands.
+struct ConstraintName {
+  std::string key;   ///< "before"
+  std::string name;  ///< of a part
+  Diagnostic place;  ///< without a message
+};
 
 /// Everything that a run is told. Same RunConfig, same input: same plan.
 struct RunConfig {
@@ -53,6 +61,7 @@ struct RunConfig {
   ProofOptions proofs;
   LayoutOptions layout;
   NamedConstraints constraints;
+  std::vector<ConstraintName> constraint_names;  ///< in reading order
   std::map<std::string, ParamSet> importers;               ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 
@@ -79,6 +88,11 @@ struct ConfigSource {
 /// Reads, merges and checks. Adds the configuration's search paths to `registry` and scans it.
 /// @throws ConfigError with everything that is wrong.
 DISMANTLE_API RunConfig load_config(const ConfigSource& source, Registry& registry);
+
+/// Are all names in `constraints` among `parts`, the names of the input's parts? @throws ConfigError with every name
+/// that is not, its place, and the nearest one that there is.
+DISMANTLE_API void check_constraint_names(const RunConfig& config, const std::vector<std::string>& parts,
+                                          const std::string& input);
 
 /// The configuration as a file that gives the same RunConfig when it is loaded again: every value, with where it
 /// came from, and the plugins with version and hash as comments. `folder`: where the file will lie

@@ -33,6 +33,7 @@ struct DISMANTLE_API ConfigNode {
   ConfigMark mark;
   std::vector<ConfigNode> items;      ///< of a sequence
   std::vector<ConfigMember> members;  ///< of a map, in file order, no key twice
+  bool cut_off = false;  ///< of a root: the text is broken; what follows the place that was reported is not known
 
   bool is_map() const { return kind == Kind::map; }
   bool is_scalar() const { return kind == Kind::scalar; }

@@ -77,6 +77,7 @@ inline RunResult run_in_turn(const Assembly& assembly, RunContext context = {}, 
 
 inline std::string text_without_times(Plan plan) {
   for (auto& step : plan.disassembly) step.seconds = 0;
+  for (auto& part : plan.unsolved) part.seconds = 0;
   return to_json(plan);
 }
 

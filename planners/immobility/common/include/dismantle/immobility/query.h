@@ -36,6 +36,8 @@ double extent_of(const SeparationQuery& query, PartId part);
 /// The part's name in quotes.
 std::string name_of(const SeparationQuery& query, PartId part);
 std::string names_of(const SeparationQuery& query, const std::vector<PartId>& parts);
+/// A length in assembly units as the user reads it: in input units.
+double input_length(const SeparationQuery& query, double length);
 /// "(x, y, z)" in input units, of a point of the assembled frame.
 std::string place_of(const SeparationQuery& query, const Eigen::Vector3d& point);
 

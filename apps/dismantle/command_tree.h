@@ -1,0 +1,32 @@
+/// The commands and options, read from the parser itself: completion and the manual page never differ from it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace dismantle::app {
+
+struct CommandOption {
+  std::vector<std::string> names;    ///< "-o", "--output"
+  std::string value;                 ///< as shown in the help, "DIR"; empty: a flag
+  std::vector<std::string> choices;  ///< of a value such as "text|json"; empty: any
+  std::string help;
+};
+
+struct CommandNode {
+  std::vector<std::string> path;  ///< {"dismantle", "plugins", "list"}
+  std::string help, footer;
+  std::vector<CommandOption> options;
+  std::vector<CommandOption> arguments;  ///< positional; one name each
+  std::vector<CommandNode> commands;
+
+  std::string name() const;  ///< "dismantle plugins list"
+};
+
+/// Without what is hidden from the help.
+CommandNode command_tree(const CLI::App& app);
+/// The node and all below it, parents first.
+std::vector<const CommandNode*> all_of(const CommandNode& node);
+
+}  // namespace dismantle::app

@@ -1,0 +1,16 @@
+/// Completion scripts of shells and the manual page, made from the command tree.
+#pragma once
+
+#include <string>
+
+#include "dismantle/command_tree.h"
+
+namespace dismantle::app {
+
+std::string bash_completion(const CommandNode& root);
+std::string zsh_completion(const CommandNode& root);
+std::string fish_completion(const CommandNode& root);
+/// troff, section 1.
+std::string manual_page(const CommandNode& root);
+
+}  // namespace dismantle::app

@@ -1,0 +1,117 @@
+#include "dismantle/plan_io/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "dismantle/errors.h"
+#include "explain/advice.h"
+
+namespace dismantle {
+namespace {
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+LeftPart left_part(const Plan& plan, const PlanUnsolved& u) {
+  LeftPart out;
+  out.part = u.part;
+  out.best_pose = u.best_pose;
+  const Eigen::Vector3d& middle = plan.assembly.center;
+  if (!u.best_pose.is_identity()) {
+    out.travel = (u.best_pose * middle - middle).norm();
+    out.turn = angle_between(u.best_pose.q, Eigen::Quaterniond::Identity());
+  }
+  out.planner = u.planner;
+  out.attempts = u.attempts;
+  out.depth = u.depth;
+  out.seconds = u.seconds;
+  out.message = u.message;
+  const auto blocker = [&](const std::string& name) -> Blocker& {
+    const auto known = std::ranges::find(out.blockers, name, &Blocker::part);
+    return known != out.blockers.end() ? *known : out.blockers.emplace_back(Blocker{name, {}, 0});
+  };
+  for (const std::string& name : u.blocked_by) blocker(name);
+  for (const PlanPlace& place : u.places)
+    if (u.blocked_by.empty() || has(u.blocked_by, place.part)) blocker(place.part).at = place.at;
+  for (const PlanOverlap& o : plan.assembly.overlaps) {
+    if (o.a != u.part && o.b != u.part) continue;
+    const std::string& other = o.a == u.part ? o.b : o.a;
+    if (has(plan.remaining, other) && plan.assembly.scale > 0) blocker(other).overlap = o.depth / plan.assembly.scale;
+  }
+  return out;
+}
+
+/// By outcome and proof; the first part of a reason decides its place among equally large ones.
+std::vector<LeftReason> reasons_of(const Plan& plan, const ExplainSettings& settings, const std::string& part) {
+  std::vector<LeftReason> out;
+  for (const PlanUnsolved& u : plan.unsolved) {
+    if (!part.empty() && u.part != part) continue;
+    const PlanCertificate* proof =
+        u.certificate && *u.certificate < plan.certificates.size() ? &plan.certificates[*u.certificate] : nullptr;
+    // The constraints are a reason of their own, whatever the outcome.
+    const auto held = [](const std::string& message) { return message.find("constraints") != std::string::npos; };
+    const auto same = [&](const LeftReason& r) {
+      return r.outcome == u.outcome && r.certificate == proof && held(r.parts.front().message) == held(u.message) &&
+             (r.parts.front().attempts == 0) == (u.attempts == 0);
+    };
+    auto reason = std::ranges::find_if(out, same);
+    if (reason == out.end())
+      reason = out.insert(out.end(), {u.outcome, meaning_of(u.outcome), {}, proof, u.certificate.value_or(0), {}});
+    reason->parts.push_back(left_part(plan, u));
+  }
+  std::ranges::stable_sort(out,
+                           [](const LeftReason& a, const LeftReason& b) { return a.parts.size() > b.parts.size(); });
+  for (LeftReason& reason : out) reason.advice = advice_on(reason, plan, settings);
+  return out;
+}
+
+std::vector<std::string> out_in(const PlanStep& step) {
+  std::vector<std::string> names;
+  for (const auto& group : step.separates) names.insert(names.end(), group.begin(), group.end());
+  if (names.empty())
+    for (const PlanMove& move : step.moves) names.push_back(move.part);
+  return names;
+}
+
+std::vector<StepReason> steps_of(const Plan& plan, const std::string& part) {
+  std::vector<StepReason> out;
+  for (const PlanStep& step : plan.disassembly) {
+    StepReason reason;
+    reason.step = step.step;
+    for (const PlanMove& move : step.moves) reason.parts.push_back(move.part);
+    if (!part.empty() && !has(reason.parts, part)) continue;
+    reason.after = step.after;
+    reason.known = step.layer > 0;
+    reason.contacts = step.contacts;
+    for (const unsigned earlier : step.after)
+      if (earlier >= 1 && earlier <= plan.disassembly.size())
+        for (std::string& name : out_in(plan.disassembly[earlier - 1]))
+          if (!has(reason.waited_for, name)) reason.waited_for.push_back(std::move(name));
+    out.push_back(std::move(reason));
+  }
+  return out;
+}
+
+}  // namespace
+
+Explanation explain(const Plan& plan, const ExplainSettings& settings, const std::string& part) {
+  const auto known = [&](const PlanPart& p) { return p.name == part; };
+  if (!part.empty() && std::ranges::none_of(plan.assembly.parts, known))
+    throw InputError(plan.assembly.source, fmt::format("the plan has no part '{}'", part));
+  Explanation out{&plan, steps_of(plan, part), reasons_of(plan, settings, part), {}};
+  if (plan.status == PlanStatus::complete) return out;
+  for (const std::string& name : plan.remaining)
+    if ((part.empty() || name == part) &&
+        std::ranges::none_of(plan.unsolved, [&](const PlanUnsolved& u) { return u.part == name; }))
+      out.untried.push_back(name);
+  return out;
+}
+
+std::string length_text(const Plan& plan, double length) {
+  return fmt::format("{:.3g} {}", length, plan.assembly.unit.empty() ? "input units" : plan.assembly.unit);
+}
+
+}  // namespace dismantle

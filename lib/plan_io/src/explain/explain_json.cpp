@@ -1,0 +1,72 @@
+#include <numbers>
+
+#include "dismantle/plan_io/explain.h"
+#include "json/json_text.h"
+
+namespace dismantle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json part_json(const LeftPart& part) {
+  Json blockers = Json::array();
+  for (const Blocker& b : part.blockers) {
+    Json one = {{"part", b.part}};
+    if (b.at) one["at"] = {b.at->x(), b.at->y(), b.at->z()};
+    if (b.overlap > 0) one["overlap"] = b.overlap;
+    blockers.push_back(std::move(one));
+  }
+  const Pose& p = part.best_pose;
+  return {{"part", part.part},
+          {"blocked_by", std::move(blockers)},
+          {"travel", part.travel},
+          {"turn_degrees", part.turn * 180 / std::numbers::pi},
+          {"best_pose", {p.t.x(), p.t.y(), p.t.z(), p.q.w(), p.q.x(), p.q.y(), p.q.z()}},
+          {"planner", part.planner},
+          {"attempts", part.attempts},
+          {"depth", part.depth},
+          {"seconds", part.seconds},
+          {"message", part.message}};
+}
+
+Json reason_json(const Plan& plan, const LeftReason& reason) {
+  Json parts = Json::array();
+  for (const LeftPart& part : reason.parts) parts.push_back(part_json(part));
+  Json out = {
+      {"outcome", std::string(to_string(reason.outcome))}, {"meaning", reason.meaning}, {"parts", std::move(parts)}};
+  if (const PlanCertificate* c = reason.certificate; c != nullptr)
+    out["certificate"] = {{"number", reason.certificate_number},
+                          {"kind", c->kind},
+                          {"parts", c->parts},
+                          {"full_tolerance", c->full_tolerance},
+                          {"margin", plan.assembly.scale > 0 ? c->margin / plan.assembly.scale : c->margin},
+                          {"text", c->text}};
+  out["advice"] = reason.advice;
+  return out;
+}
+
+}  // namespace
+
+std::string explain_json(const Explanation& e) {
+  const Plan& plan = *e.plan;
+  Json steps = Json::array(), left = Json::array(), excluded = Json::array();
+  for (const StepReason& s : e.steps) {
+    Json one = {{"step", s.step}, {"parts", s.parts}};
+    if (s.known) one["after"] = s.after;
+    if (s.known) one["waited_for"] = s.waited_for;
+    one["contacts"] = s.contacts;
+    steps.push_back(std::move(one));
+  }
+  for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));
+  for (const auto& [name, reason] : plan.assembly.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
+  const Json out = {{"status", plan.status == PlanStatus::complete ? "complete" : "partial"},
+                    {"unit", plan.assembly.unit.empty() ? "input units" : plan.assembly.unit},
+                    {"parts", plan.assembly.parts.size()},
+                    {"left", std::move(left)},
+                    {"untried", e.untried},
+                    {"steps", std::move(steps)},
+                    {"excluded", std::move(excluded)}};
+  return json_text(out);
+}
+
+}  // namespace dismantle

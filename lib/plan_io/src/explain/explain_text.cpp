@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/text_columns.h"
+
+namespace dismantle {
+namespace {
+
+double size_of(const Plan& plan) { return plan.assembly.box.empty() ? 0 : plan.assembly.box.size().maxCoeff(); }
+
+std::string place_text(const Eigen::Vector3d& p) {
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+}
+
+/// How far the part came.
+std::string travel_text(const Plan& plan, const LeftPart& part) {
+  if (part.best_pose.is_identity()) return "it did not move";
+  std::string out = "came " + length_text(plan, part.travel);
+  if (const double size = size_of(plan); size > 0)
+    out += fmt::format(" ({:.1f} % of the assembly's largest edge)", 100 * part.travel / size);
+  const double degrees = part.turn * 180 / std::numbers::pi;
+  if (degrees > 0.05) out += fmt::format(", turned by {:.1f} degrees", degrees);
+  return out;
+}
+
+std::string search_text(const LeftPart& part) {
+  if (part.attempts == 0) return "no search on record";
+  return fmt::format("{} {} by {}{}, {:.1f} s", part.attempts, part.attempts == 1 ? "search" : "searches", part.planner,
+                     part.depth > 0 ? fmt::format(" to depth {}", part.depth) : "", part.seconds);
+}
+
+std::string blockers_text(const Plan& plan, const LeftPart& part) {
+  constexpr std::size_t kShown = 6;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(part.blockers.size(), kShown); ++i) {
+    const Blocker& b = part.blockers[i];
+    out += (i == 0 ? "" : ", ") + b.part;
+    if (b.at) out += " at " + place_text(*b.at);
+    if (b.overlap > 0) out += fmt::format(" (overlaps it by {} when assembled)", length_text(plan, b.overlap));
+  }
+  if (part.blockers.size() > kShown) out += fmt::format(" and {} more", part.blockers.size() - kShown);
+  return out;
+}
+
+std::string reason_text(const Plan& plan, const LeftReason& reason) {
+  const bool one = reason.parts.size() == 1;
+  std::string out = one ? fmt::format("\n{} did not come out", reason.parts.front().part)
+                        : fmt::format("\n{} parts did not come out", reason.parts.size());
+  out += fmt::format(": {} ({})\n", reason.meaning, to_string(reason.outcome));
+  const std::string& first = reason.parts.front().message;
+  const bool shared = std::ranges::all_of(reason.parts, [&](const LeftPart& p) { return p.message == first; });
+  for (const LeftPart& part : reason.parts) {
+    const std::string indent = one ? "  " : "    ";
+    if (!one) out += fmt::format("  {}\n", part.part);
+    out += fmt::format("{}tried: {}; {}\n", indent, search_text(part), travel_text(plan, part));
+    if (!part.blockers.empty()) out += fmt::format("{}blocked by: {}\n", indent, blockers_text(plan, part));
+    if (!shared && !part.message.empty()) out += fmt::format("{}planner: {}\n", indent, part.message);
+  }
+  if (reason.certificate != nullptr) {
+    const PlanCertificate& c = *reason.certificate;
+    const double scale = plan.assembly.scale > 0 ? plan.assembly.scale : 1;
+    out += fmt::format("  proof {} ({}), for {}; `dismantle verify` checks it again\n    {}\n",
+                       reason.certificate_number, c.kind,
+                       c.full_tolerance ? std::string("all motions within the tolerance")
+                                        : "motions that cut in by no more than " + length_text(plan, c.margin / scale),
+                       c.text);
+  }
+  if (shared && !first.empty() && (reason.certificate == nullptr || reason.certificate->text != first))
+    out += fmt::format("  planner: {}\n", first);
+  if (!reason.advice.empty()) out += "  what you can do:\n";
+  for (const std::string& advice : reason.advice) out += fmt::format("  - {}\n", advice);
+  return out;
+}
+
+/// "1 (washer), 3 (pin and nut)"
+std::string earlier_text(const Explanation& e, const std::vector<unsigned>& steps) {
+  std::string out;
+  for (const unsigned step : steps) {
+    const auto& all = e.plan->disassembly;
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", step);
+    if (step >= 1 && step <= all.size()) out += fmt::format(" ({})", text::names_of(all[step - 1]));
+  }
+  return out;
+}
+
+std::string steps_text(const Explanation& e) {
+  if (e.steps.empty()) return "";
+  std::size_t width = 4;
+  for (const StepReason& step : e.steps) width = text::column_of(width, text::joined(step.parts));
+  std::string out = "\nwhy this order:\n";
+  for (const StepReason& step : e.steps) {
+    out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::joined(step.parts), width));
+    if (!step.known)
+      out += "the plan does not say what had to come first\n";
+    else if (step.after.empty())
+      out += "free from the beginning: it needed no other step\n";
+    else
+      out += fmt::format("needed {} {} first: what {} took out was in its path\n",
+                         step.after.size() == 1 ? "step" : "steps", earlier_text(e, step.after),
+                         step.after.size() == 1 ? "it" : "they");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string explain_text(const Explanation& e) {
+  const Plan& plan = *e.plan;
+  const PlanAssembly& a = plan.assembly;
+  const bool complete = plan.status == PlanStatus::complete;
+  std::string out =
+      fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
+                  text::counted(plan.disassembly.size(), "step"),
+                  complete ? "every part came out" : text::counted(plan.remaining.size(), "part") + " left");
+  for (const auto& [name, reason] : a.excluded) out += fmt::format("left out: {}: {}\n", name, reason);
+  for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
+  if (!e.untried.empty())
+    out += fmt::format("\nstill together, without a failed search on record: {}\n", text::joined(e.untried));
+  out += steps_text(e);
+  if (e.left.empty() && e.steps.empty() && e.untried.empty())
+    out += complete ? "It stays where it is: the others were taken from it.\n" : "Nothing is on record about it.\n";
+  return out;
+}
+
+}  // namespace dismantle
