@@ -45,7 +45,7 @@ struct Normalization {
   Pose pose_to_internal(const Pose& p) const { return {scale * (p.t + p.q * center - center), p.q}; }
 };
 
-/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Whoever verifies a plan has to
+/// What preparation may do to a surface: the parameters of that name in PrepareOptions. Code that verifies a plan must
 /// look at the same surfaces.
 struct SurfaceRepair {
   double weld = 1e-6;

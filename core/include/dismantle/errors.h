@@ -37,7 +37,7 @@ struct Diagnostic {
   DISMANTLE_API std::string text() const;  ///< `file:line:column: error: message`
 };
 
-/// All that is wrong with a configuration, at once. Exit status 2.
+/// All problems of a configuration together. Exit status 2.
 class DISMANTLE_API ConfigError : public Error {
  public:
   explicit ConfigError(std::vector<Diagnostic> diagnostics);

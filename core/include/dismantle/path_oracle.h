@@ -55,8 +55,8 @@ struct OracleCounts {
   std::uint64_t attempts = 0;   ///< answered by planning
   std::uint64_t memoised = 0;   ///< answered from memory
   std::uint64_t discarded = 0;  ///< computed ahead, never asked for
-  std::uint64_t proposed = 0;   ///< ways that the sequence planner found itself, put to the verifier
-  std::uint64_t refused = 0;    ///< ... of which the verifier refused so many
+  std::uint64_t proposed = 0;   ///< paths that the sequence planner found itself and proposed
+  std::uint64_t refused = 0;    ///< proposals that the verifier refused
 };
 
 /// Memoises, counts and verifies. May compute prefetched attempts on other threads; answers do not depend on it.

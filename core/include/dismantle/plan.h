@@ -1,4 +1,4 @@
-/// The plan: what is written, read, verified and shown. Field by field the JSON of DESIGN section 7.
+/// The plan: what is written, read, verified and shown. Field by field the JSON of docs/plan-format.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ struct PlanStep {
   double seconds = 0;
   std::string planner;
   unsigned depth = 0;
-  std::vector<std::string> contacts;  ///< parts touched on the way
+  std::vector<std::string> contacts;  ///< parts touched along the path
   /// Assembly steps: index of the pose at which the way from the layout ends and the disassembly path backwards begins.
   /// 0 = there is no such way, the step begins where the disassembly ended.
   std::size_t transfer = 0;
@@ -102,7 +102,7 @@ enum class PlanStatus { complete, partial };
 /// What `assembly_steps` are.
 enum class AssemblyStatus {
   complete,  ///< each step that there is in the disassembly, from the layout on
-  partial,   ///< no way from the layout was found for some; `assembly_message` says for which
+  partial,   ///< some parts have no path from the layout; `assembly_message` names them
   reversed,  ///< the disassembly backwards and nothing more: no layout was asked for
 };
 

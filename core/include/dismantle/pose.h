@@ -33,10 +33,10 @@ DISMANTLE_API Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q);
 DISMANTLE_API Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& w);
 
 /// Pose at u in [0, 1] on the constant screw motion from a (u = 0) to b (u = 1), by the shorter turn.
-/// This is the motion that DESIGN section 7 prescribes between two poses of a plan.
+/// This is the motion that docs/plan-format.md prescribes between two poses of a plan.
 DISMANTLE_API Pose screw_interpolate(const Pose& a, const Pose& b, double u);
 
-/// Upper bound of the length of the way that any point within `radius` of `center` (a point of the
+/// Upper bound of the distance travelled by any point within `radius` of `center` (a point of the
 /// part, assembled frame) travels on the screw motion from a to b.
 DISMANTLE_API double screw_travel(const Pose& a, const Pose& b, const Eigen::Vector3d& center, double radius);
 

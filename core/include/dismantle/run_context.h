@@ -76,7 +76,7 @@ struct RunContext {
   std::shared_ptr<Executor> executor;  ///< its idle threads may help, whatever `threads` is; may be null
   bool speculative = false;  ///< the result may turn out not to be needed: long work calls pause_point() now and then
   std::function<void(const ProgressEvent&)> on_progress;   ///< may be empty; called from one thread at a time
-  std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; likewise
+  std::function<void(LogLevel, std::string_view)> on_log;  ///< may be empty; called from several threads
 
   bool should_stop() const { return cancel.cancelled() || deadline.passed(); }
   void progress(std::string_view phase, std::size_t done, std::size_t total, std::string_view detail = {}) const {

@@ -35,7 +35,7 @@ struct SequenceResult {
   std::map<std::string, double> counts;  ///< documented names of what the planner did itself
 };
 
-/// Receives finished removals at once, so that nothing is lost by an interruption.
+/// Receives each removal when it is found, so that an interruption loses nothing.
 class DISMANTLE_API SequenceObserver {
  public:
   virtual ~SequenceObserver();

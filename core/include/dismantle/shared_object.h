@@ -9,8 +9,8 @@
 
 namespace dismantle {
 
-/// The object of that name in this process: made by `make` when nobody holds one, and destroyed when nobody does any
-/// more. All who use a name must be built from the same definition of its type. Safe to use from several threads.
+/// The object of that name in this process. `make` creates it when there is none; it is destroyed with its last
+/// reference. All users of a name must be built with the same definition of its type. Safe to use from several threads.
 DISMANTLE_API std::shared_ptr<void> shared_object(const std::string& name,
                                                   const std::function<std::shared_ptr<void>()>& make);
 

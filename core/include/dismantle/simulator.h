@@ -34,7 +34,7 @@ struct PlacedPart {
   Pose pose;
 };
 
-/// Who takes part: `moving` are free, `fixed` are fixed where they are, all other parts are absent.
+/// The parts of a world: `moving` are free, `fixed` do not move, all other parts are absent.
 /// Moving parts start at the poses given here.
 struct Scene {
   std::vector<PlacedPart> moving;
@@ -81,7 +81,7 @@ using Trace = std::vector<std::vector<Pose>>;
 
 struct StepReport {
   std::uint64_t steps = 0;  ///< time steps simulated
-  double travel = 0;        ///< largest way of any point of a moving part, from begin to end pose
+  double travel = 0;        ///< largest displacement of any point of a moving part, from begin to end pose
   bool stalled = false;     ///< stopped early: nothing moves any more under this action
   bool finite = true;       ///< false: the state blew up and was put back to where it began
 };

@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-// DESIGN section 7 allows 1 % of the largest edge between two poses; the margin is for the rounding of poses
+// docs/plan-format.md allows 1 % of the largest edge between two poses; the margin is for the rounding of poses
 // on their way to input units and back.
 constexpr double kTravelShare = 0.01 * 0.99;
 // How far an instant may lie off the screw motion through its neighbours to be left out. A four-hundredth of the

@@ -15,7 +15,7 @@ struct PartBall {
   double radius = 0;
 };
 
-/// A path as DESIGN section 7 wants it, or why there is none.
+/// A path as docs/plan-format.md wants it, or why there is none.
 struct NormalizedPath {
   Path path;
   std::vector<double> way;        ///< for each instant, the length of the way from the start; assembly units

@@ -84,7 +84,7 @@ struct Parameters {
 
   static void describe(Schema<Parameters>& s) {
     const std::vector<EnumChoice<Mode>> modes{
-        {"fallback", Mode::fallback, "one after the other: the next one begins when the one before has ended in vain"},
+        {"fallback", Mode::fallback, "one after the other: the next one begins when the one before has found nothing"},
         {"alternate", Mode::alternate,
          "in turns that grow, so that the sum is at most a few times the cost of the best"}};
     s.add_choice<Mode>("mode", &Parameters::mode, modes, "How members share a search without a depth limit.");

@@ -16,8 +16,8 @@ namespace dismantle {
 
 /// A work-sharing thread pool. At most `threads` threads run at the same time; each running thread holds one slot, and
 /// the thread that creates the executor holds the first. A thread that waits for a task releases its slot meanwhile.
-/// Scheduling is nondeterministic, and a task may never be started, so no result may depend on who runs a task or when:
-/// callers do what nobody else has begun themselves.
+/// Scheduling is nondeterministic, and a task may never be started, so no result may depend on which thread runs a task, or when:
+/// callers run a task themselves if no thread has begun it.
 class DISMANTLE_API Executor {
   struct Task;
   struct Pool;
@@ -44,7 +44,7 @@ class DISMANTLE_API Executor {
     /// Blocks until the task, which was not withdrawn, is done; throws what it threw. One thread at a time. The slot of
     /// the calling thread is free meanwhile; at the end the caller takes over the slot of the thread that ran the task.
     void wait();
-    /// Likewise; when `context` says to stop, `cancel`, which the task is to obey, is set (within about 5 ms).
+    /// As wait(); when `context` says to stop, `cancel`, which the task is to obey, is set (within about 5 ms).
     void wait(const RunContext& context, const CancelToken& cancel);
 
    private:

@@ -1,4 +1,4 @@
-/// What is derived from the parts of an assembly, computed once and shared by all who need it.
+/// What is derived from the parts of an assembly, computed once and shared by all users.
 #pragma once
 
 #include <map>

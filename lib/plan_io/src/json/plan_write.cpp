@@ -1,4 +1,4 @@
-// Plan -> plan.json (DESIGN section 7, docs/plan-format.md).
+// Plan -> plan.json (docs/plan-format.md).
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/hex_colour.h"

@@ -44,13 +44,13 @@ struct TruthMotion {
   Screw screw;
 };
 
-/// All motions of a step happen at once, in proportion.
+/// All motions of a step are simultaneous, in proportion.
 struct TruthStep {
   std::vector<TruthMotion> motions;
   std::string out;  ///< the part whose hull is apart from all that is left after this step; empty: none yet
 };
 
-/// One way to take the sample apart, and what any order must respect in which `base` stays to the end.
+/// One order that takes the sample apart, and what any order must respect in which `base` stays to the end.
 struct Truth {
   std::string base;                                             ///< the part that all others leave; empty: no such part
   std::vector<TruthStep> steps;                                 ///< empty when not solvable

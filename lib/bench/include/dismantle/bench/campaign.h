@@ -15,14 +15,14 @@ namespace dismantle::bench {
 
 struct CampaignOptions {
   std::filesystem::path folder;             ///< results, inputs, configurations, work in progress
-  unsigned jobs = 1;                        ///< trials at once
+  unsigned jobs = 1;                        ///< trials that run concurrently
   unsigned shard = 1, shards = 1;           ///< this is shard `shard` of `shards`, with a database of its own
   std::vector<std::string> plan_command;    ///< program and arguments; the folder of the trial is appended
-  std::vector<std::string> verify_command;  ///< likewise
+  std::vector<std::string> verify_command;  ///< command that verifies a trial
 };
 
 struct CampaignResult {
-  std::size_t total = 0, done = 0, solved = 0;  ///< of this shard, by whoever ran them
+  std::size_t total = 0, done = 0, solved = 0;  ///< of this shard, in all processes
   std::size_t ran = 0;                          ///< by this process
   bool interrupted = false;
   std::filesystem::path database;

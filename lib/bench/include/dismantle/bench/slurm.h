@@ -12,7 +12,7 @@ namespace dismantle::bench {
 struct SlurmJob {
   std::filesystem::path suite, folder, program;
   unsigned tasks = 1;                ///< of the array
-  unsigned jobs = 1;                 ///< trials at once in each task; its number of cores
+  unsigned jobs = 1;                 ///< concurrent trials of each task; its number of cores
   std::vector<std::string> options;  ///< for sbatch, such as --partition=cpu
 };
 

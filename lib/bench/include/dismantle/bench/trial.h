@@ -1,4 +1,4 @@
-/// One trial, as the processes see it that do it: files in, files out. A process plans, another one verifies.
+/// One trial, as its processes see it: files in, files out. A process plans, another one verifies.
 #pragma once
 
 #include <cstdint>

@@ -17,7 +17,7 @@ enum class Up { x, y, z };
 struct LayoutOptions {
   bool enabled = true;  ///< false: assembly steps begin where the disassembly left the parts
   Up up = Up::z;        ///< normal of the plane that parts are laid out on
-  double gap = 0.5;     ///< assembly units; least way between two things that lie there
+  double gap = 0.5;     ///< assembly units; least distance between two parts of the layout
   /// By part name, acting on input coordinates, in input units. Parts that are not named are laid out by us.
   std::map<std::string, Pose> poses;
   /// Declares all but the poses.

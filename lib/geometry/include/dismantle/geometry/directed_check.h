@@ -127,7 +127,7 @@ class DirectedCheck {
   Budget& budget_;
   std::vector<Patch> patches_;
   std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
-  /// By triangle of A: margins from there on were in vain lately. Of all shares; no two have patches of one triangle.
+  /// By triangle of A: margins from there on proved nothing lately. Of all shares; no two have patches of one triangle.
   std::shared_ptr<std::vector<double>> unclear_;
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;

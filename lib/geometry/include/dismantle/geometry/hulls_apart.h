@@ -10,7 +10,7 @@
 
 namespace dismantle::geometry {
 
-/// A part where it stands. What is pointed to must outlive who uses it.
+/// A part at its pose. What is pointed to must outlive this.
 struct PlacedHull {
   const Mesh* mesh = nullptr;
   const Aabb* box = nullptr;                              ///< of the mesh

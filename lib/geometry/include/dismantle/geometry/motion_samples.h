@@ -1,4 +1,4 @@
-/// A quick look for penetrations, which proves nothing but spares proofs that must fail.
+/// A quick test for penetrations by samples. It proves nothing, but avoids proofs that must fail.
 #pragma once
 
 #include "dismantle/geometry/directed_check.h"
@@ -8,7 +8,7 @@ namespace dismantle::geometry {
 /// The deepest of some vertices of both solids at some times: `violated`, with its depth (0: none lies inside).
 Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward);
 
-/// Is a sample deeper than the limits allow? Then the motion certainly violates them. Looks at as few as that takes.
+/// Is a sample deeper than the limits allow? Then the motion certainly violates them. Stops at the first such sample.
 bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits);
 

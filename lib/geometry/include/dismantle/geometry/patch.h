@@ -1,4 +1,4 @@
-/// A (piece of a) triangle and the ways to move it back out of another solid.
+/// A (piece of a) triangle and the translations that move it out of another solid.
 ///
 /// The displacement rule behind all of them: let the corners of a triangle be moved by at most e each, the rest
 /// linearly with them. If the moved triangle lies outside solid B without crossing its surface, no point of the

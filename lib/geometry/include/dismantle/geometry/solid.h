@@ -1,4 +1,4 @@
-/// A part as the verifier sees it: closed shells grouped into solids, with all that sweeps need of each, built once.
+/// A part as the verifier uses it: closed shells grouped into solids, with all that sweeps need of each, built once.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace dismantle::geometry {
 
-/// One outer shell and the voids within it. A part whose shells overlap is verified solid by solid: the surface of
+/// One outer shell and the voids within it. A part whose shells overlap is checked solid by solid: the surface of
 /// one shell inside another must not make a deep penetration look shallow. Immutable.
 struct Solid {
   explicit Solid(const Mesh& m);

@@ -1,4 +1,4 @@
-/// A triangle swept in a straight way, against the triangles of a solid.
+/// A triangle swept along a straight line, against the triangles of a solid.
 #pragma once
 
 #include <Eigen/Core>

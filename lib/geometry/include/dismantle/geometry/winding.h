@@ -1,4 +1,4 @@
-/// Long screw motions, looked at unrolled: who turns along an axis and advances in proportion goes straight there.
+/// Long screw motions in unrolled coordinates, where a point that turns about an axis and advances moves straight.
 ///
 /// Around the axis of a screw motion a point has a radius r, an angle phi and a height z. The motion changes phi, and z
 /// in proportion (`pitch`, per rad); r and psi = z - pitch phi stay what they were. So the surface that a triangle
@@ -23,9 +23,9 @@ namespace dismantle::geometry {
 struct Winding {
   std::size_t begin = 0, end = 0;      ///< instants
   Eigen::Vector3d origin, axis, side;  ///< a point of the axis; unit; unit and square to it: where phi is zero
-  double pitch = 0;                    ///< way along the axis per rad, either sign
+  double pitch = 0;                    ///< advance along the axis per rad, either sign
   std::vector<double> turned;          ///< rad since `begin`, by instant: grows
-  double off = 0;                      ///< nobody is further from where the screw takes him than this, at any time
+  double off = 0;                      ///< largest distance of a point from where the screw takes it, at any time
 
   double turned_at(std::size_t instant) const { return turned[instant - begin]; }
 };
@@ -44,7 +44,7 @@ struct Unrolled {
   double z_lo = 0, z_hi = 0;         ///< with slack
 };
 
-/// Distances from the axis and heights along it (upwards: the way that the winding goes).
+/// Distances from the axis and heights along it (upwards: the direction of the advance).
 struct Ring {
   double r_lo = std::numeric_limits<double>::infinity(), r_hi = 0;
   double z_lo = std::numeric_limits<double>::infinity(), z_hi = -std::numeric_limits<double>::infinity();
@@ -54,7 +54,7 @@ struct Ring {
 };
 
 /// All places that a mesh takes up, unrolled, as a raster of r and psi; each cell tells where along phi it is taken.
-/// Threads have equal profiles wherever one looks: thousands of triangles share a few cells.
+/// Threads have equal profiles everywhere: thousands of triangles share a few cells.
 class UnrolledMesh {
  public:
   /// Only what comes near `asked`, see Ring. Cells are `cell` wide (assembly units): what is nearer than two of them

@@ -1,4 +1,4 @@
-/// index.html: a plan to look at in a browser, one file that needs no network.
+/// index.html: a plan shown in a browser, one file that needs no network.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// From raw parts to an assembly (DESIGN section 6, appendix B.1).
+/// From raw parts to an assembly (docs/preparation.md, appendix B.1).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// What `dismantle prepare` leaves behind.
+/// The files that `dismantle prepare` writes.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-/// Judges a whole plan file against the assembly that it is for.
+/// Verifies a whole plan file against its assembly.
 #pragma once
 
 #include <functional>

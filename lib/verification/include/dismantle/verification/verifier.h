@@ -1,4 +1,4 @@
-/// The verifier: checks plans on the original triangles, sharing nothing with any simulator (DESIGN section 7).
+/// Checks motions on the original triangles; shares nothing with any simulator (docs/plan-format.md).
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ struct MotionCheck {
   double max_penetration = 0;  ///< valid: certified upper bound above the initial overlap (a rung of a fixed ladder)
   std::optional<Violation> violation;
   std::uint64_t tests = 0;   ///< elementary sweep tests done
-  bool interrupted = false;  ///< not valid, for it was told to stop
+  bool interrupted = false;  ///< not valid, since the check was stopped
 };
 
 /// Rule (b) on the original triangles, proved for every instant, not sampled.
@@ -70,13 +70,13 @@ class DISMANTLE_API Verifier {
   ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `fixed`. Pairs that do not move
-  /// relative to each other are not looked at.
+  /// relative to each other are not checked.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                            const Path& path) const;
-  /// The same with so many threads, until told to stop.
+  /// The same on the threads of `context`, until it says to stop.
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed, const Path& path,
                            const RunContext& context) const;
-  /// (b) for one part past another, for whoever has many such questions: true is proved, as by check_motion; false
+  /// (b) for one part past another, for callers with many such questions: true is proved, as by check_motion; false
   /// means refused, or not proved with a small share of the effort.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.

@@ -50,7 +50,7 @@ struct ConstraintName {
   Diagnostic place;  ///< without a message
 };
 
-/// Everything that a run is told. Same RunConfig, same input: same plan.
+/// All settings of a run. The same RunConfig and input give the same plan.
 struct RunConfig {
   /// With complete parameters, those of the plugins that they hold included.
   PluginChoice simulator, path_planner, sequence_planner, transfer_planner;

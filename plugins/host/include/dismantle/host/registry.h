@@ -1,4 +1,4 @@
-/// Finds plugin files, refuses those that do not fit, and makes objects of the types that they offer.
+/// Finds plugin files, refuses those that do not fit, and creates objects of their types.
 #pragma once
 
 #include <deque>
