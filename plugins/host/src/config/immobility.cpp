@@ -22,7 +22,7 @@ ParamSpec provers_parameter(const Registry& registry) {
 
 std::vector<ParamSpec> immobility_parameters(const Registry& registry) {
   std::vector<ParamSpec> all = {provers_parameter(registry)};
-  const std::vector<ParamSpec>& when = Schema<ProofOptions>().specs();
+  const std::vector<ParamSpec> when = Schema<ProofOptions>().specs();
   all.insert(all.end(), when.begin(), when.end());
   return all;
 }
