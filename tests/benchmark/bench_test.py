@@ -39,9 +39,9 @@ class Isolation(BenchTest):
         self.bench(suite="sleep.yaml", out="asleep")
         self.assertEqual([r["outcome"] for r in self.rows(database="asleep/results.db")], ["wall_limit"])
 
-    def test_the_judge_has_the_last_word(self):
+    def test_the_verifier_has_the_last_word(self):
         self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive, verify.max_penetration: 0.1}}\n",
-                   more="seeds: 1\njudge: {max_penetration: 1.0e-9}\n")
+                   more="seeds: 1\nverify: {max_penetration: 1.0e-9}\n")
         self.assertEqual(self.bench()["solved"], 0)
         row, = self.rows()
         self.assertEqual((row["outcome"], row["verified"], row["solved"]), ("solved", 0, 0))

@@ -120,7 +120,7 @@ TEST(ProofSchedule, HalfOfTheToleranceProvesNothingOfPathsButSaysWhy) {
   Rig s(row(2), with(fake::setup(touching({1}, searches, Outcome::exhausted)), {half}));
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 5));
   EXPECT_EQ(r.result.outcome(), Outcome::exhausted);
-  EXPECT_EQ(costly.shares, (std::vector<double>{1, 0.5}));
+  EXPECT_EQ(costly.shares, (std::vector<double>{0.5, 1}));
   ASSERT_NE(r.certificate, nullptr);
   EXPECT_FALSE(r.certificate->full_tolerance);
   EXPECT_LT(r.certificate->margin, s.options.verify.max_penetration);
@@ -149,7 +149,8 @@ RunResult end_of_run(const std::vector<PartId>& blocked_by, std::vector<NamedPro
 TEST(ProofSchedule, PartsThatAreLeftAreProvedToBeHeldAtTheEnd) {
   Asked pairs;
   const RunResult r = end_of_run({2}, {pairs.prover("p", kHigh)});
-  EXPECT_EQ(pairs.parts, (std::vector<std::vector<PartId>>{{0, 2}, {1, 2}})) << "each and the only one that it touched";
+  EXPECT_EQ(pairs.parts, (std::vector<std::vector<PartId>>{{0, 2}, {0, 2}, {1, 2}, {1, 2}}))
+      << "each and the only one that it touched, with the reduced tolerance first";
   ASSERT_EQ(r.plan.unsolved.size(), 3U);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(r.plan.unsolved[i].outcome, Outcome::infeasible);

@@ -26,7 +26,7 @@ inline const Registry& registry() {
 }
 
 /// Parameters of the preset `guided` with some of its values changed: by name, those of a member as
-/// "tolerant_rrt.looks"; and without some members.
+/// "tolerant_rrt.state_checks"; and without some members.
 inline ParamSet guided(const std::map<std::string, ParamValue>& changes, const std::vector<std::string>& without = {}) {
   const RegisteredType& preset = registry().find(PluginKind::path_planner, "guided");
   ParamSet all;

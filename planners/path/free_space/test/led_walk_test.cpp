@@ -45,8 +45,8 @@ Assembly maze(double gap, const std::vector<std::vector<Aabb>>& others = {}) {
 
 ParamSet guided_with(std::int64_t patience, std::int64_t looks = 4000) {
   return path::test::guided({{"navigation_tree.patience", patience},
-                             {"tolerant_rrt.looks", looks},
-                             {"tolerant_rrt.level_looks", static_cast<double>(looks) / 128}},
+                             {"tolerant_rrt.state_checks", looks},
+                             {"tolerant_rrt.level_state_checks", static_cast<double>(looks) / 128}},
                             {"tunnel_forest"});
 }
 

@@ -45,7 +45,8 @@ TEST(GuidedForest, BothLiveOnOneBudget) {
     double used = r.stats.cost;  // state checks of the forest are not limited
     if (r.stats.extra.contains("tunnel_forest_state_checks")) used -= r.stats.extra.at("tunnel_forest_state_checks");
     EXPECT_GE(used, 0.9 * static_cast<double>(steps));
-    EXPECT_LE(used, static_cast<double>(steps) + 200);
+    // The end of a portion does not cut an extension of a forest.
+    EXPECT_LE(used, static_cast<double>(steps) + 300);
   }
 }
 
