@@ -124,10 +124,11 @@ class DISMANTLE_API World {
   /// Tells the world of a place where the verifier found it too permissive: `point` (assembled frame of
   /// `part`) lay inside `other`. A world that samples contact adds it; others may ignore it.
   virtual void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) = 0;
-  /// A world may at first be stricter than the verifier: where parts overlap when assembled, it may want them to
-  /// overlap only there. relax() grants all that the verifier does, from then on.
-  virtual bool strict() const { return false; }
-  virtual void relax() {}
+  /// True while the world allows the overlap that parts have when assembled only where it was. The verifier allows
+  /// that depth everywhere; a world that is stricter at first finds better paths.
+  virtual bool overlap_is_local() const { return false; }
+  /// From now on the world allows the initial overlap of a pair everywhere, as the verifier does.
+  virtual void allow_overlap_everywhere() {}
 };
 
 /// What a simulator computed once for an assembly (fields, hierarchies, hulls). Immutable, shared by threads.

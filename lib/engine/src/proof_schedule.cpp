@@ -157,17 +157,17 @@ const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContex
   return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
 }
 
-/// `last`: nothing else will be tried about this pair.
-const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, bool last, const RunContext& context) {
-  const Certificate* reduced = nullptr;
+/// All of the tolerance up to `most`.
+const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context) {
   for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high}) {
-    if (last && effort == ProofEffort::high) {
-      reduced = prove({{a, b}, effort, options_.reduced_tolerance}, context);
-      if (reduced == nullptr) return nullptr;
-    }
+    if (effort > most) break;
     if (const Certificate* found = prove({{a, b}, effort, 1}, context)) return found;
   }
-  return reduced;
+  return nullptr;
+}
+
+const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunContext& context) {
+  return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
 /// Only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at the end, for
@@ -176,8 +176,12 @@ const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult
   if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
       attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, options_.high_effort_depth))
     return nullptr;
+  const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
   const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
-  return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, last, context);
+  if (!last) return prove_pair(a, b, ProofEffort::high, context);
+  // With all of the tolerance the same proof takes several times as long and fails more often.
+  const Certificate* found = prove_pair(a, b, ProofEffort::medium, context);
+  return found != nullptr ? found : prove_reduced(a, b, context);
 }
 
 const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,
@@ -188,8 +192,13 @@ const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>
     holder = left.front() == part ? left.back() : left.front();
   else if (blocked_by.size() == 1)
     holder = blocked_by.front();
-  if (holder && *holder != part)
-    if (const Certificate* found = prove_pair(part, *holder, true, context)) return found;
+  if (holder && *holder != part) {
+    if (const Certificate* found = prove_pair(part, *holder, ProofEffort::medium, context)) return found;
+    if (const Certificate* reduced = prove_reduced(part, *holder, context)) {
+      const Certificate* whole = prove_pair(part, *holder, ProofEffort::high, context);
+      return whole != nullptr ? whole : reduced;
+    }
+  }
   return left.size() > 2 ? prove({left, ProofEffort::high, options_.reduced_tolerance}, context) : nullptr;
 }
 

@@ -26,8 +26,8 @@ namespace dismantle {
 /// - Medium and high: after deep attempts of one part against one other that found nothing.
 /// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
 ///
-/// The last questions about a pair, after which nothing else is tried, begin with the reduced tolerance: what is not
-/// proved with that is not proved with all of it, and the other way round it often is.
+/// The last question about a pair, after which no search follows, is about the reduced tolerance: what is not proved
+/// with that is not proved with all of it either. At the end of the run all of it follows.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -61,7 +61,8 @@ class ProofSchedule {
   bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
-  const Certificate* prove_pair(PartId a, PartId b, bool last, const RunContext& context);
+  const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
+  const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
 
   const Assembly& assembly_;

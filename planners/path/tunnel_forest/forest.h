@@ -30,9 +30,9 @@ class Forest {
   /// that the checker accepts; then `result` holds it. `stop` is asked before
   /// each push; once it says so, this returns soon.
   bool iterate(PathResult& result, const std::function<bool()>& stop);
-  /// Grants what the checker does where parts overlap (World::relax). Nodes
+  /// Grants what the checker does where parts overlap (World::allow_overlap_everywhere). Nodes
   /// stay as they are.
-  void relax() { world_->relax(); }
+  void allow_overlap_everywhere() { world_->allow_overlap_everywhere(); }
 
   std::uint64_t steps() const { return guide_.steps(); }  ///< simulated so far
   std::uint64_t looks() const { return looks_; }          ///< states that were measured without simulation

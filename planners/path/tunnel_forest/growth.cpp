@@ -77,7 +77,7 @@ bool Growth::continue_turn(Grown& grown) {
     ++grown.barren;
   if (static_cast<double>(cells) > kFruitful * static_cast<double>(grown.cells)) grown.turn *= 2;
   grown.cells = cells;
-  if (!grown.relaxed) grown.forest->relax();
+  if (!grown.relaxed) grown.forest->allow_overlap_everywhere();
   grown.relaxed = true;
   turn_.reset();
   return solved;

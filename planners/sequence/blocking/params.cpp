@@ -8,7 +8,8 @@ using S = Schema<BlockingParams>;
 void StraightParams::describe(S& s) {
   s.add<bool>("straight", &StraightParams::straight,
               {.doc = "Remove parts in straight lines wherever nothing is in the way (strategies target_first, "
-                      "free_part), and use what is known of that (groups, cages, turns, at_once). Off: every path is "
+                      "free_part), and use what is known of that (groups, merge_immobile, rotations, simultaneous). "
+                      "Off: every path is "
                       "searched for by the path planner."});
 }
 

@@ -44,8 +44,8 @@ class CountingWorld final : public World {
   void add_contact_sample(PartId part, PartId other, const Vector3d& point) override {
     inner_->add_contact_sample(part, other, point);
   }
-  bool strict() const override { return inner_->strict(); }
-  void relax() override { inner_->relax(); }
+  bool overlap_is_local() const override { return inner_->overlap_is_local(); }
+  void allow_overlap_everywhere() override { inner_->allow_overlap_everywhere(); }
 
  private:
   void count(std::uint64_t n) {

@@ -157,9 +157,9 @@ void BodyWorld::add_contact_sample(PartId part, PartId other, const Eigen::Vecto
   forget_contacts();
 }
 
-void BodyWorld::relax() {
+void BodyWorld::allow_overlap_everywhere() {
   forget_contacts();
-  contact_scene_.relax();
+  contact_scene_.allow_overlap_everywhere();
   sensor_.reset();
 }
 

@@ -329,11 +329,11 @@ ContactScene ContactScene::with_margin(double margin) const {
   return other;
 }
 
-bool ContactScene::strict() const {
+bool ContactScene::overlap_is_local() const {
   return std::any_of(pairs_.begin(), pairs_.end(), [](const ContactPair& p) { return p.everywhere < p.allowed; });
 }
 
-void ContactScene::relax() {
+void ContactScene::allow_overlap_everywhere() {
   rest_ = nullptr;
   for (auto& pair : pairs_) {
     pair.everywhere = pair.allowed;

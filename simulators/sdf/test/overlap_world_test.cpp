@@ -25,7 +25,7 @@ TEST_P(Overlap, IsAllowedToItsPairAndToNoOther) {
       const TestScene scene = overlapping(GetParam(), overlap, {{"max_travel", max_travel}});
       auto world = scene.world({0});
       for (const bool relaxed : {false, true}) {
-        if (relaxed) world->relax();
+        if (relaxed) world->allow_overlap_everywhere();
         EXPECT_LT(world->penetration(world->initial_state()), 1e-6);
         for (const double depth : {0.01, 0.02}) {
           EXPECT_NEAR(world->penetration(at(*world, shift(0, 0, -depth))), depth, 1e-9) << "part 2 is as hard as ever";
@@ -45,8 +45,8 @@ TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
     SCOPED_TRACE(overlap);
     const TestScene scene = overlapping(GetParam(), overlap);
     auto world = scene.world({0});
-    world->relax();
-    EXPECT_FALSE(world->strict()) << "nothing is left to relax";
+    world->allow_overlap_everywhere();
+    EXPECT_FALSE(world->overlap_is_local()) << "nothing is left to relax";
     for (const Vector3d& way_out : {Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(-1, 0, 0)}) {
       State s = world->initial_state();
       world->advance(s, push(100 * way_out), 0.2, nullptr);

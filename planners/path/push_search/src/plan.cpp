@@ -95,7 +95,7 @@ std::vector<ContactSearch::Leg> ContactSearch::legs_of(const PathQuery& query, c
   if (!query.goal.any_of.empty()) {
     const unsigned rank = 1 + depth / 2;  // one driven, and two along one axis;
                                           // from the second level on across, too
-    const std::uint64_t share = static_cast<std::uint64_t>(tactics.steps_at_once) * level;
+    const std::uint64_t share = static_cast<std::uint64_t>(tactics.simultaneous_steps) * level;
     return {{MotionSpace::translation, rank, 0, share}, {MotionSpace::rigid, rank, 0, share}};
   }
   // The rank: at the first level what the contacts leave free, and the axes.

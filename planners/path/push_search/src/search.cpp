@@ -354,14 +354,14 @@ PathResult Search::run(const Limits& limits) {
     if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }
   while (end != RunEnd::solved) {
-    const bool overlapping = may_relax_ && world_->strict();
+    const bool overlapping = may_relax_ && world_->overlap_is_local();
     end = sweep(overlapping ? std::min(limits.expansions - 1, kStrictNodes - 1) + 1 : limits.expansions, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(tactics_.max_refusals)) {
       reset();  // what was found so far may have leaked through the same place
       continue;
     }
     if (end != RunEnd::blocked || !overlapping || paused_) break;
-    world_->relax();
+    world_->allow_overlap_everywhere();
     may_relax_ = false;
     reset();  // once more, with all the overlap that the verifier allows
   }

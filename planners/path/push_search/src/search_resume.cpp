@@ -38,7 +38,7 @@ void Search::resume(const Tree& tree) {
   std::set_difference(tree.fixed.begin(), tree.fixed.end(), fixed.begin(), fixed.end(), std::back_inserter(left));
   others_left_ = !left.empty();
   if (tree.relaxed) {
-    world_->relax();
+    world_->allow_overlap_everywhere();
     may_relax_ = false;
   }
   for (const Lesson& lesson : tree.lessons) {

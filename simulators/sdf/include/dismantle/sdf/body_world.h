@@ -47,8 +47,8 @@ class BodyWorld : public World {
   bool separated(const State& state) override;
   bool body_separated(const State& state, std::size_t body) override;
   void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point) override;
-  bool strict() const override { return contact_scene_.strict(); }
-  void relax() override;
+  bool overlap_is_local() const override { return contact_scene_.overlap_is_local(); }
+  void allow_overlap_everywhere() override;
 
  protected:
   /// @throws std::invalid_argument unless 1 to kMaxBodies parts move.

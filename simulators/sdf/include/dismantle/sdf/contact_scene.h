@@ -32,7 +32,7 @@ class ContactScene {
   ///
   /// A depth above kTight is not granted everywhere at once, since it would let a part through walls that are
   /// thinner than twice that: at first each point may be as deep as it was when assembled (with `slack`
-  /// on top), other points kTight. relax() grants the pair's depth to all points.
+  /// on top), other points kTight. allow_overlap_everywhere() grants the pair's depth to all points.
   ///
   /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
@@ -52,8 +52,8 @@ class ContactScene {
   /// Also lists the faces around each contact that its point can run into (SurfaceQuery::surroundings), and tells how
   /// far it can go for certain. To be called before the first update; exact distances only.
   void see_surroundings() { surroundings_ = true; }
-  bool strict() const;  ///< relax() would grant something
-  void relax();
+  bool overlap_is_local() const;  ///< allow_overlap_everywhere() would grant something
+  void allow_overlap_everywhere();
 
   /// Moves the moving bodies to `poses` and lists all points whose gap is below the margin.
   void update(const std::vector<Pose>& poses, std::vector<ContactPoint>& out);

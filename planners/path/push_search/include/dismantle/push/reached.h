@@ -43,7 +43,7 @@ struct Tree {
   std::vector<Node> nodes;    ///< parents before their children
   std::vector<Middle> passed;
   std::size_t passed_before = 0;  ///< states in the middle of runs that became nodes, or were dropped
-  bool relaxed = false;           ///< World::relax
+  bool relaxed = false;           ///< World::allow_overlap_everywhere
   std::vector<Lesson> lessons;
   bool short_glides = false;
 };

@@ -44,7 +44,7 @@ struct Tactics {
   /// motion auto under a depth limit: states searched from per level of depth.
   std::int64_t translation_nodes = 24, rotation_nodes = 8;
   /// The same where each part moves in its own way: simulated steps per level of depth, in each motion space.
-  std::int64_t steps_at_once = 2000;
+  std::int64_t simultaneous_steps = 2000;
   /// motion auto without one: rank to which translation is searched first, and by how much less rotation is after it.
   unsigned first_rank = 0, turning_lag = 0;
 };
