@@ -14,9 +14,7 @@
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
 #ifdef DISMANTLE_BOOK_LIBRARY
-#include <dlfcn.h>
-
-#include "dismantle/book/book.h"
+#include "dismantle/book_library.h"
 #endif
 
 namespace dismantle::app {
@@ -31,16 +29,6 @@ struct BookCommand {
 
 #ifdef DISMANTLE_BOOK_LIBRARY
 bool ends_with(const std::string& text, std::string_view ending) { return std::string_view(text).ends_with(ending); }
-
-/// Stays loaded. @throws Error saying what to install.
-const BookLibrary& book_library() {
-  void* library = ::dlopen(DISMANTLE_BOOK_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-  void* symbol = library != nullptr ? ::dlsym(library, "dismantle_book_library") : nullptr;
-  if (symbol == nullptr)
-    throw Error(
-        fmt::format("instructions cannot be written, {}; Debian: apt-get install libpangocairo-1.0-0", ::dlerror()));
-  return *reinterpret_cast<const BookLibrary* (*)()>(symbol)();
-}
 
 int write_book(const BookCommand& options) {
   Console console(options.console);

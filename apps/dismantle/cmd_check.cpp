@@ -1,9 +1,17 @@
 // dismantle check INPUT
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#ifdef DISMANTLE_BOOK_LIBRARY
+#include "dismantle/book_library.h"
+#endif
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/check_assembly.h"
 #include "dismantle/settings.h"
 #include "dismantle/stopped.h"
@@ -12,13 +20,43 @@ namespace dismantle::app {
 namespace {
 
 struct Check {
-  std::string input;
+  std::string input, pictures, up = "z";
   ConfigFlags config;
   ConsoleOptions console;
 };
 
 /// Depths are exact to this share of the tolerance that plans are verified by.
 constexpr double kDepthShare = 0.01;
+
+#ifdef DISMANTLE_BOOK_LIBRARY
+PartId part_named(const Assembly& assembly, const std::string& name) {
+  for (const Part& part : assembly.parts)
+    if (part.name == name) return part.id;
+  throw std::logic_error("a finding names a part that the assembly does not have: " + name);
+}
+
+/// One file for each pair with a place: overlap_01.png, ...
+void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& options, const RunContext& context) {
+  const BookLibrary& library = book_library();
+  const std::filesystem::path folder = options.pictures;
+  std::filesystem::create_directories(folder);
+  unsigned number = 0;
+  for (Finding& finding : check.findings) {
+    if (finding.parts.size() != 2 || !finding.at) continue;
+    if (context.should_stop()) throw Error("stopped while drawing");
+    PartId large = part_named(assembly, finding.parts[0]), small = part_named(assembly, finding.parts[1]);
+    const auto size = [&](PartId id) { return assembly.parts[id].mesh->box().size().norm(); };
+    if (size(large) < size(small)) std::swap(large, small);
+    const std::filesystem::path file = folder / fmt::format("overlap_{:02}.png", ++number);
+    write_file(file, library.pair_png(assembly, large, small, *finding.at, options.up == "y"));
+    finding.picture = file.string();
+  }
+}
+#else
+void draw_pairs(AssemblyCheck&, const Assembly&, const Check&, const RunContext&) {
+  throw Error("this program was built without pictures; install libpango1.0-dev and build again");
+}
+#endif
 
 int finish(const AssemblyCheck& check, const std::string& input, bool usable, Console& console) {
   console.end_progress();
@@ -40,9 +78,10 @@ int check(const Check& options) {
   PrepareReport report;
   try {
     const Assembly assembly = load_assembly(options.input, config, registry, context, report);
-    const AssemblyCheck found = stoppable(context, [&] {
+    AssemblyCheck found = stoppable(context, [&] {
       return check_assembly(assembly, report, kDepthShare * config.verify.max_penetration, context);
     });
+    if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);
     return finish(found, options.input, true, console);
   } catch (const InputError&) {
     if (report.parts.empty()) throw;
@@ -58,16 +97,23 @@ void add_check(CLI::App& app, Action& action) {
   command->add_option("INPUT", options->input, "Folder of mesh files (one part each), or one file with several parts")
       ->required()
       ->option_text(" ");
+  command->add_option("--pictures", options->pictures, "Folder for a picture of each place where two parts overlap")
+      ->option_text("DIR");
+  command->add_option("--up", options->up, "Axis of the input that points up in pictures")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->option_text("y|z");
   options->config.add_file_and_set(*command);
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth and place),\n"
+      "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth and "
+      "place),\n"
       "parts inside the solid of others, and parts that touch nothing.\n"
       "Exit status: 0 nothing found, 1 something was found, 3 the input cannot be planned with.\n"
       "Examples:\n"
       "  dismantle check gearbox/\n"
+      "  dismantle check gearbox/ --pictures overlaps/\n"
       "  dismantle check gearbox/ --format json -q | tail -n 1");
   command->callback([&action, options] { action = [options] { return check(*options); }; });
 }

@@ -62,6 +62,8 @@ class Illustrator {
   Picture scene(const std::vector<PlacedPart>& parts, int width, int height) const;
   /// One part as assembled.
   Picture part(std::size_t index, int width, int height) const;
+  /// Two parts as assembled and a ring around a place, input coordinates.
+  Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at, int width, int height) const;
   StepPictures step(const BookStep& step, bool disassembly, int width, int height, int small_width,
                     int small_height) const;
   /// By part: the first part of its shape.

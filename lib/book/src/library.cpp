@@ -3,7 +3,7 @@
 namespace dismantle {
 
 const BookLibrary* dismantle_book_library() {
-  static constexpr BookLibrary kLibrary{book_html, book_pdf};
+  static constexpr BookLibrary kLibrary{book_html, book_pdf, pair_png};
   return &kLibrary;
 }
 

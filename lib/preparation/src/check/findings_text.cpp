@@ -45,6 +45,7 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source)
   for (const Finding& f : check.findings) {
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
+    if (!f.picture.empty()) out += fmt::format(", picture {}", f.picture);
     out += fmt::format("\n    next: {}\n", f.advice);
   }
   const auto errors = check.count(Severity::error), warnings = check.count(Severity::warning);
@@ -67,6 +68,7 @@ std::string findings_json(const AssemblyCheck& check) {
                                    {"advice", f.advice}};
     if (f.depth) item["depth"] = *f.depth;
     if (f.at) item["at"] = {f.at->x(), f.at->y(), f.at->z()};
+    if (!f.picture.empty()) item["picture"] = f.picture;
     json["findings"].push_back(std::move(item));
   }
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);

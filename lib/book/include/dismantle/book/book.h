@@ -27,11 +27,18 @@ DISMANTLE_API std::string book_html(const Plan& plan, const Assembly& assembly, 
 /// @throws InputError as book_html(). @throws Error when the PDF library fails.
 DISMANTLE_API std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptions& options);
 
+/// PNG of two parts as assembled, from above in front: `marked`, the smaller one best, in orange through what is before
+/// it, and a ring around the place `at` (input coordinates). What is further from `marked` than it is large may lie
+/// outside the picture. @throws std::out_of_range when the assembly has no such part.
+DISMANTLE_API std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at,
+                                   bool y_up);
+
 /// The functions above for programs that load the library when they need it: pango and what it depends on would cost a
 /// program that is linked to them milliseconds at every start.
 struct BookLibrary {
   std::string (*html)(const Plan&, const Assembly&, const BookOptions&);
   std::string (*pdf)(const Plan&, const Assembly&, const BookOptions&);
+  std::string (*pair_png)(const Assembly&, PartId, PartId, const Eigen::Vector3d&, bool);
 };
 extern "C" DISMANTLE_API const BookLibrary* dismantle_book_library();
 

@@ -37,6 +37,7 @@ struct Finding {
   std::string advice;                 ///< what to do next
   std::optional<double> depth;        ///< overlap, input units
   std::optional<Eigen::Vector3d> at;  ///< where, input coordinates
+  std::string picture{};              ///< file that shows the place; empty: none
 };
 
 struct AssemblyCheck {
@@ -60,7 +61,7 @@ DISMANTLE_API std::string_view to_string(Severity severity);
 /// For a terminal; UTF-8, ends with a line break.
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
-/// "advice", "depth", "at"}]}; the last two only where there is such a thing.
+/// "advice", "depth", "at", "picture"}]}; the last three only where there is such a thing.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle

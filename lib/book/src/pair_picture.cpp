@@ -1,0 +1,33 @@
+// Two parts and the place where they overlap.
+#include <algorithm>
+
+#include "canvas.h"
+#include "dismantle/book/book.h"
+
+namespace dismantle {
+namespace {
+
+constexpr double kRing = 0.045;  // radius of the ring around the place, share of the width
+
+}  // namespace
+
+Picture Illustrator::pair(PartId other, PartId marked, const Eigen::Vector3d& at, int width, int height) const {
+  const PlacedPart seen{marked, Pose{}};
+  const Eigen::Matrix3d axes = axes_of(Viewpoint{});
+  std::vector<Eigen::Vector3d> points = corners({seen});
+  points.push_back(at);
+  const Camera camera = camera_for(points, axes, width, height);
+  Picture picture;
+  picture.image = draw({body_of({other, Pose{}}, false), body_of(seen, true)}, camera, width, height);
+  picture.rings.emplace_back(camera.project(at, width, height).head<2>(), kRing * width);
+  return picture;
+}
+
+std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at, bool y_up) {
+  Assembly two = assembly;
+  two.parts = {assembly.parts.at(other), assembly.parts.at(marked)};
+  const std::vector<std::uint8_t> png = png_of(Illustrator(two, y_up).pair(0, 1, at, kStepWidth, kStepHeight));
+  return {png.begin(), png.end()};
+}
+
+}  // namespace dismantle

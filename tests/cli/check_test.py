@@ -1,0 +1,38 @@
+"""`dismantle check`: each place where parts overlap is named, and drawn where that is asked for."""
+import json
+import os
+import subprocess
+import unittest
+
+import meshes
+from program import PROGRAM, CliTest
+
+HAS_PICTURES = "built without instructions" not in subprocess.run(
+    [PROGRAM, "book", "none.json"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True).stderr
+
+
+class Check(CliTest):
+    def setUp(self):
+        super().setUp()
+        for name, lo, hi in (("plate", (0, 0, 0), (40, 40, 4)), ("pin", (10, 10, 3), (14, 14, 30)), ("cap", (10, 10, 30), (14, 14, 34))):
+            self.write(f"parts/{name}.obj", meshes.obj(*meshes.box(lo, hi)))
+
+    def findings(self, *options, status):
+        done = self.run_program("check", "parts", "--format", "json", "-q", *options, status=status)
+        return json.loads(done.stdout.splitlines()[-1])["findings"]
+
+    def test_an_overlap_has_its_pair_depth_and_place(self):
+        overlaps = [f for f in self.findings(status=1) if f["kind"] == "overlap"]
+        self.assertEqual([sorted(f["parts"]) for f in overlaps], [["pin", "plate"]])
+        self.assertAlmostEqual(overlaps[0]["depth"], 1, delta=0.02)
+        x, y, z = overlaps[0]["at"]
+        self.assertTrue(9.9 <= x <= 14.1 and 9.9 <= y <= 14.1 and 2.9 <= z <= 4.1, overlaps[0]["at"])
+        self.assertNotIn("picture", overlaps[0])
+
+    @unittest.skipUnless(HAS_PICTURES, "built without pangocairo")
+    def test_the_place_is_drawn(self):
+        found = [f for f in self.findings("--pictures", "places", status=1) if "picture" in f]
+        self.assertEqual([f["kind"] for f in found], ["overlap"])
+        with open(self.path(found[0]["picture"]), "rb") as file:
+            self.assertTrue(file.read().startswith(b"\x89PNG\r\n"))
+        self.assertEqual(os.listdir(self.path("places")), [os.path.basename(found[0]["picture"])])
