@@ -9,7 +9,7 @@ void ProofOptions::describe(Schema<ProofOptions>& s) {
          .doc = "Advanced. Cheap proofs are tried before searches of at least this depth, and before searches without "
                 "a limit: "
                 "such a search takes longer than the proof."});
-  s.add("high_effort_depth", &ProofOptions::high_effort_depth,
+  s.add("medium_effort_depth", &ProofOptions::medium_effort_depth,
         {.unit = "1",
          .min = 1,
          .doc = "Advanced. Expensive proofs about one part against one other are tried after an unsuccessful search of "

@@ -174,14 +174,13 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
 /// most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
   if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
-      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, options_.high_effort_depth))
+      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, options_.medium_effort_depth))
     return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
-  const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;  // more depth would not help
-  if (!last) return prove_pair(a, b, ProofEffort::high, context);
-  // With all of the tolerance the same proof takes several times as long and fails more often.
-  const Certificate* found = prove_pair(a, b, ProofEffort::medium, context);
-  return found != nullptr ? found : prove_reduced(a, b, context);
+  if (const Certificate* found = prove_pair(a, b, ProofEffort::medium, context)) return found;
+  // A pair that comes apart costs a proof of high effort most of all; a deeper search may still find how.
+  const bool last = attempt.max_depth == 0 || result.outcome() == Outcome::exhausted;
+  return last ? prove_reduced(a, b, context) : nullptr;
 }
 
 const Certificate* ProofSchedule::at_last(PartId part, const std::vector<PartId>& blocked_by,

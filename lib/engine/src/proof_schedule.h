@@ -23,11 +23,11 @@ namespace dismantle {
 ///
 /// - Trivial: when the schedule is made, about all pairs that overlap when assembled.
 /// - Low: before attempts of some depth or without limit, about the moving against the fixed parts.
-/// - Medium and high: after deep attempts of one part against one other that found nothing.
+/// - Medium: after deep attempts of one part against one other that found nothing. High: only where no deeper attempt
+///   can follow, for the reduced tolerance.
 /// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
 ///
-/// The last question about a pair, after which no search follows, is about the reduced tolerance: what is not proved
-/// with that is not proved with all of it either. At the end of the run all of it follows.
+/// What is not proved with the reduced tolerance is not proved with all of it either, and takes less time.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.

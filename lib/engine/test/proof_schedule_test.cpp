@@ -94,19 +94,29 @@ TEST(ProofSchedule, LowEffortComesBeforeSearchesOfSomeDepth) {
   }
 }
 
-TEST(ProofSchedule, HighEffortComesAfterDeepSearchesThatFoundNothing) {
-  for (const ProverTraits& traits : {kMedium, kHigh}) {
-    Asked costly;
+TEST(ProofSchedule, MediumEffortComesAfterDeepSearchesThatFoundNothing) {
+  Asked medium;
+  int searches = 0;
+  Rig s(row(2), with(fake::setup(touching({1}, searches)), {medium.prover("medium", kMedium)}));
+  EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
+  EXPECT_EQ(medium.parts.size(), 0U);
+  const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
+  EXPECT_EQ(r.result.outcome(), Outcome::infeasible);
+  EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1});
+  EXPECT_EQ(searches, 2);
+  EXPECT_EQ(medium.parts, (std::vector<std::vector<PartId>>{{0, 1}}));
+  EXPECT_EQ(medium.shares, std::vector<double>{1});
+}
+
+TEST(ProofSchedule, HighEffortWaitsUntilNoDeeperSearchCanFollow) {
+  for (const Outcome end : {Outcome::depth_limit, Outcome::exhausted}) {
+    Asked high;
     int searches = 0;
-    Rig s(row(2), with(fake::setup(touching({1}, searches)), {costly.prover("costly", traits)}));
-    EXPECT_EQ(s.ask(leave(s.assembly, 0, 3)).result.outcome(), Outcome::depth_limit);
-    EXPECT_EQ(costly.parts.size(), 0U);
-    const AttemptResult& r = s.ask(leave(s.assembly, 0, 4));
-    EXPECT_EQ(r.result.outcome(), Outcome::infeasible);
-    EXPECT_EQ(r.result.blocked_by, std::vector<PartId>{1});
-    EXPECT_EQ(searches, 2);
-    EXPECT_EQ(costly.parts, (std::vector<std::vector<PartId>>{{0, 1}}));
-    EXPECT_EQ(costly.shares, std::vector<double>{1});
+    Rig s(row(2), with(fake::setup(touching({1}, searches, end)), {high.prover("high", kHigh)}));
+    EXPECT_EQ(s.ask(leave(s.assembly, 0, 9)).certificate == nullptr, end == Outcome::depth_limit);
+    EXPECT_EQ(high.parts.size(), end == Outcome::depth_limit ? 0U : 1U);
+    EXPECT_NE(s.ask(leave(s.assembly, 0)).certificate, nullptr) << "a search without a limit is the last one";
+    EXPECT_EQ(high.shares, std::vector<double>{0.5});
   }
 }
 
@@ -180,25 +190,31 @@ TEST(ProofSchedule, WhatIsFoundIsNotProvedAway) {
 }
 
 TEST(ProofSchedule, TimeOfProofsIsNotThatOfTheAttempt) {
-  constexpr double kLimit = 0.05;
-  const NamedProver slow =
-      fake::prover("slow", kLow, [](const SeparationQuery&, const RunContext&) -> std::optional<Certificate> {
-        std::this_thread::sleep_for(std::chrono::duration<double>(2 * kLimit));
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [](Clock::duration d) { return std::chrono::duration<double>(d).count(); };
+  constexpr double kLimit = 1000;
+  Clock::time_point begin, end;
+  double limit_of_proof = 0, limit_since_proof = 0;
+  const NamedProver prover =
+      fake::prover("p", kLow, [&](const SeparationQuery&, const RunContext& c) -> std::optional<Certificate> {
+        begin = Clock::now();
+        limit_of_proof = c.deadline.seconds_left();
+        end = Clock::now();
         return std::nullopt;
       });
-  bool in_time = false;
   RunOptions options;
   options.path_timeout = kLimit;
   Rig s(row(2),
         with(fake::setup([&](const PathQuery&, RunContext& c) {
-               in_time = c.deadline.seconds_left() > 0;
+               limit_since_proof = c.deadline.seconds_left() + seconds(Clock::now() - end);
                return outcome(Outcome::exhausted);
              }),
-             {slow}),
+             {prover}),
         1, options);
   const AttemptResult& r = s.ask(leave(s.assembly, 0, 3));
-  EXPECT_TRUE(in_time) << "the limit begins with the search";
-  EXPECT_GE(r.proof_seconds, 2 * kLimit);
+  EXPECT_GT(limit_of_proof, kLimit) << "the limit is that of the search";
+  EXPECT_GE(limit_since_proof, kLimit) << "the limit begins with the search";
+  EXPECT_GE(r.proof_seconds, seconds(end - begin));
 }
 
 TEST(ProofSchedule, WithoutProversNothingIsProved) {

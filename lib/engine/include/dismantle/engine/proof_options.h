@@ -8,7 +8,7 @@ namespace dismantle {
 
 struct ProofOptions {
   unsigned low_effort_depth = 3;
-  unsigned high_effort_depth = 4;
+  unsigned medium_effort_depth = 4;
   double reduced_tolerance = 0.5;
   unsigned final_parts = 8;
   DISMANTLE_API static void describe(Schema<ProofOptions>& s);
