@@ -4,6 +4,7 @@
 #include "canvas.h"
 #include "content.h"
 #include "dismantle/plan_io/base64.h"
+#include "dismantle/plan_io/markup.h"
 
 namespace dismantle {
 namespace {
@@ -40,32 +41,15 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
   section { margin: 0; max-width: none; box-shadow: none; padding: 0; break-after: page; } section:last-child { break-after: auto; } }
 )";
 
-std::string html_text(const std::string& raw) {
-  std::string out;
-  for (const char c : raw) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
-
 std::string img(const Picture& picture, const std::string& alt) {
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                     picture.image.width, picture.image.height, html_text(alt), base64(png_of(picture)));
+                     picture.image.width, picture.image.height, escaped_markup(alt), base64(png_of(picture)));
 }
 
 std::string facts_list(const Facts& facts) {
   std::string out = "<dl>";
   for (const auto& [name, value] : facts)
-    out += fmt::format("<dt>{}</dt><dd>{}</dd>", html_text(name), html_text(value));
+    out += fmt::format("<dt>{}</dt><dd>{}</dd>", escaped_markup(name), escaped_markup(value));
   return out + "</dl>";
 }
 
@@ -76,13 +60,13 @@ std::string badge(std::size_t number) {
 std::string step_page(const BookPage& page, const StepPictures& pictures, bool disassembly) {
   std::string out = fmt::format(
       "<section class=\"page\" id=\"step-{}\"><div class=\"head\"><span>{}</span><span>step {} of {}</span></div>\n",
-      page.number, html_text(page.chapter), page.number, page.count);
+      page.number, escaped_markup(page.chapter), page.number, page.count);
   std::string what;
   for (const auto& [item, words] : page.moving)
-    what += fmt::format("<div class=\"what\">{}{}</div>", badge(item), html_text(words));
+    what += fmt::format("<div class=\"what\">{}{}</div>", badge(item), escaped_markup(words));
   std::string motions;
   for (const std::string& motion : page.motions)
-    motions += fmt::format("<p class=\"motion\">{}</p>", html_text(motion));
+    motions += fmt::format("<p class=\"motion\">{}</p>", escaped_markup(motion));
   out += fmt::format("<div class=\"step\"><div>{}{}</div>\n", img(pictures.apart, "the motion of this step"),
                      caption_of(pictures).empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", caption_of(pictures)));
   out += fmt::format("<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, page.verb,
@@ -104,11 +88,12 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
-      html_text(content.title), kBookStyle);
+      escaped_markup(content.title), kBookStyle);
   std::string warnings;
-  for (const std::string& w : content.warnings) warnings += fmt::format("<p class=\"warning\">{}</p>", html_text(w));
+  for (const std::string& w : content.warnings)
+    warnings += fmt::format("<p class=\"warning\">{}</p>", escaped_markup(w));
   out += fmt::format("<section><h1>{}</h1><p class=\"soft\">{}</p>{}\n<div class=\"title\">{}{}</div>{}</section>\n",
-                     html_text(content.title), content.subtitle, warnings, img(fronts.whole, "the assembly"),
+                     escaped_markup(content.title), content.subtitle, warnings, img(fronts.whole, "the assembly"),
                      img(fronts.exploded, "the assembly, exploded"), facts_list(content.facts));
   out += "<section><h2>Bill of materials</h2><div class=\"items\">\n";
   for (const BookItem& item : content.items) {
@@ -118,9 +103,9 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
         "<div class=\"item\"><span class=\"count\">{} ×</span>{}{}<div><strong>{}</strong></div>{}"
         "<div class=\"soft\">{}</div></div>\n",
         item.parts.size(), badge(item.number),
-        img(illustrator.part(item.parts.front(), kItemWidth, kItemHeight), item.name), html_text(item.name),
-        item.parts.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", html_text(names)) : "",
-        html_text(item.size));
+        img(illustrator.part(item.parts.front(), kItemWidth, kItemHeight), item.name), escaped_markup(item.name),
+        item.parts.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
+        escaped_markup(item.size));
   }
   out += "</div></section>\n";
   for (const BookPage& page : content.pages) {

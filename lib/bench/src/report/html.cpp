@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "dismantle/plan_io/markup.h"
 #include "report/plot.h"
 
 namespace dismantle::bench {
@@ -55,13 +56,13 @@ bool is_number_column(const Table& table, std::size_t column) {
 }
 
 std::string content_of(const TableCell& cell) {
-  const std::string text = escaped_html(cell.text);
-  return cell.link.empty() ? text : fmt::format("<a href='{}'>{}</a>", escaped_html(cell.link), text);
+  const std::string text = escaped_markup(cell.text);
+  return cell.link.empty() ? text : fmt::format("<a href='{}'>{}</a>", escaped_markup(cell.link), text);
 }
 
 std::string html_of(const Table& table) {
   std::string out = fmt::format("<h2 id='{}'>{}</h2>\n<p class='note'>{}</p>\n", "about-" + table.id,
-                                escaped_html(table.title), escaped_html(table.note));
+                                escaped_markup(table.title), escaped_markup(table.note));
   if (table.id == "trials")
     out +=
         "<label>Show rows with <input id='filter-trials' type='search' placeholder='words, such as: bfs "
@@ -71,7 +72,7 @@ std::string html_of(const Table& table) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     numbers.push_back(is_number_column(table, i));
     out +=
-        fmt::format("<th{}><button>{}</button></th>", numbers[i] ? " class='n'" : "", escaped_html(table.columns[i]));
+        fmt::format("<th{}><button>{}</button></th>", numbers[i] ? " class='n'" : "", escaped_markup(table.columns[i]));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
@@ -87,13 +88,13 @@ std::string html_of(const Table& table) {
 }  // namespace
 
 std::string report_html(const ReportData& data, const std::vector<Table>& tables) {
-  const std::string title = escaped_html(data.name);
+  const std::string title = escaped_markup(data.name);
   std::string out = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>\n";
   out += "<meta name='viewport' content='width=device-width, initial-scale=1'>\n";
   out +=
       fmt::format("<title>{} - Dismantle</title>\n<style>{}</style></head><body>\n<h1>{}</h1>\n", title, kStyle, title);
   out += fmt::format("<p>{} trials of {} planners.", data.rows.size(), data.planners.size());
-  for (const auto& note : data.notes) out += " " + escaped_html(note);
+  for (const auto& note : data.notes) out += " " + escaped_markup(note);
   out += "</p>\n";
   for (const auto& table : tables) {
     if (table.id == "curves") out += "<h2>Success over time</h2>\n" + svg_of(curves_of(data));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/plan_io/markup.h"
+
 namespace dismantle::bench {
 namespace {
 
@@ -61,32 +63,6 @@ std::string path_of(const Curve& curve, const Axes& axes) {
 
 }  // namespace
 
-std::string escaped_html(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string colour_of(std::size_t i) {
   static const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                         "#b8860b", "#56b4e9", "#6a3d9a", "#666666"};
@@ -104,7 +80,7 @@ std::string svg_of(const std::vector<Curve>& curves) {
     const std::string look = fmt::format("stroke='{}'{}", colour_of(i), i >= 8 ? " stroke-dasharray='6 4'" : "");
     const double share = curves[i].steps.empty() ? 0 : curves[i].steps.back().second;
     const std::string label =
-        fmt::format("{}: {:.1f} % after {:.3g} s", escaped_html(curves[i].label), 100 * share, curves[i].end);
+        fmt::format("{}: {:.1f} % after {:.3g} s", escaped_markup(curves[i].label), 100 * share, curves[i].end);
     out +=
         fmt::format("<path d='{}' class='curve' {}><title>{}</title></path>\n", path_of(curves[i], axes), look, label);
     const double y = kTop + kHeight + 44 + kLegend * double(i);

@@ -8,8 +8,6 @@
 
 namespace dismantle::bench {
 
-std::string escaped_html(const std::string& text);
-
 /// Success over time, logarithmic in time, with a legend.
 std::string svg_of(const std::vector<Curve>& curves);
 

@@ -3,6 +3,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/exports.h"
+#include "dismantle/plan_io/markup.h"
 #include "dismantle/plan_io/text_columns.h"
 #include "export/dot_text.h"
 
@@ -17,22 +18,7 @@ void check_order_is_known(const Plan& plan) {
                        "the plan does not say which steps wait for which (no 'layer'); plan the assembly again");
 }
 
-std::string xml_text(const std::string& raw) {
-  std::string out;
-  for (const char c : utf8_text(raw)) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;  // XML 1.0 has no place for most control characters
-  }
-  return out;
-}
+std::string xml_text(const std::string& raw) { return escaped_markup(utf8_text(raw)); }
 
 }  // namespace
 
