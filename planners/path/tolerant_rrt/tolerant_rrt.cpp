@@ -20,7 +20,7 @@ class TolerantRrt final : public PathPlanner {
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
     const std::uint64_t level = path::doubled_per_level(parameters_.level_looks, query.budget.max_depth);
     return std::make_unique<tolerant_walk::Walk>(parameters_, query, context, *cache_,
-                                                 std::min(level, static_cast<std::uint64_t>(parameters_.looks)));
+                                                 std::min(level, static_cast<std::uint64_t>(parameters_.state_checks)));
   }
 
  private:

@@ -21,7 +21,7 @@ using sampling::SamplingProblem;
 
 /// State checks without turns where nothing else limits them.
 constexpr std::uint64_t kChecksWithoutTurns = 10'000;
-/// Paths that the verifier may refuse: simulator and judge differ there, and more of the same will not help.
+/// Paths that the verifier may refuse: where simulator and verifier differ, more paths of the same kind do not help.
 constexpr int kMostRefused = 10;
 
 struct Parameters {

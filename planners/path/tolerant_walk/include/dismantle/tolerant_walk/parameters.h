@@ -41,7 +41,7 @@ void describe_paths(Schema<P>& s) {
 
 struct Parameters : TreeParameters {
   double outward = 0.6;
-  std::int64_t looks = 25'000;
+  std::int64_t state_checks = 25'000;
   double level_looks = 500;
 
   static void describe(Schema<Parameters>& s) {
@@ -53,7 +53,7 @@ struct Parameters : TreeParameters {
            .min = 0,
            .max = 1,
            .doc = "Share of the steps from poses that are furthest out in some direction."});
-    s.add("state_checks", &Parameters::looks,
+    s.add("state_checks", &Parameters::state_checks,
           {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before it gives up."});
     s.add(
         "level_state_checks", &Parameters::level_looks,
