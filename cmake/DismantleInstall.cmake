@@ -2,6 +2,8 @@
 #   find_package(dismantle REQUIRED)   # dismantle::plugin_api, dismantle::plugins, dismantle::testing; dismantle::core and each
 #                                      # library of lib/ but bench: dismantle::geometry, ::verification, ::preparation, ...
 #   dismantle_add_plugin(my_planner SOURCES my_planner.cpp)
+#   dismantle_add_contract_test(my_planner)   # if the tests were built: dismantle::contract_tests is the program
+# `dismantle plugins new` writes such a project.
 include(CMakePackageConfigHelpers)
 
 set(DISMANTLE_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/dismantle")
@@ -30,7 +32,8 @@ install(FILES
   DESTINATION "${DISMANTLE_PACKAGE_DIR}")
 
 install(DIRECTORY configs DESTINATION "${CMAKE_INSTALL_DATADIR}/dismantle" FILES_MATCHING PATTERN "*.yaml")
-install(FILES README.md LICENSE CHANGELOG.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 # What there is to run, without the tests: the program and the built-in plugins.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)

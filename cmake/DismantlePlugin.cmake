@@ -22,3 +22,13 @@ function(dismantle_add_plugin name)
     install(TARGETS ${name} LIBRARY DESTINATION "${DISMANTLE_PLUGIN_INSTALL_DIR}")
   endif()
 endfunction()
+
+# dismantle_add_contract_test(NAME): a test of CTest that tries the laws of its kind on the plugin NAME, as `dismantle plugins
+# check` does.
+function(dismantle_add_contract_test name)
+  if(NOT TARGET dismantle::contract_tests)
+    message(FATAL_ERROR "This Dismantle was installed without its contract tests: build it with -DDISMANTLE_BUILD_TESTS=ON, "
+      "or leave out dismantle_add_contract_test(${name}).")
+  endif()
+  add_test(NAME ${name}_contract COMMAND dismantle::contract_tests --gtest_brief=1 "$<TARGET_FILE:${name}>")
+endfunction()

@@ -1,4 +1,4 @@
-// dismantle plugins list | describe ID | check FILE
+// dismantle plugins list | describe ID | check FILE | new DIR
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/host/describe.h"
+#include "dismantle/plugin_template.h"
 #include "dismantle/plugins_check.h"
 #include "dismantle/settings.h"
 
@@ -70,17 +71,37 @@ int describe(const Plugins& options) {
   return kComplete;
 }
 
+struct NewPlugin {
+  std::string folder, kind, id;
+};
+
+int make_new(const NewPlugin& options) {
+  std::string out = fmt::format("wrote to {}:", options.folder);
+  for (const auto& file : write_plugin_project(options.folder, options.kind, options.id)) out += " " + file;
+  out += fmt::format(
+      "\nnext:\n"
+      "  cd {0}\n"
+      "  cmake -S . -B build -DCMAKE_PREFIX_PATH=<where Dismantle is installed> && cmake --build build\n"
+      "  ctest --test-dir build\n"
+      "  DISMANTLE_PLUGIN_PATH=$PWD/build dismantle plugins describe {1}\n",
+      options.folder, options.id);
+  Console(ConsoleOptions{}).text(out);
+  return kComplete;
+}
+
 }  // namespace
 
 void add_plugins(CLI::App& app, Action& action) {
-  auto* command = app.add_subcommand("plugins", "Show the simulators, planners and importers that are there");
+  auto* command = app.add_subcommand(
+      "plugins", "The simulators, planners and importers: list, describe, check, and begin new ones");
   command->require_subcommand(1);
   command->footer(
       "Plugins are found in the install's plugin folder, in $DISMANTLE_PLUGIN_PATH and in the search paths of the\n"
       "configuration.\n"
       "Examples:\n"
       "  dismantle plugins list\n"
-      "  dismantle plugins describe bfs");
+      "  dismantle plugins describe bfs\n"
+      "  dismantle plugins new my_planner --kind path_planner --name acme.rrt");
   auto options = std::make_shared<Plugins>();
 
   auto* list_command = command->add_subcommand("list", "All ids with kind, summary and file");
@@ -112,9 +133,25 @@ void add_plugins(CLI::App& app, Action& action) {
       "Tries the contract tests on all types of these plugins, with partners from the plugins that are found.\n"
       "Exit status: 0 all laws hold, 1 some do not, 2 a plugin is refused.\n"
       "Example:\n  dismantle plugins check build/libacme_straight.so");
-  check_command->callback([&action, checked] {
-    action = [checked]() -> int { check_plugins(checked->plugins, checked->verbose); };
-  });
+  check_command->callback(
+      [&action, checked] { action = [checked]() -> int { check_plugins(checked->plugins, checked->verbose); }; });
+
+  auto made = std::make_shared<NewPlugin>();
+  auto* new_command = command->add_subcommand("new", "Write a project for a plugin of your own");
+  new_command->add_option("DIR", made->folder, "Folder for the project, new or empty")->required()->option_text(" ");
+  new_command->add_option("--kind", made->kind, fmt::format("{}", fmt::join(template_kinds(), ", ")))
+      ->required()
+      ->option_text("KIND");
+  new_command->add_option("--name", made->id, "Its id, with a dot: words of lower-case letters, digits and '_'")
+      ->required()
+      ->option_text("acme.rrt");
+  new_command->footer(
+      "Writes a complete project: CMake files, a plugin that works, its tests, a README, a workflow for GitHub and, "
+      "for\n"
+      "planners and simulators, a benchmark. It needs an installed Dismantle and nothing of its source\n"
+      "(docs/write-a-planner.md).\n"
+      "Example:\n  dismantle plugins new my_planner --kind path_planner --name acme.rrt");
+  new_command->callback([&action, made] { action = [made] { return make_new(*made); }; });
 }
 
 }  // namespace dismantle::app

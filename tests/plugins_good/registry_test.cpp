@@ -170,7 +170,8 @@ TEST(Examples, DocumentationShowsThem) {
   const std::pair<const char*, const char*> shown[] = {
       {"docs/write-a-planner.md", "tests/plugins_good/acme_straight/straight.cpp"},
       {"docs/write-a-planner.md", "tests/plugins_good/acme_straight/CMakeLists.txt"},
-      {"docs/write-a-simulator.md", "tests/plugins_good/acme_stepper/stepper.cpp"}};
+      {"docs/write-a-planner.md", "plugins/templates/path_planner/acme_lines.cpp"},
+      {"docs/write-a-simulator.md", "plugins/templates/simulator/acme_stepper.cpp"}};
   for (const auto& [page, example] : shown) {
     const std::string code = content(source / example);
     ASSERT_FALSE(code.empty()) << example;
@@ -181,7 +182,7 @@ TEST(Examples, DocumentationShowsThem) {
 
 // Law: a plugin exports its header and nothing else.
 TEST(Plugin, ExportsOnlyItsHeader) {
-  for (const char* name : {"libacme_straight.so", "libacme_stepper.so"}) {
+  for (const char* name : {"libacme_straight.so", "libacme_lines.so", "libacme_in_turn.so", "libacme_stepper.so", "libacme_facets.so"}) {
     std::ifstream stream(kAcme / name, std::ios::binary);
     const std::string file((std::istreambuf_iterator<char>(stream)), {});
     ElfW(Ehdr) header;

@@ -1,4 +1,4 @@
-// A simulator in one file: no inertia; a body takes small steps along the force until its surface points touch.
+// acme.stepper: a simulator. No inertia; a body takes small steps along the force until its surface points touch.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,18 +11,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct StepperParams {
+struct AcmeStepperParams {
   double speed = 1.0;
   double time_step = 0.01;
-  double tolerance = 0.005;
+  double share = 0.5;
 
-  static void describe(dismantle::Schema<StepperParams>& s) {
-    s.add("speed", &StepperParams::speed,
+  static void describe(dismantle::Schema<AcmeStepperParams>& s) {
+    s.add("speed", &AcmeStepperParams::speed,
           {.unit = "assembly units / s", .min = 0, .min_open = true, .doc = "Speed of a body that is pushed."});
-    s.add("time_step", &StepperParams::time_step,
+    s.add("time_step", &AcmeStepperParams::time_step,
           {.unit = "s", .min = 0, .min_open = true, .doc = "Length of a step."});
-    s.add("tolerance", &StepperParams::tolerance,
-          {.unit = "assembly units", .min = 0, .doc = "Depth at which a body counts as stopped."});
+    s.add(
+        "share", &AcmeStepperParams::share,
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Share of the verifier's tolerance at which a body counts as stopped; the rest is in reserve for what "
+                "lies between the sampled points."});
   }
 };
 
@@ -31,12 +36,13 @@ constexpr dismantle::Capabilities kProvides{.dynamics = true, .contacts = true, 
 /// Once per assembly, shared by all worlds: a hierarchy of triangles per part.
 struct Trees final : dismantle::PreparedAssembly {
   std::vector<dismantle::TriangleBvh> parts;
+  double tolerance = 0;  // of the verifier, assembly units
 };
 
-class StepperWorld final : public dismantle::World {
+class AcmeStepperWorld final : public dismantle::World {
  public:
-  StepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Scene scene,
-               dismantle::MotionSpace space, const StepperParams& params)
+  AcmeStepperWorld(const dismantle::Assembly& assembly, const Trees& trees, dismantle::Scene scene,
+                   dismantle::MotionSpace space, const AcmeStepperParams& params)
       : assembly_(assembly), trees_(trees), scene_(std::move(scene)), space_(space), params_(params) {
     if (scene_.moving.size() != 1) throw std::invalid_argument("acme.stepper moves exactly one part at a time");
     const auto box = surface().box();
@@ -58,12 +64,12 @@ class StepperWorld final : public dismantle::World {
     dismantle::StepReport report;
     dismantle::Pose& pose = state.bodies.at(0).pose;
     const dismantle::Pose begin = pose;
-    const auto count = static_cast<std::uint64_t>(std::ceil(duration / params_.time_step));
+    const auto count = static_cast<std::uint64_t>(std::ceil(duration / params_.time_step - 1e-9));
     for (std::uint64_t n = 0; n < count && !report.stalled; ++n) {
       dismantle::State next = state;
       move(next.bodies[0].pose, action.wrenches.at(0));
       ++report.steps;
-      report.stalled = penetration(next) > params_.tolerance;
+      report.stalled = penetration(next) > params_.share * trees_.tolerance;
       if (report.stalled) break;
       state = next;
       if (trace != nullptr) trace->push_back({pose});
@@ -112,10 +118,10 @@ class StepperWorld final : public dismantle::World {
   const dismantle::Mesh& surface() const { return *assembly_.parts[scene_.moving[0].part].surface; }
 
   void move(dismantle::Pose& pose, const dismantle::Wrench& wrench) const {
-    const double way = params_.speed * params_.time_step;
-    if (wrench.force.norm() > 0) pose.t += way * wrench.force.normalized();
+    const double length = params_.speed * params_.time_step;
+    if (wrench.force.norm() > 0) pose.t += length * wrench.force.normalized();
     if (space_ == dismantle::MotionSpace::translation || wrench.torque.norm() == 0) return;
-    const Vector3d turn = way / std::max(radius_, 1e-9) * wrench.torque.normalized();
+    const Vector3d turn = length / std::max(radius_, 1e-9) * wrench.torque.normalized();
     const Eigen::Quaterniond q = dismantle::rotation_from_vector(turn);
     const Vector3d c = pose * center_;
     pose = dismantle::Pose{c - q * c, q} * pose;  // about the body's centre
@@ -125,22 +131,23 @@ class StepperWorld final : public dismantle::World {
   const Trees& trees_;
   dismantle::Scene scene_;
   dismantle::MotionSpace space_;
-  StepperParams params_;
+  AcmeStepperParams params_;
   Vector3d center_ = Vector3d::Zero();
   double radius_ = 0;
   std::vector<Vector3d> fixed_points_;
   std::vector<dismantle::Contact> scratch_;
 };
 
-class Stepper final : public dismantle::Simulator {
+class AcmeStepper final : public dismantle::Simulator {
  public:
-  explicit Stepper(const StepperParams& params) : params_(params) {}
+  explicit AcmeStepper(const AcmeStepperParams& params) : params_(params) {}
 
   dismantle::Capabilities capabilities() const noexcept override { return kProvides; }
 
-  std::shared_ptr<const dismantle::PreparedAssembly> prepare(const dismantle::Assembly& assembly, double /*tolerance*/,
+  std::shared_ptr<const dismantle::PreparedAssembly> prepare(const dismantle::Assembly& assembly, double tolerance,
                                                              dismantle::RunContext& context) override {
     auto trees = std::make_shared<Trees>();
+    trees->tolerance = tolerance;
     for (const auto& part : assembly.parts) {
       context.progress("trees", trees->parts.size(), assembly.parts.size(), part.name);
       trees->parts.emplace_back(*part.mesh);
@@ -151,16 +158,16 @@ class Stepper final : public dismantle::Simulator {
   std::unique_ptr<dismantle::World> world(const dismantle::Assembly& assembly,
                                           const dismantle::PreparedAssembly& prepared, const dismantle::Scene& scene,
                                           dismantle::MotionSpace space) const override {
-    return std::make_unique<StepperWorld>(assembly, static_cast<const Trees&>(prepared), scene, space, params_);
+    return std::make_unique<AcmeStepperWorld>(assembly, static_cast<const Trees&>(prepared), scene, space, params_);
   }
 
  private:
-  StepperParams params_;
+  AcmeStepperParams params_;
 };
 
 }  // namespace
 
-DISMANTLE_PLUGIN("acme.stepper", "1.0.0", "MIT", "https://example.org/stepper") {
-  r.add<dismantle::Simulator, Stepper, StepperParams>("acme.stepper", "Quasi-static steps, sampled contact.",
-                                                      {.source = "none", .provides = kProvides});
+DISMANTLE_PLUGIN("acme.stepper", "0.1.0", "MIT", "https://example.org") {
+  r.add<dismantle::Simulator, AcmeStepper, AcmeStepperParams>("acme.stepper", "Quasi-static steps, sampled contact.",
+                                                              {.source = "own", .provides = kProvides});
 }
