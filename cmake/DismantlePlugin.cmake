@@ -24,11 +24,15 @@ function(dismantle_add_plugin name)
 endfunction()
 
 # dismantle_add_contract_test(NAME): a test of CTest that tries the laws of its kind on the plugin NAME, as `dismantle plugins
-# check` does.
+# check` does. Importers read the files in the folder `examples` of this project, if there is one.
 function(dismantle_add_contract_test name)
   if(NOT TARGET dismantle::contract_tests)
     message(FATAL_ERROR "This Dismantle was installed without its contract tests: build it with -DDISMANTLE_BUILD_TESTS=ON, "
       "or leave out dismantle_add_contract_test(${name}).")
   endif()
-  add_test(NAME ${name}_contract COMMAND dismantle::contract_tests --gtest_brief=1 "$<TARGET_FILE:${name}>")
+  set(examples "")
+  if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/examples")
+    set(examples --examples "${CMAKE_CURRENT_SOURCE_DIR}/examples")
+  endif()
+  add_test(NAME ${name}_contract COMMAND dismantle::contract_tests --gtest_brief=1 ${examples} "$<TARGET_FILE:${name}>")
 endfunction()

@@ -121,6 +121,7 @@ void add_plugins(CLI::App& app, Action& action) {
 
   struct Checked {
     std::vector<std::string> plugins;
+    std::string examples;
     bool verbose = false;
   };
   auto checked = std::make_shared<Checked>();
@@ -128,13 +129,18 @@ void add_plugins(CLI::App& app, Action& action) {
   check_command->add_option("FILE", checked->plugins, "Plugin files (.so), or ids as in 'plugins list'")
       ->required()
       ->option_text(" ");
+  check_command
+      ->add_option("--examples", checked->examples,
+                   "Files that importers are tried on; beside NAME.xyz a folder NAME with an OBJ file for each part")
+      ->option_text("DIR");
   check_command->add_flag("-v,--verbose", checked->verbose, "Names each law that is tried");
   check_command->footer(
       "Tries the contract tests on all types of these plugins, with partners from the plugins that are found.\n"
       "Exit status: 0 all laws hold, 1 some do not, 2 a plugin is refused.\n"
       "Example:\n  dismantle plugins check build/libacme_straight.so");
-  check_command->callback(
-      [&action, checked] { action = [checked]() -> int { check_plugins(checked->plugins, checked->verbose); }; });
+  check_command->callback([&action, checked] {
+    action = [checked]() -> int { check_plugins(checked->plugins, checked->examples, checked->verbose); };
+  });
 
   auto made = std::make_shared<NewPlugin>();
   auto* new_command = command->add_subcommand("new", "Write a project for a plugin of your own");

@@ -10,10 +10,11 @@
 
 namespace dismantle::app {
 
-void check_plugins(const std::vector<std::string>& plugins, bool verbose) {
+void check_plugins(const std::vector<std::string>& plugins, const std::string& examples, bool verbose) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "dismantle_contract_tests";
   std::vector<std::string> words{program.string()};
   if (!verbose) words.push_back("--gtest_brief=1");
+  if (!examples.empty()) words.insert(words.end(), {"--examples", examples});
   words.insert(words.end(), plugins.begin(), plugins.end());
   std::vector<char*> arguments;
   for (auto& word : words) arguments.push_back(word.data());

@@ -14,13 +14,15 @@
 
 namespace {
 
-constexpr const char* kUsage = R"(usage: dismantle_contract_tests [--expect FILE] [--gtest_...] [FILE.so | ID]...
+constexpr const char* kUsage =
+    R"(usage: dismantle_contract_tests [--expect FILE] [--examples DIR] [--gtest_...] [FILE.so | ID]...
 
-Tries the laws of simulators, path, sequence and transfer planners and immobility provers on the types of the plugin files,
+Tries the laws of simulators, path, sequence and transfer planners, immobility provers and importers on the types of the plugin files,
 or the types with these ids; without any, on all that are found (the built-in folder, then DISMANTLE_PLUGIN_PATH).
 Other plugins that are found serve as partners: a path planner is tried with the first simulator that has what it needs.
 A law that does not concern a plugin, by the capabilities that it declares, is skipped; skips are listed at the end.
 --expect FILE: what is known about some plugins beyond the laws, the skips among it (see tests/contract/expectations.txt).
+--examples DIR: files of the formats that importers read; beside NAME.xyz may stand a folder NAME with an OBJ file for each part.
 DISMANTLE_TESTS=nightly makes random trials more numerous.
 Exit status: 0 all laws hold, 1 some do not, 2 wrong use or a plugin that is refused.
 )";
@@ -59,6 +61,8 @@ int main(int argc, char** argv) {
     }
     if (word == "--expect" && i + 1 < argc) {
       selection.expectations = argv[++i];
+    } else if (word == "--examples" && i + 1 < argc) {
+      selection.examples = argv[++i];
     } else if (word.starts_with("--gtest")) {
       rest.push_back(argv[i]);
       if (word.starts_with("--gtest_filter")) whole = false;

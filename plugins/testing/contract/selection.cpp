@@ -15,6 +15,7 @@ struct State {
   std::set<std::string> chosen;  // empty: all
   std::set<std::string> expectations;
   bool expects = false;
+  std::filesystem::path examples;
 };
 
 State& state() {
@@ -37,6 +38,9 @@ void select(const Selection& selection) {
     s.registry.find(id);
     s.chosen.insert(id);
   }
+  if (!selection.examples.empty() && !std::filesystem::is_directory(selection.examples))
+    throw Error(selection.examples.string() + " is no folder");
+  s.examples = selection.examples;
   if (selection.expectations.empty()) return;
   std::ifstream stream(selection.expectations);
   if (!stream) throw Error(selection.expectations.string() + " cannot be read");
@@ -66,6 +70,19 @@ std::vector<std::string> without_defaults() {
     for (const RegisteredType* t : s.registry.types(kind))
       if ((s.chosen.empty() || s.chosen.contains(t->type.id)) && has_required(*t)) found.push_back(t->type.id);
   return found;
+}
+
+std::vector<std::filesystem::path> examples(const std::vector<std::string>& endings) {
+  std::vector<std::filesystem::path> files;
+  if (state().examples.empty()) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(state().examples)) {
+    const std::string ending = entry.path().extension().string();
+    if (entry.is_regular_file() && !ending.empty() &&
+        std::find(endings.begin(), endings.end(), ending.substr(1)) != endings.end())
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 bool expected(const std::string& what, const std::string& id) { return state().expectations.contains(what + " " + id); }

@@ -18,6 +18,7 @@ struct Selection {
       files;                           ///< plugin files whose types are tested; loaded besides those that are found
   std::set<std::string> ids;           ///< types that are tested
   std::filesystem::path expectations;  ///< empty: none
+  std::filesystem::path examples;      ///< folder with files of the importers' formats; empty: none
 };
 
 /// Has to be called before the tests are registered. @throws PluginError for a file that is refused or an id that no
@@ -32,6 +33,9 @@ std::vector<std::string> ids(PluginKind kind);
 
 /// Types that would be tested if they could be made without giving a parameter.
 std::vector<std::string> without_defaults();
+
+/// Files of Selection::examples with one of these endings, in the order of their names.
+std::vector<std::filesystem::path> examples(const std::vector<std::string>& endings);
 
 /// Expectations about plugins that are known, beyond the laws. One a line:
 ///   solves ID           the path planner solves each of the small assemblies
