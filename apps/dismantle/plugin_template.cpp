@@ -75,7 +75,7 @@ class Renaming {
     pairs_.emplace_back(identifier(from), identifier(to));
     pairs_.emplace_back(class_name(from), class_name(to));
   }
-  /// In one pass: what was put in is not looked at again.
+  /// In one pass: what was put in is not replaced again.
   std::string operator()(const std::string& text) const {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {

@@ -22,26 +22,62 @@ run(ignored ${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${WORK_DIR}/firs
 # The install must not depend on where it was made: move it before it is used.
 file(RENAME "${WORK_DIR}/first" "${WORK_DIR}/prefix")
 
-# The project of this folder, and the examples of docs/write-a-*.md.
-foreach(project consumer ../plugins_good/acme_straight ../plugins_good/acme_stepper)
-  get_filename_component(name "${project}" NAME)
-  run(ignored ${CMAKE_COMMAND} -S "${SOURCE_DIR}/${project}" -B "${WORK_DIR}/${name}" -G "${GENERATOR}"
+set(dismantle "${WORK_DIR}/prefix/bin/dismantle")
+set(launcher "")
+if(CCACHE)
+  set(launcher "-DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE}")
+endif()
+function(build source name)
+  run(ignored ${CMAKE_COMMAND} -S "${source}" -B "${WORK_DIR}/${name}" -G "${GENERATOR}"
     "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix" "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
-    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}")
-  run(ignored ${CMAKE_COMMAND} --build "${WORK_DIR}/${name}")
+    "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" ${launcher})
+  run(ignored ${CMAKE_COMMAND} --build "${WORK_DIR}/${name}" --parallel 2)
+endfunction()
+
+# The project of this folder, and an example of docs/write-a-planner.md.
+build("${SOURCE_DIR}/consumer" consumer)
+build("${SOURCE_DIR}/../plugins_good/acme_straight" acme_straight)
+
+# What `plugins new` writes is built, loaded, obeys the laws of its kind and passes its own tests, as it stands.
+foreach(project path_planner:foo.rays sequence_planner:foo.one_by_one simulator:foo.world.small importer:foo.text)
+  string(REPLACE ":" ";" project "${project}")
+  list(POP_FRONT project kind id)
+  string(REPLACE "." "_" name "${id}")
+  run(ignored "${dismantle}" plugins new "${WORK_DIR}/new_${name}" --kind ${kind} --name ${id})
+  file(GLOB_RECURSE texts "${WORK_DIR}/new_${name}/*")
+  foreach(file README.md .gitignore .github/workflows/build.yml ${name}.cpp ${name}_test.cpp)
+    if(NOT EXISTS "${WORK_DIR}/new_${name}/${file}")
+      message(FATAL_ERROR "plugins new --kind ${kind} wrote no ${file}")
+    endif()
+  endforeach()
+  foreach(file IN LISTS texts)
+    file(READ "${file}" text)
+    if(text MATCHES "[Aa]cme")
+      message(FATAL_ERROR "${file} still has the name of the template")
+    endif()
+  endforeach()
+  build("${WORK_DIR}/new_${name}" "new_${name}/build")
+  run(ignored ${CMAKE_CTEST_COMMAND} --test-dir "${WORK_DIR}/new_${name}/build" --output-on-failure)
+  set(ENV{DISMANTLE_PLUGIN_PATH} "${WORK_DIR}/new_${name}/build")
+  run(out "${dismantle}" plugins list)
+  expect("${out}" "${id} +${kind}")
+  if(EXISTS "${WORK_DIR}/new_${name}/bench/compare.yaml")
+    run(out "${dismantle}" bench "${WORK_DIR}/new_${name}/bench/compare.yaml" --dry-run)
+    expect("${out}" "${id}")
+  endif()
 endforeach()
+
 run(out "${WORK_DIR}/consumer/consumer")
 expect("${out}" "peg_in_hole")
 
-set(dismantle "${WORK_DIR}/prefix/bin/dismantle")
+unset(ENV{DISMANTLE_PLUGIN_PATH})
 run(out "${dismantle}" plugins list)
 expect("${out}" "sdf_penalty")
 expect("${out}" "progressive")
-set(ENV{DISMANTLE_PLUGIN_PATH} "${WORK_DIR}/consumer:${WORK_DIR}/acme_straight:${WORK_DIR}/acme_stepper")
+set(ENV{DISMANTLE_PLUGIN_PATH} "${WORK_DIR}/consumer:${WORK_DIR}/acme_straight")
 run(out "${dismantle}" plugins list)
 expect("${out}" "consumer.never")
 expect("${out}" "acme.straight")
-expect("${out}" "acme.stepper")
 run(out "${dismantle}" plugins describe consumer.never)
 expect("${out}" "patience")
 # The laws of path planners, on a plugin out of tree that obeys them and on one that does not: it knows no cancellation.
@@ -74,4 +110,10 @@ if(EXISTS "${BUILD_DIR}/share/dismantle/viewer.html" AND NOT EXISTS "${WORK_DIR}
 endif()
 file(READ "${WORK_DIR}/plan/plan.json" plan)
 expect("${plan}" "partial")
+# What the installed pages link to among themselves is there.
+foreach(page README.md docs/README.md docs/write-a-planner.md docs/write-a-simulator.md docs/benchmark.md)
+  if(NOT EXISTS "${WORK_DIR}/prefix/share/doc/dismantle/${page}")
+    message(FATAL_ERROR "${page} was not installed")
+  endif()
+endforeach()
 file(REMOVE_RECURSE "${WORK_DIR}")
