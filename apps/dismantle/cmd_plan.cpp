@@ -1,25 +1,25 @@
 // dismantle plan INPUT
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "dismantle/command.h"
 #include "dismantle/console.h"
+#include "dismantle/crash_handler.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/planning_setup.h"
+#include "dismantle/isolation.h"
 #include "dismantle/plan_files.h"
-#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/plan_report.h"
 #include "dismantle/settings.h"
+#include "dismantle/unfinished_run.h"
 #include "dismantle/watchdog.h"
 
 namespace dismantle::app {
@@ -29,6 +29,8 @@ namespace fs = std::filesystem;
 
 struct PlanOptions {
   std::string input, folder, part;
+  bool isolate = false;
+  std::int64_t memory = 0;  // MiB, of an isolated run
   ConfigFlags config;
   ConsoleOptions console;
 };
@@ -42,132 +44,40 @@ fs::path default_folder(const std::string& input) {
   return (name.empty() ? "assembly" : name.string()) + ".plan";
 }
 
-bool any_crash(const RunResult& result) {
-  return result.outcome == Outcome::crashed ||
-         std::ranges::any_of(result.plan.unsolved, [](const PlanUnsolved& u) { return u.outcome == Outcome::crashed; });
-}
+bool third_party(const std::string& id) { return id.find('.') != std::string::npos; }
 
-/// `constrained`: the outcome says whether all was done that the constraints leave to do.
-int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
-              const RunContext& context) {
-  const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
-  if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
-  if (context.cancel.cancelled()) return kInterrupted;
-  return any_crash(result) ? kPluginFailed : kPartial;
-}
-
-nlohmann::ordered_json counters_json(const RunResult& result) {
-  nlohmann::ordered_json out = {{"searches", result.counts.attempts},
-                                {"remembered", result.counts.memoised},
-                                {"proposed", result.counts.proposed},
-                                {"refused", result.counts.refused}};
-  for (const auto& [name, count] : result.sequence_counts)
-    if (count == std::floor(count) && std::abs(count) < 1e15)
-      out[name] = static_cast<std::int64_t>(count);
-    else
-      out[name] = count;
-  return out;
-}
-
-nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
-                                   const fs::path& plan) {
-  const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
-  const char* words = status == kComplete      ? "complete"
-                      : status == kInterrupted ? "interrupted"
-                      : status == kPartial     ? "partial"
-                                               : "error";
-  nlohmann::ordered_json out = {{"status", words},
-                                {"parts", parts},
-                                {"steps", result.plan.disassembly.size()},
-                                {"removed", parts - left},
-                                {"left", left},
-                                {"excluded", result.plan.assembly.excluded.size()},
-                                {"unusable", unusable_parts(assembly)},
-                                {"unsolved", result.plan.unsolved.size()},
-                                {"assembly", std::string(to_string(result.plan.assembly_status))},
-                                {"counters", counters_json(result)},
-                                {"plan", plan.string()}};
-  if (status == kPluginFailed) out["message"] = "a plugin failed; see 'unsolved' in the plan";
-  return out;
-}
-
-/// Times and what was searched; the planners' own counters are for -v.
-std::string effort_text(const RunResult& result, bool verbose) {
-  std::string text =
-      fmt::format("{:.1f} s of preparing, {:.1f} s of planning", result.prepare_seconds, result.plan_seconds);
-  if (result.proof_seconds >= 0.05) text += fmt::format(", {:.1f} s of proofs", result.proof_seconds);
-  text += fmt::format("; {} {}", result.counts.attempts, result.counts.attempts == 1 ? "path search" : "path searches");
-  if (verbose) {
-    text += fmt::format("; counters: {} remembered, {} proposed, {} refused", result.counts.memoised,
-                        result.counts.proposed, result.counts.refused);
-    for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
+/// From now on the notes follow the run.
+void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
+  constexpr double kNanoseconds = 1e9;
+  notes.chosen.set(fmt::format("simulator {}, path planner {}, sequence planner {}", config.simulator.type,
+                               config.path_planner.type, config.sequence_planner.type));
+  notes.grace = static_cast<std::int64_t>(kNanoseconds * config.run.grace);
+  if (const double left = context.deadline.seconds_left(); std::isfinite(left) && config.run.grace > 0) {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    notes.end = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() +
+                static_cast<std::int64_t>(kNanoseconds * (left + config.run.grace));
   }
-  return text + "\n";
+  context.on_progress = [&notes, shown = context.on_progress](const ProgressEvent& event) {
+    notes.busy.set(fmt::format("{} {}/{}: {}", event.phase, event.done, event.total, event.detail));
+    if (shown) shown(event);
+  };
 }
 
-/// What a run that a plugin holds up leaves behind. Called on the watchdog's thread; the others may be anywhere.
-class GiveUp {
- public:
-  GiveUp(const RunConfig& config, const RunContext& context, fs::path folder, Console& console)
-      : config_(config), context_(context), folder_(std::move(folder)), console_(console) {}
-
-  /// From now on there are steps to save. Both must outlive this.
-  void has(const Assembly& assembly, const Saver& saver) {
-    const std::lock_guard lock(mutex_);
-    assembly_ = &assembly;
-    saver_ = &saver;
-  }
-
-  [[noreturn]] void operator()() {
-    const std::lock_guard lock(mutex_);
-    const std::string why = fmt::format(
-        "a plugin did not stop within {:g} s of {} (run.grace); it was at '{}', with simulator {}, path planner {}, "
-        "sequence planner {}",
-        config_.run.grace, context_.cancel.cancelled() ? "being interrupted" : "the end of its time (run.timeout)",
-        console_.busy_with(), config_.simulator.type, config_.path_planner.type, config_.sequence_planner.type);
-    console_.end_progress();
-    console_.error(why);
-    nlohmann::ordered_json json = {{"status", "error"}, {"message", why}};
-    try {
-      if (saver_ != nullptr) json = save(why);
-    } catch (const std::exception& e) {
-      console_.error(fmt::format("what was done could not be saved: {}", e.what()));
-    }
-    console_.result(json);
-    std::fflush(nullptr);
-    std::_Exit(kPluginFailed);
-  }
-
- private:
-  nlohmann::ordered_json save(const std::string& why) {
-    RunResult result;
-    result.plan = saver_->latest();
-    if (result.plan.status == PlanStatus::partial)
-      for (const std::string& part : result.plan.remaining)
-        result.plan.unsolved.push_back({part, Outcome::crashed, {}, {}, "the run was ended: " + why});
-    const auto files = write_results(result, *assembly_, folder_, console_);
-    console_.text(fmt::format("{}wrote what was done to {}\n", summary_text(result.plan), folder_.string()));
-    auto json = result_json(result, *assembly_, kPluginFailed, folder_ / "plan.json");
-    json["message"] = why;
-    return json;
-  }
-
-  const RunConfig& config_;
-  const RunContext& context_;
-  const fs::path folder_;
-  Console& console_;
-  std::mutex mutex_;
-  const Assembly* assembly_ = nullptr;
-  const Saver* saver_ = nullptr;
-};
-
-int plan(const PlanOptions& options) {
+/// `isolated`: this is the child process of a run with --isolate.
+int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   Console console(options.console);
   Registry registry;
+  const auto watch_for_crashes = [&] {
+    report_crashes(registry, notes, isolated ? AfterCrash::hand_over : AfterCrash::exit,
+                   options.console.format == Format::json);
+  };
+  watch_for_crashes();  // plugins run code when they are loaded
   const RunConfig config = load_config(options.config.source(), registry);
+  watch_for_crashes();
   warn_of_problems(registry, console);
   const PlanningSetup setup = planning_setup_of(config, registry);
   RunContext context = context_of(config.run, console);
+  take_notes(notes, config, context);
 
   const fs::path folder = options.folder.empty() ? default_folder(options.input) : fs::path(options.folder);
   PrepareReport report;
@@ -184,9 +94,20 @@ int plan(const PlanOptions& options) {
   open_output_folder(folder);
   write_file(folder / "resolved.yaml", resolved_yaml(config, registry, folder));
 
-  Saver saver(folder / "plan.json", plan_before_first_step(assembly, run_options), console);
+  const bool careful = isolated || third_party(config.simulator.type) || third_party(config.path_planner.type) ||
+                       third_party(config.sequence_planner.type);
+  Saver saver(folder / "plan.json", plan_before_first_step(assembly, run_options), console,
+              careful ? Saver::When::every_step : Saver::When::every_second);
   give_up.has(assembly, saver);
-  const RunResult result = run(assembly, setup, run_options, context, std::ref(saver));
+  const std::string saved = (folder / "plan.json").string();
+  if (careful) {
+    saver.save();
+    notes.plan.set(saved);
+  }
+  const RunResult result = run(assembly, setup, run_options, context, [&](const Plan& so_far) {
+    saver(so_far);
+    notes.plan.set(saved);
+  });
   watchdog.reset();  // what follows is no plugin
   const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
@@ -205,6 +126,17 @@ int plan(const PlanOptions& options) {
   console.text(text + "\n");
   console.result(result_json(result, assembly, status, folder / "plan.json"));
   return status;
+}
+
+int plan(const PlanOptions& options) {
+  if (!options.isolate) {
+    static RunNotes notes;  // a signal handler reads them
+    return plan(options, notes, false);
+  }
+  Isolation isolation(options.memory);
+  if (isolation.in_child()) return plan(options, isolation.notes(), true);
+  const IsolatedEnd end = isolation.wait();
+  return end.exited ? end.status : finish_for(end, isolation.notes(), options.console);
 }
 
 }  // namespace
@@ -228,6 +160,15 @@ void add_plan(CLI::App& app, Action& action) {
   options->config.add_key(*command, "--path-timeout", "run.path_timeout", "S", "Seconds for one attempt, 0 = no limit");
   options->config.add_key(*command, "--timeout", "run.timeout", "S", "Seconds for the whole run, 0 = no limit");
   options->config.add_key(*command, "--threads", "run.threads", "N", "Threads, 0 = all cores");
+  auto* isolate = command->add_flag("--isolate", options->isolate,
+                                    "Run in a child process: a plugin that crashes or hangs costs no finished step");
+  isolate->option_text(" ");
+  command
+      ->add_option("--memory", options->memory,
+                   "MiB of address space for the child process; default: what the machine has of memory")
+      ->option_text("MIB")
+      ->check(CLI::PositiveNumber.description(""))
+      ->needs(isolate);
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(

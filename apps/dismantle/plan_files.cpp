@@ -42,15 +42,20 @@ std::vector<std::string> write_results(const RunResult& result, const Assembly& 
   return files;
 }
 
-Saver::Saver(fs::path file, Plan plan, Console& console)
-    : file_(std::move(file)), console_(console), latest_(std::move(plan)) {}
+Saver::Saver(fs::path file, Plan plan, Console& console, When when)
+    : file_(std::move(file)), console_(console), latest_(std::move(plan)), when_(when) {}
+
+void Saver::save() {
+  const std::lock_guard lock(mutex_);
+  write_file(file_, to_json(latest_));
+}
 
 void Saver::operator()(const Plan& plan) {
   {
     const std::lock_guard lock(mutex_);
     latest_ = plan;
     const auto now = std::chrono::steady_clock::now();
-    if (!saved_once_ || now - saved_ >= std::chrono::seconds(1)) {
+    if (!saved_once_ || when_ == When::every_step || now - saved_ >= std::chrono::seconds(1)) {
       write_file(file_, to_json(plan));
       saved_once_ = true;
       saved_ = now;

@@ -208,6 +208,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
   // A path that was found just in time is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
+  bool false_claim = false;  // of a success: the planner's fault, however late it comes
   try {
     if (attempt.fixed.empty() && attempt.goal.any_of.empty()) {
       result.start_is_goal();  // nothing left to be apart from
@@ -219,6 +220,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
         answer.out = rest->released();
         result.start_is_goal(std::move(rest));
       } else {
+        false_claim = true;
         result.fail(Outcome::crashed,
                     fmt::format("path planner '{}' reports that there is nothing to do, but the convex hulls are not "
                                 "apart",
@@ -228,9 +230,14 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
       answer.max_penetration = result.path()->max_penetration();
       answer.out = result.path()->released();
     } else if (result.path()) {
-      result.fail(Outcome::crashed,
-                  fmt::format("path planner '{}' reports as solved a path that was not verified for this attempt",
-                              planner_id_));
+      false_claim = true;
+      const PathCheck check = checker.check(result.path()->poses());
+      result.fail(
+          Outcome::crashed,
+          fmt::format(
+              "path planner '{}' reports as solved a path that was not verified for this attempt ({}); it has to "
+              "return what query.checker.check() gave it, see 'dismantle plugins check'",
+              planner_id_, check.accepted() ? "it would have been accepted" : check.reason));
     }
   } catch (const std::exception& e) {
     result = PathResult::failure(Outcome::crashed, fmt::format("path planner '{}' threw: {}", planner_id_, e.what()));
@@ -239,7 +246,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
         Outcome::crashed, fmt::format("path planner '{}' threw something that is not a std::exception", planner_id_));
   }
   if (result.outcome() == Outcome::crashed) context.log(LogLevel::error, result.message);
-  if (!is_success(result.outcome())) {
+  if (!is_success(result.outcome()) && !false_claim) {
     const bool cancelled = context.cancel.cancelled();
     const bool too_late = context.deadline.passed();
     if (cancelled || too_late) {

@@ -167,6 +167,18 @@ TEST(Oracle, WhatPluginsThrowBecomesAnOutcome) {
   EXPECT_NE(t.ask(leave(t.assembly, 0)).result.message.find("no licence"), std::string::npos);
 }
 
+/// Whether the run was stopped meanwhile or not: a wrong path has one outcome.
+TEST(Oracle, AFalseClaimIsAFalseClaimHoweverLate) {
+  for (const bool claims_start : {false, true}) {
+    const auto claims = [=](const PathQuery& q, RunContext& context) {
+      context.cancel.cancel();
+      return claims_start ? outcome(Outcome::start_is_goal) : fake::forged(fake::straight(q.scene, {30, 0, 0}));
+    };
+    Rig s(fake::tube_with_blocks(1), fake::setup(claims));
+    EXPECT_EQ(s.ask(leave(s.assembly, 1)).result.outcome(), Outcome::crashed);
+  }
+}
+
 TEST(Oracle, StoppingUnaskedIsABug) {
   const auto quits = [](const PathQuery&, RunContext&) { return outcome(Outcome::cancelled); };
   Rig s(fake::row(2), fake::setup(quits));

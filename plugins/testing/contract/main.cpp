@@ -1,7 +1,9 @@
 // The laws that every plugin of a kind must obey, tried on the plugins that are found or named.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -47,9 +49,35 @@ class Skips final : public testing::EmptyTestEventListener {
   std::string reason_;
 };
 
+/// "LAW/ID" of the law that is being tried, for on_crash.
+char g_law[256] = "";
+
+class CurrentLaw final : public testing::EmptyTestEventListener {
+ public:
+  void OnTestStart(const testing::TestInfo& info) override {
+    std::strncpy(g_law, info.name(), sizeof g_law - 1);  // the rest stays zero
+    g_law[std::min(std::strlen(info.name()), sizeof g_law - 1)] = '\0';
+  }
+  void OnTestEnd(const testing::TestInfo&) override { g_law[0] = '\0'; }
+};
+
+/// A plugin that crashes has broken the law that was being tried. Only system calls.
+extern "C" void on_crash(int number) {
+  const auto say = [](const char* text) {
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) ::_exit(1);
+  };
+  say("\nFAILED: the process crashed (");
+  say(number == SIGABRT ? "SIGABRT" : number == SIGFPE ? "SIGFPE" : number == SIGSEGV ? "SIGSEGV" : "signal");
+  say(") while this law was tried: ");
+  say(g_law[0] != '\0' ? g_law : "none, plugins were being loaded or unloaded");
+  say("\nUnder a debugger: gdb --args dismantle_contract_tests FILE.so\n");
+  ::_exit(1);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(number, on_crash);
   dismantle::contract::Selection selection;
   std::vector<char*> rest{argv[0]};
   bool whole = true;  // are all laws tried?
@@ -85,6 +113,7 @@ int main(int argc, char** argv) {
   testing::InitGoogleTest(&count, rest.data());
   auto* skips = new Skips;  // owned by Google Test
   testing::UnitTest::GetInstance()->listeners().Append(skips);
+  testing::UnitTest::GetInstance()->listeners().Append(new CurrentLaw);
   int status = RUN_ALL_TESTS();
   if (!skips->reasons.empty()) std::cout << "\nSkipped, by declared capabilities:\n";
   std::set<std::string> skipped;

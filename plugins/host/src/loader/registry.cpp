@@ -275,6 +275,8 @@ std::shared_ptr<void> Registry::create_object(PluginKind kind, const std::string
     throw;
   } catch (const std::exception& e) {
     fail(e.what());
+  } catch (...) {
+    fail("it threw something that is no std::exception");
   }
   if (object == nullptr) fail("the plugin returned nothing");
   return object;

@@ -1,0 +1,80 @@
+#include "dismantle/plan_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "dismantle/command.h"
+#include "dismantle/settings.h"
+
+namespace dismantle::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool any_crash(const RunResult& result) {
+  return result.outcome == Outcome::crashed ||
+         std::ranges::any_of(result.plan.unsolved, [](const PlanUnsolved& u) { return u.outcome == Outcome::crashed; });
+}
+
+nlohmann::ordered_json counters_json(const RunResult& result) {
+  nlohmann::ordered_json out = {{"searches", result.counts.attempts},
+                                {"remembered", result.counts.memoised},
+                                {"proposed", result.counts.proposed},
+                                {"refused", result.counts.refused}};
+  for (const auto& [name, count] : result.sequence_counts)
+    if (count == std::floor(count) && std::abs(count) < 1e15)
+      out[name] = static_cast<std::int64_t>(count);
+    else
+      out[name] = count;
+  return out;
+}
+
+}  // namespace
+
+int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
+              const RunContext& context) {
+  const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
+  if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
+  if (context.cancel.cancelled()) return kInterrupted;
+  return any_crash(result) ? kPluginFailed : kPartial;
+}
+
+nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
+                                   const fs::path& plan) {
+  const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
+  const char* words = status == kComplete      ? "complete"
+                      : status == kInterrupted ? "interrupted"
+                      : status == kPartial     ? "partial"
+                                               : "error";
+  nlohmann::ordered_json out = {{"status", words},
+                                {"parts", parts},
+                                {"steps", result.plan.disassembly.size()},
+                                {"removed", parts - left},
+                                {"left", left},
+                                {"excluded", result.plan.assembly.excluded.size()},
+                                {"unusable", unusable_parts(assembly)},
+                                {"unsolved", result.plan.unsolved.size()},
+                                {"assembly", std::string(to_string(result.plan.assembly_status))},
+                                {"counters", counters_json(result)},
+                                {"plan", plan.string()}};
+  if (status == kPluginFailed) out["message"] = "a plugin failed; see 'unsolved' in the plan";
+  return out;
+}
+
+std::string effort_text(const RunResult& result, bool verbose) {
+  std::string text =
+      fmt::format("{:.1f} s of preparing, {:.1f} s of planning", result.prepare_seconds, result.plan_seconds);
+  if (result.proof_seconds >= 0.05) text += fmt::format(", {:.1f} s of proofs", result.proof_seconds);
+  text += fmt::format("; {} {}", result.counts.attempts, result.counts.attempts == 1 ? "path search" : "path searches");
+  if (verbose) {
+    text += fmt::format("; counters: {} remembered, {} proposed, {} refused", result.counts.memoised,
+                        result.counts.proposed, result.counts.refused);
+    for (const auto& [name, count] : result.sequence_counts) text += fmt::format(", {} {}", count, name);
+  }
+  return text + "\n";
+}
+
+}  // namespace dismantle::app
