@@ -137,7 +137,7 @@ void add_plugins(CLI::App& app, Action& action) {
   check_command->footer(
       "Tries the contract tests on all types of these plugins, with partners from the plugins that are found.\n"
       "Exit status: 0 all laws hold, 1 some do not, 2 a plugin is refused.\n"
-      "Example:\n  dismantle plugins check build/libacme_straight.so");
+      "Example:\n  dismantle plugins check build/libacme_rrt.so");
   check_command->callback([&action, checked] {
     action = [checked]() -> int { check_plugins(checked->plugins, checked->examples, checked->verbose); };
   });

@@ -4,7 +4,7 @@
 namespace {
 struct Crashes {
   Crashes() {
-    int* volatile nowhere = nullptr;
+    volatile int* volatile nowhere = nullptr;
     *nowhere = 1;
   }
 } const crashes;

@@ -94,7 +94,7 @@ PathResult wrong_parts(const PathQuery& query, RunContext&) {
 /// Works while more than two parts are fixed, then reads where nothing is.
 PathResult segfault(const PathQuery& query, RunContext& context) {
   if (query.scene.fixed.size() > 2) return honest(query, context);
-  const int* volatile nowhere = nullptr;
+  const volatile int* volatile nowhere = nullptr;
   return PathResult::failure(*nowhere != 0 ? Outcome::exhausted : Outcome::timeout);
 }
 
@@ -133,7 +133,7 @@ class Sequence final : public dismantle::SequencePlanner {
     observer.removed(result.removals.back(), assembly.parts.size() - 1);
     if (kFault == Fault::throws) throw std::runtime_error("out of ideas");
     if (kFault == Fault::removes_twice) observer.removed(result.removals.back(), assembly.parts.size() - 1);
-    int* volatile nowhere = nullptr;
+    volatile int* volatile nowhere = nullptr;
     if (kFault == Fault::segfault) *nowhere = 1;
     result.outcome = Outcome::solved;
     return result;
