@@ -1,4 +1,6 @@
 // What every immobility prover must obey, with its default parameters.
+#include "dismantle/immobility_prover.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +9,8 @@
 #include <vector>
 
 #include "dismantle/executor.h"
-#include "dismantle/immobility_prover.h"
-#include "dismantle/testing/held_shapes.h"
 #include "dismantle/part_memo.h"
+#include "dismantle/testing/held_shapes.h"
 #include "dismantle/testing/trials.h"
 #include "small_assemblies.h"
 

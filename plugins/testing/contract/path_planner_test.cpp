@@ -1,6 +1,7 @@
 // What every path planner must obey: its answers.
 #include <thread>
 
+#include "dismantle/testing/fake_planning.h"
 #include "path_planner_contract.h"
 
 namespace dismantle::contract {
@@ -67,6 +68,37 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
     Run run;
     plan(run, which, {.max_depth = 1, .max_steps = 3'000}, {}, {}, &scene);
     EXPECT_FALSE(is_success(run.result.outcome())) << part.name;
+  }
+}
+
+/// A plate in a closed box, with room to move and to turn, at any size of the room and any seed.
+TEST_P(PathPlannerContract, ABoxInAClosedBoxIsNeverSolved) {
+  Rng rng(64);
+  for (int trial = 0; trial < 3; ++trial) {
+    const double half = rng.uniform(0.6, 1.6);  // of the plate; the room is 1.9
+    const auto wall = [](double x0, double y0, double z0, double x1, double y1, double z1) {
+      return fake::Box{{x0, y0, z0}, {x1, y1, z1}};
+    };
+    const Assembly assembly = fake::assembly_of(
+        {{"box",
+          {wall(-2, -2, -2, 2, 2, -1.9), wall(-2, -2, 1.9, 2, 2, 2), wall(-2, -2, -1.9, -1.9, 2, 1.9),
+           wall(1.9, -2, -1.9, 2, 2, 1.9), wall(-1.9, -2, -1.9, 1.9, -1.9, 1.9), wall(-1.9, 1.9, -1.9, 1.9, 2, 1.9)}},
+         {"plate", {wall(-half, -half, -0.2, half, half, 0.2)}}});
+    RunContext context;
+    context.rng = Rng(static_cast<std::uint64_t>(trial));
+    const auto prepared = ready()->simulator->prepare(assembly, kTolerance, context);
+    const Verifier verifier(assembly, VerifyOptions{});
+    const Scene scene{{{1, Pose{}}}, {{0, Pose{}}}};
+    const fake::RuleChecker checker([&](const Path& path) {
+      fake::Ruling v = fake::ruling_of(verifier.check_motion({1}, scene.fixed, path));
+      v.accept = v.accept && verifier.apart({{1, path.back()[0]}}, scene.fixed);
+      return v;
+    });
+    const PathQuery query{assembly, *ready()->simulator, *prepared, scene, {.max_steps = 3'000}, kTolerance, checker};
+    const auto planner = make();
+    const PathResult result = plan_path(*planner, query, context);
+    EXPECT_FALSE(is_success(result.outcome())) << "a plate of " << 2 * half << " left its box";
+    EXPECT_NE(result.outcome(), Outcome::crashed) << result.message;
   }
 }
 

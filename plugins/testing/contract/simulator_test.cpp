@@ -4,55 +4,12 @@
 #include <thread>
 
 #include "dismantle/geometry/hull.h"
-#include "small_assemblies.h"
+#include "simulator_contract.h"
 
-namespace dismantle {
+namespace dismantle::contract {
 namespace {
 
-using namespace contract;
-
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SimulatorContract);
-
-class SimulatorContract : public testing::TestWithParam<std::string> {
- protected:
-  struct Made {
-    std::shared_ptr<Simulator> simulator;
-    std::shared_ptr<const PreparedAssembly> prepared;
-    const Small* small = nullptr;
-    std::unique_ptr<World> world(const Scene& scene, MotionSpace space = MotionSpace::rigid) const {
-      return simulator->world(small->assembly, *prepared, scene, space);
-    }
-    std::unique_ptr<World> world(MotionSpace space = MotionSpace::rigid) const { return world(small->scene(), space); }
-  };
-  static std::shared_ptr<Simulator> make() { return registry().create<Simulator>(GetParam()); }
-  static Made made(const Small& small, unsigned threads = 1) {
-    RunContext context;
-    context.threads = threads;
-    Made m{make(), nullptr, &small};
-    m.prepared = m.simulator->prepare(small.assembly, 0.01, context);
-    return m;
-  }
-  /// One of each sample, prepared once for all tests.
-  static const std::vector<Made>& all() {
-    static std::map<std::string, std::vector<Made>> cache;
-    auto& list = cache[GetParam()];
-    if (list.empty())
-      for (const auto& small : small_assemblies()) list.push_back(made(small));
-    return list;
-  }
-  static State at(const World& world, const Pose& pose) {
-    State s = world.initial_state();
-    s.bodies[0].pose = pose;
-    return s;
-  }
-  static Action push(const World& world, const Vector3d& force, const Vector3d& torque = Vector3d::Zero()) {
-    return {std::vector<Wrench>(world.scene().moving.size(), {force, torque})};
-  }
-  static Pose random_pose(Rng& rng, MotionSpace space, double size) {
-    const Vector3d t(rng.normal(), rng.normal(), rng.normal()), w(rng.normal(), rng.normal(), rng.normal());
-    return {size * t, space == MotionSpace::rigid ? rotation_from_vector(0.5 * w) : Eigen::Quaterniond::Identity()};
-  }
-};
 
 TEST_P(SimulatorContract, DeclaresItselfInFull) {
   const PluginType& type = registry().find(PluginKind::simulator, GetParam()).type;
@@ -346,4 +303,4 @@ TEST_P(SimulatorContract, StopsPreparingWhenTold) {
 INSTANTIATE_TEST_SUITE_P(Registered, SimulatorContract, testing::ValuesIn(ids(PluginKind::simulator)), test_name);
 
 }  // namespace
-}  // namespace dismantle
+}  // namespace dismantle::contract
