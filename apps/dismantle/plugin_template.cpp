@@ -59,11 +59,10 @@ void check_id(const std::string& id) {
     begins = c == '.';
   }
   if (good && !begins) return;
-  throw Error(
-      fmt::format("'{}' cannot be the name of a plugin: a name is words of lower-case letters, digits and '_', joined "
-                  "by dots, as in "
-                  "acme.rrt (words without a dot are the built-in ones)",
-                  id));
+  throw Error(fmt::format(
+      "'{}' cannot be the name of a plugin: a name is two or more words joined by dots, each of lower-case letters, "
+      "digits and '_', as in acme.rrt",
+      id));
 }
 
 /// "AcmeLines" -> "FooBar" and so on, in a text or a name of a file.

@@ -39,12 +39,45 @@ class Usage(CliTest):
 
     def test_help_shows_options_and_an_example(self):
         commands = (["plan"], ["prepare"], ["verify"], ["explain"], ["plugins"], ["plugins", "list"], ["plugins", "describe"],
-                    ["plugins", "check"],
+                    ["plugins", "check"], ["plugins", "new"],
                     ["sample"], [])
         for command in commands:
             done = self.run_program(*command, "--help", status=0)
             self.assertIn("Example", done.stdout, command)
             self.assertEqual(done.stderr, "")
+
+
+class NewPlugin(CliTest):
+    """What it writes is built and tried by tests/install."""
+
+    def test_a_project_has_the_name_everywhere(self):
+        for kind in ("path_planner", "sequence_planner", "simulator", "importer"):
+            done = self.run_program("plugins", "new", kind, "--kind", kind, "--name", "zeta.two_words.x", status=0)
+            self.assertIn("zeta_two_words_x.cpp", done.stdout)
+            files = [os.path.join(folder, name) for folder, _, names in os.walk(self.path(kind)) for name in names]
+            self.assertIn(self.path(kind, ".github", "workflows", "build.yml"), files)
+            for file in files:
+                self.assertNotIn("acme", file.lower())
+                self.assertNotIn("acme", self.read(file).lower(), file)
+            code = self.read(kind, "zeta_two_words_x.cpp")
+            self.assertIn("class ZetaTwoWordsX ", code)
+            self.assertIn('DISMANTLE_PLUGIN("zeta.two_words.x"', code)
+
+    def test_what_it_refuses(self):
+        def new(message, folder, kind, name):
+            self.assert_fails(2, message, "plugins", "new", folder, "--kind", kind, "--name", name)
+            self.assertFalse(os.path.exists(self.path("new")))
+        new("did you mean 'simulator'?", "new", "simulater", "a.b")
+        for name in ("rrt", "a.", ".a", "a..b", "Acme.rrt", "acme.2", "acme.r-t", "acme.r t", ""):
+            new("words joined by dots" if name else "--name", "new", "path_planner", name)
+        self.write("full/mine.txt", "mine")
+        new("full: holds files already", "full", "path_planner", "a.b")
+        self.assertEqual(os.listdir(self.path("full")), ["mine.txt"])
+        self.write("file", "x")
+        new("file: ", "file", "path_planner", "a.b")
+        self.assert_fails(2, "--kind is required", "plugins", "new", "x", "--name", "a.b")
+        os.mkdir(self.path("empty"))
+        self.run_program("plugins", "new", "empty", "--kind", "importer", "--name", "a.b", status=0)
 
 
 class Configuration(CliTest):

@@ -38,9 +38,9 @@ TEST(Registry, FindsWhatWasRegistered) {
   registry.add_search_path(kAcme);
   registry.scan();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
-  EXPECT_EQ(
-      ids(registry, PluginKind::path_planner),
-      (std::vector<std::string>{"acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo", "t_rrt", "team"}));
+  EXPECT_EQ(ids(registry, PluginKind::path_planner),
+            (std::vector<std::string>{"acme.lines", "acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo",
+                                      "t_rrt", "team"}));
   EXPECT_EQ(ids(registry, PluginKind::simulator),
             (std::vector<std::string>{"acme.stepper", "geometry_only", "sdf_penalty"}));
   const RegisteredType& bfs = registry.find(PluginKind::path_planner, "bfs");
@@ -93,8 +93,9 @@ TEST(Registry, BareIdsBelongToTheBuiltInFolder) {
     EXPECT_NE(registry.problems()[k].message.find("must carry a dot"), std::string::npos);
   Registry dotted(kAcme);  // and dots do not belong there
   dotted.scan();
-  ASSERT_EQ(dotted.problems().size(), 2u);
-  EXPECT_NE(dotted.problems()[0].message.find("has a dot in its id"), std::string::npos);
+  ASSERT_EQ(dotted.problems().size(), 5u);
+  for (const auto& problem : dotted.problems())
+    EXPECT_NE(problem.message.find("has a dot in its id"), std::string::npos);
 }
 
 TEST(Registry, ReadsTheEnvironment) {
@@ -182,7 +183,8 @@ TEST(Examples, DocumentationShowsThem) {
 
 // Law: a plugin exports its header and nothing else.
 TEST(Plugin, ExportsOnlyItsHeader) {
-  for (const char* name : {"libacme_straight.so", "libacme_lines.so", "libacme_in_turn.so", "libacme_stepper.so", "libacme_facets.so"}) {
+  for (const char* name :
+       {"libacme_straight.so", "libacme_lines.so", "libacme_in_turn.so", "libacme_stepper.so", "libacme_facets.so"}) {
     std::ifstream stream(kAcme / name, std::ios::binary);
     const std::string file((std::istreambuf_iterator<char>(stream)), {});
     ElfW(Ehdr) header;
