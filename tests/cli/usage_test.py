@@ -69,7 +69,7 @@ class NewPlugin(CliTest):
             self.assertFalse(os.path.exists(self.path("new")))
         new("did you mean 'simulator'?", "new", "simulater", "a.b")
         for name in ("rrt", "a.", ".a", "a..b", "Acme.rrt", "acme.2", "acme.r-t", "acme.r t", ""):
-            new("words joined by dots" if name else "--name", "new", "path_planner", name)
+            new("words joined by dots", "new", "path_planner", name)
         self.write("full/mine.txt", "mine")
         new("full: holds files already", "full", "path_planner", "a.b")
         self.assertEqual(os.listdir(self.path("full")), ["mine.txt"])

@@ -161,7 +161,7 @@ class Isolated(WithBoxes):
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **ENV})
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.stdout.close)
-        cues = ["step 1", "stopping"][:times]  # each signal after the other was seen
+        cues = ["bad.hang hangs", "stopping"][:times]  # each signal after the other was seen
         watchdog = threading.Timer(HANGING, process.kill)
         watchdog.start()
         try:
@@ -193,6 +193,12 @@ class Checking(WithBoxes):
         done = self.run_program("plugins", "check", "bad.segfault", status=1, env=ENV)
         self.assertIn("SIGSEGV", done.stderr)
         self.assertIn("/bad_segfault", done.stderr)
+
+    def test_so_does_one_that_hangs(self):
+        tests = os.path.join(os.path.dirname(PROGRAM), "dismantle_contract_tests")
+        done = self.run_program("bad.hang", "--time-limit", "1", "--gtest_filter=*WhatIsSolvedWasAccepted*", status=1, env=ENV, program=tests)
+        self.assertIn("did not come back", done.stderr)
+        self.assertIn("WhatIsSolvedWasAccepted/bad_hang", done.stderr)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -11,13 +12,14 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "selection.h"
 
 namespace {
 
 constexpr const char* kUsage =
-    R"(usage: dismantle_contract_tests [--expect FILE] [--examples DIR] [--gtest_...] [FILE.so | ID]...
+    R"(usage: dismantle_contract_tests [--expect FILE] [--examples DIR] [--time-limit S] [--gtest_...] [FILE.so | ID]...
 
 Tries the laws of simulators, path, sequence and transfer planners, immobility provers and importers on the types of the plugin files,
 or the types with these ids; without any, on all that are found (the built-in folder, then DISMANTLE_PLUGIN_PATH).
@@ -25,7 +27,8 @@ Other plugins that are found serve as partners: a path planner is tried with the
 A law that does not concern a plugin, by the capabilities that it declares, is skipped; skips are listed at the end.
 --expect FILE: what is known about some plugins beyond the laws, the skips among it (see tests/contract/expectations.txt).
 --examples DIR: files of the formats that importers read; beside NAME.xyz may stand a folder NAME with an OBJ file for each part.
-DISMANTLE_TESTS=nightly makes random trials more numerous.
+--time-limit S: seconds that one law may take before the plugin counts as hanging; default 600, 0 none.
+DISMANTLE_TESTS=nightly makes random trials more numerous, without a limit of time.
 Exit status: 0 all laws hold, 1 some do not, 2 wrong use or a plugin that is refused.
 )";
 
@@ -49,6 +52,9 @@ class Skips final : public testing::EmptyTestEventListener {
   std::string reason_;
 };
 
+/// Seconds that one law may take; 0: no limit.
+unsigned g_limit = 600;
+
 /// "LAW/ID" of the law that is being tried, for on_crash.
 char g_law[256] = "";
 
@@ -56,9 +62,13 @@ class CurrentLaw final : public testing::EmptyTestEventListener {
  public:
   void OnTestStart(const testing::TestInfo& info) override {
     std::strncpy(g_law, info.name(), sizeof g_law - 1);  // the rest stays zero
+    ::alarm(g_limit);
     g_law[std::min(std::strlen(info.name()), sizeof g_law - 1)] = '\0';
   }
-  void OnTestEnd(const testing::TestInfo&) override { g_law[0] = '\0'; }
+  void OnTestEnd(const testing::TestInfo&) override {
+    ::alarm(0);
+    g_law[0] = '\0';
+  }
 };
 
 /// A plugin that crashes has broken the law that was being tried. Only system calls.
@@ -66,9 +76,13 @@ extern "C" void on_crash(int number) {
   const auto say = [](const char* text) {
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) ::_exit(1);
   };
-  say("\nFAILED: the process crashed (");
-  say(number == SIGABRT ? "SIGABRT" : number == SIGFPE ? "SIGFPE" : number == SIGSEGV ? "SIGSEGV" : "signal");
-  say(") while this law was tried: ");
+  if (number == SIGALRM) {
+    say("\nFAILED: the plugin did not come back while this law was tried (--time-limit): ");
+  } else {
+    say("\nFAILED: the process crashed (");
+    say(number == SIGABRT ? "SIGABRT" : number == SIGFPE ? "SIGFPE" : number == SIGSEGV ? "SIGSEGV" : "signal");
+    say(") while this law was tried: ");
+  }
   say(g_law[0] != '\0' ? g_law : "none, plugins were being loaded or unloaded");
   say("\nUnder a debugger: gdb --args dismantle_contract_tests FILE.so\n");
   ::_exit(1);
@@ -77,7 +91,9 @@ extern "C" void on_crash(int number) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(number, on_crash);
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(number, on_crash);
+  const char* long_form = std::getenv("DISMANTLE_TESTS");
+  if (long_form != nullptr && std::string_view(long_form) == "nightly") g_limit = 0;
   dismantle::contract::Selection selection;
   std::vector<char*> rest{argv[0]};
   bool whole = true;  // are all laws tried?
@@ -91,6 +107,8 @@ int main(int argc, char** argv) {
       selection.expectations = argv[++i];
     } else if (word == "--examples" && i + 1 < argc) {
       selection.examples = argv[++i];
+    } else if (word == "--time-limit" && i + 1 < argc) {
+      g_limit = static_cast<unsigned>(std::strtoul(argv[++i], nullptr, 10));
     } else if (word.starts_with("--gtest")) {
       rest.push_back(argv[i]);
       if (word.starts_with("--gtest_filter")) whole = false;

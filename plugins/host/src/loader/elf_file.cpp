@@ -65,9 +65,10 @@ class ElfReader {
 
   void check_identity() {
     unsigned char ident[EI_NIDENT] = {};
-    if (size_ < sizeof(ident)) fail("is no ELF shared library");
+    if (size_ < sizeof(ident)) fail("is no ELF shared library: name the .so file that the build of the plugin made");
     read(0, ident, sizeof(ident));
-    if (std::memcmp(ident, ELFMAG, SELFMAG) != 0) fail("is no ELF shared library");
+    if (std::memcmp(ident, ELFMAG, SELFMAG) != 0)
+      fail("is no ELF shared library: name the .so file that the build of the plugin made");
     if (ident[EI_CLASS] != kClass || ident[EI_DATA] != kEndian)
       fail(fmt::format("is built for another kind of machine (ELF class {}, byte order {}; this one has {}, {})",
                        ident[EI_CLASS], ident[EI_DATA], kClass, kEndian));

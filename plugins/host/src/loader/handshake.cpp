@@ -79,8 +79,10 @@ PluginHeader accept_header(const std::vector<std::uint8_t>& bytes, const std::st
     fail(fmt::format("plugin header has {} bytes, expected {}; rebuild the plugin", bytes.size(), sizeof(header)));
   std::memcpy(static_cast<void*>(&header), bytes.data(), kFixed);
   if (header.magic != kPluginMagic)
-    fail(fmt::format("magic is {:#010x} in the plugin, {:#010x} here: '{}' is no header of a Dismantle plugin",
-                     header.magic, kPluginMagic, kPluginHeaderSymbol));
+    fail(
+        fmt::format("magic is {:#010x} in the plugin, {:#010x} here: '{}' is no header of a Dismantle plugin; rebuild "
+                    "it with DISMANTLE_PLUGIN",
+                    header.magic, kPluginMagic, kPluginHeaderSymbol));
   const std::string theirs = version_text(header.api_major, header.api_minor);
   const std::string ours = version_text(kPluginApiMajor, kPluginApiMinor);
   if (header.api_major > kPluginApiMajor)

@@ -66,7 +66,7 @@ std::string joined(const std::vector<std::string>& parts) {
 std::vector<std::string> problems_of_types(const std::vector<PluginType>& types, bool built_in) {
   std::vector<std::string> problems;
   std::set<std::string> ids;
-  if (types.empty()) problems.emplace_back("registers no type");
+  if (types.empty()) problems.emplace_back("registers no type: call r.add<...>(...) in the body of DISMANTLE_PLUGIN");
   for (const auto& type : types) {
     const auto add = [&](const std::string& problem) {
       problems.push_back(fmt::format("type '{}' {}", type.id, problem));
@@ -76,8 +76,8 @@ std::vector<std::string> problems_of_types(const std::vector<PluginType>& types,
     if (built_in && dotted) add("has a dot in its id: ids of built-in types are bare words");
     if (!built_in && !dotted)
       add(fmt::format("needs an id with a dot, such as 'acme.{}': bare ids belong to the built-in types", type.id));
-    if (!ids.insert(type.id).second) add("is registered twice");
-    if (type.summary.empty()) add("has no summary");
+    if (!ids.insert(type.id).second) add("is registered twice: give each type an id of its own");
+    if (type.summary.empty()) add("has no summary: its second argument is one line for 'plugins list'");
     if (!type.create) add("cannot be made: it has no factory");
     for (const auto& problem : problems_of_schema(type.params)) add("has a bad declaration: " + problem);
   }
@@ -111,7 +111,9 @@ LoadedPlugin load_plugin(const std::filesystem::path& file, bool built_in) {
   char message[1024] = {};
   if (loaded->register_types(&registrar, message, sizeof(message)) != 0) {
     message[sizeof(message) - 1] = '\0';
-    refuse(fmt::format("registration of plugin '{}' {} failed: {}", header.id, header.version, message));
+    refuse(fmt::format(
+        "registration of plugin '{}' {} failed: {}; the plugin itself gave up, so its author has to say what it needs",
+        header.id, header.version, message));
   }
   plugin.types = registrar.types();
   for (const auto& type : plugin.types) so_far.types.push_back(type.id);
