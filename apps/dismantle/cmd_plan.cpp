@@ -67,13 +67,13 @@ void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
 int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   Console console(options.console);
   Registry registry;
-  const auto watch_for_crashes = [&] {
-    report_crashes(registry, notes, isolated ? AfterCrash::hand_over : AfterCrash::exit,
+  const auto watch_for_crashes = [&](const Registry* known) {
+    report_crashes(known, notes, isolated ? AfterCrash::hand_over : AfterCrash::exit,
                    options.console.format == Format::json);
   };
-  watch_for_crashes();  // plugins run code when they are loaded
+  watch_for_crashes(nullptr);  // plugins run code when they are loaded
   const RunConfig config = load_config(options.config.source(), registry);
-  watch_for_crashes();
+  watch_for_crashes(&registry);
   warn_of_problems(registry, console);
   const PlanningSetup setup = planning_setup_of(config, registry);
   RunContext context = context_of(config.run, console);

@@ -9,6 +9,7 @@
 #include <array>
 #include <atomic>
 #include <cstring>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Facts {
   std::string advice;
 };
 Facts* g_facts = nullptr;
+constexpr const char* kAdviceWhileLoading =
+    "if the plugin is none of Dismantle's own, take its file out of the plugin path (DISMANTLE_PLUGIN_PATH, "
+    "plugins.search_paths), and tell its author";
 std::atomic<bool> g_crashing{false};
 
 const char* name_of(int signal) {
@@ -178,9 +182,9 @@ std::string advice_after_crash(bool isolated) {
          "author";
 }
 
-void report_crashes(const Registry& registry, RunNotes& notes, AfterCrash after, bool json) {
+void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after, bool json) {
   auto* facts = new Facts;
-  for (const PluginFile& file : registry.files())
+  for (const PluginFile& file : registry != nullptr ? registry->files() : std::deque<PluginFile>{})
     facts->plugins.push_back({file.path.string(),
                               fmt::format("plugin {} {} ({}{}{})", file.id, file.version, file.path.string(),
                                           file.url.empty() ? "" : ", ", file.url),
@@ -188,7 +192,7 @@ void report_crashes(const Registry& registry, RunNotes& notes, AfterCrash after,
   facts->notes = &notes;
   facts->after = after;
   facts->json = json;
-  facts->advice = advice_after_crash(false);
+  facts->advice = registry != nullptr ? advice_after_crash(false) : kAdviceWhileLoading;
   g_facts = facts;
   void* warm[4];
   static_cast<void>(::backtrace(warm, 4));  // the first call loads a library

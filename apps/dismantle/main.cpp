@@ -14,6 +14,7 @@
 #include "dismantle/colour.h"
 #include "dismantle/command.h"
 #include "dismantle/console.h"
+#include "dismantle/crash_handler.h"
 #include "dismantle/errors.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/stopped.h"
@@ -105,6 +106,10 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     return report_failure(json, kUsage, usage_problem(app, e, argc, argv));
+  }
+  if (!app.got_subcommand("bench") && !app.got_subcommand("bench-trial")) {  // bench tells how its processes ended
+    static RunNotes notes;
+    report_crashes(nullptr, notes, AfterCrash::exit, json);
   }
   try {
     return action();

@@ -121,8 +121,8 @@ class Crashes(WithBoxes):
 
     def test_while_it_is_loaded(self):
         env = {"DISMANTLE_PLUGIN_PATH": ENV["DISMANTLE_PLUGIN_PATH"] + ":" + os.path.join(BAD, "bad_loading")}
-        for more in ((), ("--isolate",)):
-            done = self.run_program("plan", "in", "-o", "out", *more, status=4, env=env)
+        for command in (("plan", "in", "-o", "out"), ("plan", "in", "-o", "out", "--isolate"), ("plugins", "list"), ("check", "in")):
+            done = self.run_program(*command, status=4, env=env)
             self.assertIn("SIGSEGV", done.stderr)
             self.assertIn("libbad_loading.so", done.stderr)
 
