@@ -22,6 +22,8 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), 
 FAST = ("core_tests geometry_tests preparation_tests plan_io_tests book_tests engine_tests plugins_tests plugins_good_tests configs_tests "
         "shipped_plugins_are_found sdf_tests sdf_world_tests path_common_tests push_search_tests ompl_common_tests progressive_tests "
         "queue_tests random_tests mesh_files_test cli_tests").split()
+# What these tests run besides the programs.
+HELPERS = ("dismantle_contract_tests", "evil_planners")
 
 
 def shipped():
@@ -51,7 +53,7 @@ def check(folder, build, jobs, tests, configure_only, log):
         return "", left_out
     listed = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], stdout=subprocess.PIPE, text=True, check=True).stdout
     targets = set(re.findall(r"^(\w+): phony$", listed, re.MULTILINE))
-    wanted = ["programs"] + [t for t in FAST if t in targets] + [t for t in ("dismantle_contract_tests",) if t in targets]
+    wanted = ["programs"] + [t for t in [*FAST, *HELPERS] if t in targets]
     if run(log, "cmake", "--build", build, "--parallel", str(jobs), "--target", *wanted):
         return "build", left_out
     if run(log, "ctest", "--test-dir", build, "--parallel", str(jobs), "--no-tests=error", "--output-on-failure",

@@ -10,6 +10,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "dismantle/geometry/swept_boxes.h"
 #include "placed_paths.h"
 
 namespace dismantle {
@@ -118,9 +119,9 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
     const RecordedStep& step = scenery.steps[i];
     for (std::size_t k = 0; k < step.parts.size(); ++k) {
       if (step.leaves(step.parts[k])) rooms[i + 1].extend(box_of(step.parts[k], step.path->back()[k]));
+      const Aabb box = assembly_.parts[step.parts[k]].mesh->box();
       Aabb swept;
-      for (const auto& instant : *step.path)
-        swept.extend(box_under(assembly_.parts[step.parts[k]].mesh->box(), instant[k]));
+      for (const auto& instant : *step.path) swept.extend(geometry::box_under(box, instant[k]));
       swept.inflate(sagitta);
       rooms[step.from].extend(swept);
     }
@@ -141,7 +142,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
     } else {
       given[g] = true;
       scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.poses.back()[part->id].inverse();
-      taken.push_back(box_under(rooms[g], scenery.place[g]));
+      taken.push_back(geometry::box_under(rooms[g], scenery.place[g]));
     }
   }
   std::vector<Aabb> boxes;

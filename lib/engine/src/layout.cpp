@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace dismantle {
 
@@ -14,6 +15,65 @@ constexpr double kSlack = 1e-9;
 
 struct Rectangle {
   Eigen::Vector2d lo, hi;
+};
+
+/// A value of x at which a corner may be placed. Of places that are equally near, the lower rank is taken.
+struct Column {
+  double x = 0;
+  std::size_t rank = 0;
+};
+
+/// `wish` and the edges of all rectangles, by ascending x, each value once, with the lowest of its ranks.
+std::vector<Column> columns_at(double wish, const std::vector<Rectangle>& blocked) {
+  std::vector<Column> columns{{wish, 0}};
+  for (const Rectangle& r : blocked) {
+    columns.push_back({r.hi.x(), columns.size()});
+    columns.push_back({r.lo.x(), columns.size()});
+  }
+  std::sort(columns.begin(), columns.end(),
+            [](const Column& p, const Column& q) { return std::make_pair(p.x, p.rank) < std::make_pair(q.x, q.rank); });
+  columns.erase(
+      std::unique(columns.begin(), columns.end(), [](const Column& p, const Column& q) { return p.x == q.x; }),
+      columns.end());
+  return columns;
+}
+
+/// Sweeps over rectangles by ascending x and keeps those that the line crosses, so that a column costs what it crosses.
+class Columns {
+ public:
+  /// `blocked`, by ascending lower edge, must outlive this.
+  explicit Columns(const std::vector<Rectangle>& blocked) : blocked_(blocked), by_left_(blocked.size()) {
+    std::iota(by_left_.begin(), by_left_.end(), std::size_t{0});
+    std::sort(by_left_.begin(), by_left_.end(),
+              [&](std::size_t p, std::size_t q) { return blocked[p].lo.x() < blocked[q].lo.x(); });
+  }
+
+  /// The values of y nearest to `wish`, not below it and not above it, that no rectangle holds inside at `x`. Calls
+  /// must be by ascending `x`.
+  std::pair<double, double> nearest_free(double x, double wish) {
+    for (; next_ < by_left_.size() && blocked_[by_left_[next_]].lo.x() < x; ++next_)
+      crossed_.insert(std::lower_bound(crossed_.begin(), crossed_.end(), by_left_[next_]), by_left_[next_]);
+    std::erase_if(crossed_, [&](std::size_t r) { return blocked_[r].hi.x() <= x; });
+    double above = wish, below = wish;
+    for (const std::size_t i : crossed_) {  // by rising lower edge: what was passed is not met again
+      const Rectangle& r = blocked_[i];
+      if (r.lo.y() < above && above < r.hi.y()) above = r.hi.y();
+    }
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (const std::size_t i : crossed_) {
+        const Rectangle& r = blocked_[i];
+        if (r.lo.y() < below && below < r.hi.y()) below = r.lo.y(), moved = true;
+      }
+    }
+    return {above, below};
+  }
+
+ private:
+  const std::vector<Rectangle>& blocked_;
+  std::vector<std::size_t> by_left_;  // indices of blocked_, by left edge
+  std::vector<std::size_t> crossed_;  // indices, ascending
+  std::size_t next_ = 0;              // of by_left_: the first that the line has not reached
 };
 
 class Table {
@@ -32,27 +92,18 @@ class Table {
     std::stable_sort(blocked.begin(), blocked.end(),
                      [](const Rectangle& p, const Rectangle& q) { return p.lo.y() < q.lo.y(); });
     const Eigen::Vector2d wish = middle - size / 2;
-    std::vector<double> xs{wish.x()};
-    for (const auto& r : blocked) xs.insert(xs.end(), {r.hi.x(), r.lo.x()});
 
     Eigen::Vector2d best = wish;
-    double least = std::numeric_limits<double>::infinity();
-    const auto consider = [&](double x, double y) {
-      const double off = (Eigen::Vector2d(x, y) - wish).squaredNorm();
-      if (off < least) least = off, best = {x, y};
+    auto least = std::make_pair(std::numeric_limits<double>::infinity(), std::size_t{0});
+    const auto consider = [&](const Eigen::Vector2d& corner, std::size_t rank) {
+      const auto cost = std::make_pair((corner - wish).squaredNorm(), rank);
+      if (cost < least) least = cost, best = corner;
     };
-    for (const double x : xs) {
-      const auto in_the_way = [x](const Rectangle& r) { return r.lo.x() < x && x < r.hi.x(); };
-      double above = wish.y(), below = wish.y();
-      for (const auto& r : blocked)  // by rising lower edge: what was passed is not met again
-        if (in_the_way(r) && r.lo.y() < above && above < r.hi.y()) above = r.hi.y();
-      for (bool moved = true; moved;) {
-        moved = false;
-        for (const auto& r : blocked)
-          if (in_the_way(r) && r.lo.y() < below && below < r.hi.y()) below = r.lo.y(), moved = true;
-      }
-      consider(x, above);
-      consider(x, below);
+    Columns columns(blocked);
+    for (const Column& c : columns_at(wish.x(), blocked)) {
+      const auto [above, below] = columns.nearest_free(c.x, wish.y());
+      consider({c.x, above}, 2 * c.rank);
+      consider({c.x, below}, 2 * c.rank + 1);
     }
     return best;
   }

@@ -88,6 +88,55 @@ TEST(Layout, OfEqualShapesTheLargerLieNearer) {
     EXPECT_NEAR(apart(shifted(boxes[order[k]], shifts[order[k]]), base, 2), 0.5, 1e-6);
 }
 
+/// Law: each box lies at the free place that is nearest to the middle of what it lies around, by brute force over all
+/// edges in either coordinate.
+TEST(Layout, EachLiesAtTheNearestFreePlace) {
+  Rng rng(3);
+  constexpr double kGap = 0.3, kRounding = 1e-6;
+  for (int trial = 0; trial < 30; ++trial) {
+    std::vector<Aabb> boxes, taken{random_box(rng, 8)};
+    const bool equal = trial % 2 == 0;  // many ties, as of equal washers
+    const Aabb model = random_box(rng, 3);
+    for (int n = 0; n < 25; ++n) boxes.push_back(equal ? model : random_box(rng, 3));
+    const auto shifts = lay_out(boxes, taken, Up::z, kGap);
+    std::vector<std::size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return boxes[a].size().head<2>().prod() > boxes[b].size().head<2>().prod();
+    });
+    const Eigen::Vector2d middle = taken.front().center().head<2>();
+    for (const std::size_t i : order) {
+      const Eigen::Vector2d size = boxes[i].size().head<2>();
+      const auto corner_of = [&](const Eigen::Vector2d& center) { return Eigen::Vector2d(center - size / 2); };
+      const auto nearest = [&](double gap) {
+        std::vector<double> xs{corner_of(middle).x()}, ys{corner_of(middle).y()};
+        for (const Aabb& t : taken) {
+          xs.insert(xs.end(), {t.hi.x() + gap, t.lo.x() - gap - size.x()});
+          ys.insert(ys.end(), {t.hi.y() + gap, t.lo.y() - gap - size.y()});
+        }
+        double least = 1e300;
+        for (const double x : xs)
+          for (const double y : ys) {
+            const Eigen::Array2d corner(x, y);
+            if (std::none_of(taken.begin(), taken.end(), [&](const Aabb& t) {
+                  return (corner < t.hi.head<2>().array() + gap - kRounding / 10 &&
+                          corner + size.array() > t.lo.head<2>().array() - gap + kRounding / 10)
+                      .all();
+                }))
+              least = std::min(least, (corner.matrix() - corner_of(middle)).norm());
+          }
+        return least;
+      };
+      const Aabb placed = shifted(boxes[i], shifts[i]);
+      // Between two that lie exactly one box apart there is room or not, by rounding.
+      const double distance = (placed.lo.head<2>() - corner_of(middle)).norm();
+      EXPECT_GE(distance, nearest(kGap) - kRounding);
+      EXPECT_LE(distance, nearest(kGap + kRounding) + 10 * kRounding);
+      taken.push_back(placed);
+    }
+  }
+}
+
 TEST(Layout, WantsSomethingToLieAround) { EXPECT_THROW(lay_out({}, {}, Up::z, 1), std::invalid_argument); }
 
 }  // namespace

@@ -50,11 +50,6 @@ std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
   return result;
 }
 
-Aabb box_along(const Aabb& box, const std::vector<Pose>& poses) {
-  const verify::RelativeMotion motion(poses, {Pose{}}, box);
-  return motion.swept_box();
-}
-
 }  // namespace
 
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
@@ -77,12 +72,6 @@ double Verifier::Impl::overlap(PartId a, PartId b) const {
   for (const auto& o : assembly_overlaps)
     if (o.a == a && o.b == b) return o.depth;
   return 0;
-}
-
-bool Verifier::Impl::near(const Actor& a, const Actor& b) const {
-  Aabb around = a.swept;
-  around.inflate(kStill);
-  return around.overlaps(b.swept);
 }
 
 /// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
@@ -156,7 +145,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const std::size_t last = rungs.size() - 1;
   // Ways out of many segments are close fits, of which low rungs are tried in vain: samples first.
   bool sampled = forward.segments() >= kManySegments &&
-                 box_along(x.box, {poses_b.front().inverse() * poses_a.front()}).overlaps(y.box);
+                 geometry::box_under(x.box, poses_b.front().inverse() * poses_a.front()).overlaps(y.box);
   bool sample_tells = false;
   Finding seen;
   if (sampled) {
@@ -241,22 +230,18 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
   }
   std::vector<Impl::Actor> movers, others;
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    Impl::Actor actor{moving[i], {}, {}};
-    for (const auto& row : path) actor.poses.push_back({row[i].t, row[i].q.normalized()});
-    actor.swept = box_along(impl_->bodies.at(moving[i]).box, actor.poses);
-    movers.push_back(std::move(actor));
+    std::vector<Pose> poses;
+    for (const auto& row : path) poses.push_back({row[i].t, row[i].q.normalized()});
+    movers.emplace_back(moving[i], std::move(poses), impl_->bodies.at(moving[i]).box);
   }
-  for (const auto& s : fixed) {
-    Impl::Actor actor{s.part, {{s.pose.t, s.pose.q.normalized()}}, {}};
-    actor.swept = box_along(impl_->bodies.at(s.part).box, actor.poses);
-    others.push_back(std::move(actor));
-  }
+  for (const auto& s : fixed)
+    others.emplace_back(s.part, std::vector<Pose>{{s.pose.t, s.pose.q.normalized()}}, impl_->bodies.at(s.part).box);
   Impl::Pairs pairs;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     for (const auto& other : others)
-      if (impl_->near(movers[i], other)) pairs.emplace_back(&movers[i], &other);
+      if (movers[i].swept.meets(other.swept, kStill)) pairs.emplace_back(&movers[i], &other);
     for (std::size_t k = i + 1; k < movers.size(); ++k)
-      if (impl_->near(movers[i], movers[k])) pairs.emplace_back(&movers[i], &movers[k]);
+      if (movers[i].swept.meets(movers[k].swept, kStill)) pairs.emplace_back(&movers[i], &movers[k]);
   }
   MotionCheck result;
   impl_->check(pairs, context, result);
@@ -264,9 +249,8 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
 }
 
 bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const {
-  Impl::Actor a{moving, way, box_along(impl_->bodies.at(moving).box, way)};
-  Impl::Actor b{fixed, {fixed_at}, box_along(impl_->bodies.at(fixed).box, {fixed_at})};
-  if (!a.swept.overlaps(b.swept)) return true;
+  const geometry::SweptBoxes a(way, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
+  if (!a.meets(b, 0)) return true;
   const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
   return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[fixed].solids, fixed_at, limits);
 }

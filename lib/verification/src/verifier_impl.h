@@ -6,10 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/swept_boxes.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
-#include "dismantle/geometry/hulls_apart.h"
 
 namespace dismantle {
 
@@ -23,7 +24,8 @@ struct Verifier::Impl {
   struct Actor {
     PartId part = 0;
     std::vector<Pose> poses;
-    Aabb swept;  // world
+    geometry::SweptBoxes swept;  // world
+    Actor(PartId id, std::vector<Pose> at, const Aabb& box) : part(id), poses(std::move(at)), swept(poses, box) {}
   };
 
   Impl(const Assembly& assembly, VerifyOptions options, Executor* executor);
@@ -41,7 +43,6 @@ struct Verifier::Impl {
   Look look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const;
   std::vector<Look> looks_ahead(const Pairs& pairs, const RunContext& context) const;
   void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
-  bool near(const Actor& a, const Actor& b) const;
   bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
              const RunContext& context, std::size_t& rung, MotionCheck& result) const;

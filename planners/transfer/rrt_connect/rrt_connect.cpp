@@ -83,16 +83,18 @@ class RrtConnect final : public TransferPlanner {
 
  private:
   bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) const {
-    const std::vector<Path> ways = straight_ways(query, parameters_.clearance);
+    const StraightTransfers straight(query, parameters_.clearance);
     std::uint64_t refused = 0;  // only what trees find counts in the statistics
     std::size_t instants = 0;
     return path::show_forms(
                query.checker, refused,
                [&](std::size_t k) -> std::optional<Path> {
-                 if (k == ways.size() || context.should_stop()) return std::nullopt;
+                 if (context.should_stop()) return std::nullopt;
+                 std::optional<Path> path = straight.path(k);
+                 if (!path) return std::nullopt;
                  ++result.stats.extra["straight"];
-                 instants = ways[k].size();
-                 return ways[k];
+                 instants = path->size();
+                 return path;
                },
                [&](const PathCheck& check, const Path&) {
                  result.message = check.reason;

@@ -10,24 +10,6 @@ using Eigen::Vector3d;
 
 constexpr double kRigid = 1e-7;  // assembly units
 
-/// Ball around all that moves, at the start.
-struct Ball {
-  Vector3d center = Vector3d::Zero();
-  double radius = 0;
-};
-
-Ball ball_of(const TransferQuery& query) {
-  Aabb box;
-  const auto each = [&](const auto& visit) {
-    for (const auto& m : query.scene.moving)
-      for (const auto& v : query.assembly.parts[m.part].mesh->vertices) visit(m.pose * v);
-  };
-  each([&](const Vector3d& p) { box.extend(p); });
-  Ball ball{box.center(), 0};
-  each([&](const Vector3d& p) { ball.radius = std::max(ball.radius, (p - ball.center).norm()); });
-  return ball;
-}
-
 /// How far things reach in direction `v`.
 double reach(const Assembly& assembly, const std::vector<PlacedPart>& parts, const Pose& displacement,
              const Vector3d& v) {
@@ -54,49 +36,66 @@ bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
   return true;
 }
 
-std::vector<Path> straight_ways(const TransferQuery& query, double clearance) {
-  Pose goal;
-  if (!displacement_to_goal(query, goal)) return {};
-  const Ball ball = ball_of(query);
-  const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
-  const Vector3d there = goal * ball.center;
-
-  const auto path_of = [&](const std::vector<Pose>& displacements) {
-    Path path;
-    for (const auto& d : displacements) {
-      path.emplace_back();
-      for (const auto& m : query.scene.moving) path.back().push_back(d * m.pose);
-    }
-    path.back() = query.goal;
-    return path;
+StraightTransfers::StraightTransfers(const TransferQuery& query, double clearance)
+    : query_(query), clearance_(clearance) {
+  rigid_ = displacement_to_goal(query, goal_);
+  const auto each = [&](const auto& visit) {
+    for (const auto& m : query.scene.moving)
+      for (const auto& v : query.assembly.parts[m.part].mesh->vertices) visit(m.pose * v);
   };
-  const auto over = [&](const Vector3d& v) {
-    // A group that turns takes the room of its ball; one that does not, only its own.
-    const double own_start = -reach(query.assembly, query.scene.moving, {}, -v);
-    const double own_goal = -reach(query.assembly, query.scene.moving, goal, -v);
-    const double lowest_start = turns ? v.dot(ball.center) - ball.radius : own_start;
-    const double lowest_goal = turns ? v.dot(there) - ball.radius : own_goal;
-    const double top = reach(query.assembly, query.scene.fixed, {}, v) + clearance;
-    // Heights of the ball's centre that clear everything, and are not below either end.
-    const double height = std::max(
-        {v.dot(ball.center) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});
-    const Pose lifted = shift((height - v.dot(ball.center)) * v);
-    const Pose above = shift((height - v.dot(there)) * v) * goal;
-    const Vector3d c = lifted * ball.center;
-    const Pose turned{c - goal.q * ball.center, goal.q};
-    return path_of({Pose{}, lifted, turned, above, goal});
-  };
+  Aabb box;
+  each([&](const Vector3d& p) { box.extend(p); });
+  center_ = box.center();
+  each([&](const Vector3d& p) { radius_ = std::max(radius_, (p - center_).norm()); });
+}
 
-  std::vector<Path> ways;
-  const Vector3d up = query.up;
-  if (!query.scene.fixed.empty()) ways.insert(ways.end(), {over(up), over(-up)});
-  const Pose turned{ball.center - goal.q * ball.center, goal.q};
-  ways.push_back(path_of({Pose{}, turned, goal}));
-  if (query.scene.fixed.empty()) return ways;
-  const Vector3d side = up.unitOrthogonal();
-  for (const Vector3d& v : {side, Vector3d(-side), Vector3d(up.cross(side)), Vector3d(-up.cross(side))})
-    ways.push_back(over(v));
-  return ways;
+std::optional<Path> StraightTransfers::path(std::size_t k) const {
+  if (!rigid_) return std::nullopt;
+  if (query_.scene.fixed.empty()) k += 2;  // there is nothing to go over
+  const Vector3d up = query_.up, side = up.unitOrthogonal(), across = up.cross(side);
+  const bool last = query_.scene.fixed.empty() || k > 6;
+  switch (k) {
+    case 0:
+      return over(up);
+    case 1:
+      return over(-up);
+    case 2:
+      return path_of({Pose{}, Pose{center_ - goal_.q * center_, goal_.q}, goal_});
+    default:
+      break;
+  }
+  if (last) return std::nullopt;
+  const Vector3d sides[] = {side, -side, across, -across};
+  return over(sides[k - 3]);
+}
+
+Path StraightTransfers::path_of(const std::vector<Pose>& displacements) const {
+  Path path;
+  for (const auto& d : displacements) {
+    path.emplace_back();
+    for (const auto& m : query_.scene.moving) path.back().push_back(d * m.pose);
+  }
+  path.back() = query_.goal;
+  return path;
+}
+
+Path StraightTransfers::over(const Vector3d& v) const {
+  const bool turns = angle_between(goal_.q, Eigen::Quaterniond::Identity()) > 1e-9;
+  const Vector3d there = goal_ * center_;
+  // A group that turns takes the room of its ball; one that does not, only its own.
+  const double own_start = -reach(query_.assembly, query_.scene.moving, {}, -v);
+  const double own_goal = -reach(query_.assembly, query_.scene.moving, goal_, -v);
+  const double lowest_start = turns ? v.dot(center_) - radius_ : own_start;
+  const double lowest_goal = turns ? v.dot(there) - radius_ : own_goal;
+  const double top = reach(query_.assembly, query_.scene.fixed, {}, v) + clearance_;
+  // Heights of the ball's centre that clear everything, and are not below either end.
+  const double height =
+      std::max({v.dot(center_) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});
+  const Pose lifted = shift((height - v.dot(center_)) * v);
+  const Pose above = shift((height - v.dot(there)) * v) * goal_;
+  const Vector3d c = lifted * center_;
+  const Pose turned{c - goal_.q * center_, goal_.q};
+  return path_of({Pose{}, lifted, turned, above, goal_});
 }
 
 }  // namespace dismantle::rrt_connect

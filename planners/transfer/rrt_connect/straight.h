@@ -1,18 +1,37 @@
-/// Ways that one sees at once: lift, turn, carry over, put down.
+/// Transfers that need no search: lift, turn, carry over everything, put down.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "dismantle/transfer_planner.h"
 
 namespace dismantle::rrt_connect {
 
-/// Candidates, the likeliest first: over everything on the side `up`, below everything, straight from place to place,
-/// around on the other four sides. The group turns about its middle where all else is at least `clearance` (assembly
-/// units) away.
-std::vector<Path> straight_ways(const TransferQuery& query, double clearance);
-
 /// The displacement that takes the group from start to goal. False: the goal is not the group moved as a rigid body.
 bool displacement_to_goal(const TransferQuery& query, Pose& displacement);
+
+/// Candidate paths, the most promising first: over everything on the side `up`, below everything, straight from place
+/// to place, around on the other four sides. The group turns about its middle where all else is at least `clearance`
+/// (assembly units) away. Each is computed when it is asked for, since the first is mostly free.
+class StraightTransfers {
+ public:
+  /// `query` must outlive this.
+  StraightTransfers(const TransferQuery& query, double clearance);
+  /// Candidate `k`; nothing: there are no more.
+  std::optional<Path> path(std::size_t k) const;
+
+ private:
+  Path path_of(const std::vector<Pose>& displacements) const;
+  Path over(const Eigen::Vector3d& v) const;
+
+  const TransferQuery& query_;
+  double clearance_;
+  bool rigid_;                                        // the goal is the group moved as a rigid body
+  Pose goal_;                                         // its displacement
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of a ball around all that moves, at the start
+  double radius_ = 0;
+};
 
 }  // namespace dismantle::rrt_connect

@@ -173,4 +173,16 @@ Aabb RelativeMotion::swept_box() const {
   return box;
 }
 
+std::vector<Aabb> RelativeMotion::segment_boxes() const {
+  std::vector<Aabb> at(at_instant_.size()), boxes(segments());
+  for (std::size_t k = 0; k < at.size(); ++k)
+    for (const auto& c : corners_) at[k].extend(at_instant_[k] * c);
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    boxes[k] = at[k];
+    boxes[k].extend(at[k + 1]);
+    boxes[k].inflate(bend_[k] / 8);
+  }
+  return boxes;
+}
+
 }  // namespace dismantle::geometry

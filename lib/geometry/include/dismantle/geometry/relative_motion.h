@@ -68,6 +68,8 @@ class RelativeMotion {
   Bend bend(double s0, double s1) const;
   /// Box in the frame of B that holds the box of A at all times.
   Aabb swept_box() const;
+  /// The same by segment. Not empty when A or B moves.
+  std::vector<Aabb> segment_boxes() const;
 
  private:
   double chord_deviation(std::size_t i, std::size_t j) const;
