@@ -120,6 +120,7 @@ endif()
 math(EXPR length "${end} - ${begin}")
 string(SUBSTRING "${page}" ${begin} ${length} section)
 string(REPLACE ";" "<semicolon>" section "${section}")
+string(REGEX REPLACE "\n```[a-z]+\n[^`]*\n```\n" "\n" section "${section}")  # from the source: not here
 string(REGEX MATCHALL "\n```\n[^`]*\n```\n" blocks "${section}")
 list(LENGTH blocks count)
 if(count LESS 5)
