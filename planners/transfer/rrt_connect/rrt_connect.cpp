@@ -60,7 +60,7 @@ class RrtConnect final : public TransferPlanner {
  public:
   explicit RrtConnect(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// None: straight ways need no simulator. Trees do, and say so.
+  /// None: straight candidates need no simulator. Trees do, and say so.
   Capabilities needs() const noexcept override { return {}; }
 
   PathResult plan(const TransferQuery& query, RunContext& context) override {
