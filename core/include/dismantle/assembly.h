@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/contact_class.h"
 #include "dismantle/mesh.h"
 #include "dismantle/parameters.h"
 #include "dismantle/pose.h"
@@ -67,6 +68,7 @@ using ImportParams = std::map<std::string, ParamSet>;
 struct InitialOverlap {
   PartId a = 0, b = 0;  ///< a < b
   double depth = 0;
+  std::optional<OverlapPlace> place{};  ///< assembly units; none: not classified
 };
 
 struct Assembly {

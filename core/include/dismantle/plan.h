@@ -81,7 +81,8 @@ struct PlanPart {
 
 struct PlanOverlap {
   std::string a, b;
-  double depth = 0;  ///< assembly units
+  double depth = 0;                     ///< assembly units
+  std::optional<OverlapPlace> place{};  ///< input units; none: the file does not say
 };
 
 struct PlanAssembly {

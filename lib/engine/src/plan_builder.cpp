@@ -11,6 +11,14 @@
 
 namespace dismantle {
 
+static std::optional<OverlapPlace> place_in_input(std::optional<OverlapPlace> place, const Normalization& n) {
+  if (!place) return place;
+  place->at = n.to_input(place->at);
+  place->axis_point = n.to_input(place->axis_point);
+  if (!place->region.empty()) place->region = {n.to_input(place->region.lo), n.to_input(place->region.hi)};
+  return place;
+}
+
 static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   Plan plan;
   plan.generator_version = DISMANTLE_VERSION;
@@ -31,7 +39,8 @@ static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   }
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)
-    a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth});
+    a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth,
+                          place_in_input(o.place, assembly.normalization)});
   return plan;
 }
 

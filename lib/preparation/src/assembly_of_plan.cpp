@@ -51,7 +51,15 @@ void set_normalization(Assembly& assembly, const Normalization& to) {
     if (part.surface) part.surface = shared ? part.mesh : moved(*part.surface, from, to);
     part.volume *= factor * factor * factor;
   }
-  for (auto& overlap : assembly.overlaps) overlap.depth *= factor;
+  const auto moved_point = [&](const Eigen::Vector3d& p) { return to.to_internal(from.to_input(p)); };
+  for (auto& overlap : assembly.overlaps) {
+    overlap.depth *= factor;
+    if (!overlap.place) continue;
+    OverlapPlace& place = *overlap.place;
+    place.at = moved_point(place.at);
+    place.axis_point = moved_point(place.axis_point);
+    if (!place.region.empty()) place.region = {moved_point(place.region.lo), moved_point(place.region.hi)};
+  }
   assembly.normalization = to;
 }
 
