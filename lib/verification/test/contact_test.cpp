@@ -15,10 +15,10 @@
 namespace dismantle {
 namespace {
 
-constexpr double kTolerance = 1e-4;
-constexpr double kNear = 0.1;  // assembly units
+constexpr double kContactTolerance = 1e-4;
+constexpr double kContactNear = 0.1;  // assembly units
 
-struct Placed {
+struct PlacedModel {
   samples::Model model;
   double scale = 1;
   Pose pose;
@@ -26,8 +26,8 @@ struct Placed {
 };
 
 /// In assembly units, at a random place and turned at random.
-Placed placed(samples::Model model, Rng& rng) {
-  Placed out;
+PlacedModel placed_model(samples::Model model, Rng& rng) {
+  PlacedModel out;
   Aabb box;
   for (const RawPart& part : model.parts) box.extend(part.mesh.box());
   out.scale = 10 / box.size().maxCoeff();
@@ -41,12 +41,12 @@ Placed placed(samples::Model model, Rng& rng) {
 }
 
 /// Classes of all pairs against the truth; pairs whose overlap is too shallow to tell from rounding are left out.
-void expect_truth(const Placed& p) {
+void expect_truth(const PlacedModel& p) {
   for (std::size_t i = 0; i < p.bodies.size(); ++i)
     for (std::size_t k = i + 1; k < p.bodies.size(); ++k) {
       const std::string &a = p.model.parts[i].name, &b = p.model.parts[k].name;
       SCOPED_TRACE(a + " and " + b);
-      const auto found = classify_contact(p.bodies[i], p.bodies[k], kTolerance, kNear);
+      const auto found = classify_contact(p.bodies[i], p.bodies[k], kContactTolerance, kContactNear);
       const samples::TruthContact* truth = samples::contact_of(p.model, a, b);
       if (!truth) {
         if (found) {
@@ -56,10 +56,10 @@ void expect_truth(const Placed& p) {
         continue;
       }
       const double depth = truth->depth * p.scale;
-      if (truth->contact != ContactClass::duplicate && depth < 10 * kTolerance) continue;
+      if (truth->contact != ContactClass::duplicate && depth < 10 * kContactTolerance) continue;
       ASSERT_TRUE(found);
       EXPECT_EQ(to_string(found->place.contact), to_string(truth->contact)) << "share " << found->place.share;
-      EXPECT_NEAR(found->depth, depth, truth->depth_error * p.scale + 0.01 * depth + 2 * kTolerance);
+      EXPECT_NEAR(found->depth, depth, truth->depth_error * p.scale + 0.01 * depth + 2 * kContactTolerance);
       EXPECT_TRUE(found->place.share >= 0 && found->place.share <= 1);
       if (truth->contact == ContactClass::inside) {
         EXPECT_EQ(found->first_inside, truth->a == a);
@@ -79,10 +79,12 @@ class EverySampleContact : public ::testing::TestWithParam<std::string> {};
 TEST_P(EverySampleContact, HasTheClassOfItsTruth) {
   const samples::Sample& sample = *samples::find(GetParam());
   Rng rng(41);
-  for (int i = 0; i < 2; ++i) expect_truth(placed(samples::make_model(sample.name), rng));
+  for (int i = 0; i < 2; ++i) expect_truth(placed_model(samples::make_model(sample.name), rng));
   for (int i = 0; i < (sample.clean ? 1 : 12); ++i) {
     ParamSet drawn;
-    const Placed p = placed(samples::random_model(sample, rng, drawn), rng);
+    samples::random_model(sample, rng, drawn);
+    drawn["rotate_seed"] = std::int64_t{0};  // the axis is known before placed_model() turns it
+    const PlacedModel p = placed_model(samples::make_model(sample.name, drawn), rng);
     SCOPED_TRACE(samples::text(drawn));
     expect_truth(p);
   }
@@ -95,14 +97,14 @@ TEST(Contact, DepthOfRandomPressFitsIsHalfTheInterference) {
   Rng rng(42);
   for (int i = 0; i < 30; ++i) {
     const double interference = rng.uniform(0.05, 0.2);
-    const Placed p = placed(samples::make_model("pressed_pin", {{"diameter", rng.uniform(3, 40)},
-                                                                {"length", rng.uniform(10, 80)},
-                                                                {"interference", interference}}),
-                            rng);
-    const auto found = classify_contact(p.bodies[0], p.bodies[1], kTolerance, kNear);
+    const PlacedModel p = placed_model(samples::make_model("pressed_pin", {{"diameter", rng.uniform(3, 40)},
+                                                                           {"length", rng.uniform(10, 80)},
+                                                                           {"interference", interference}}),
+                                       rng);
+    const auto found = classify_contact(p.bodies[0], p.bodies[1], kContactTolerance, kContactNear);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->place.contact, ContactClass::uniform_interference);
-    EXPECT_NEAR(found->depth / p.scale, interference / 2, 0.005 * interference + 1.5 * kTolerance / p.scale);
+    EXPECT_NEAR(found->depth / p.scale, interference / 2, 0.005 * interference + 1.5 * kContactTolerance / p.scale);
   }
 }
 
@@ -115,16 +117,17 @@ TEST(Contact, BoxesByDepth) {
     const auto contact_of_gap = [&](double gap) {
       const DepthBody a(shapes::moved(shapes::box({-w, -w, -h}, {w, w, 0}), pose));
       const DepthBody b(shapes::moved(shapes::box({-w / 2, -w / 3, gap}, {w / 4, w / 2, h}), pose));
-      return classify_contact(a, b, kTolerance, kNear);
+      return classify_contact(a, b, kContactTolerance, kContactNear);
     };
-    const auto pressed = contact_of_gap(-depth), kissing = contact_of_gap(0), clear = contact_of_gap(0.5 * kNear);
+    const auto pressed = contact_of_gap(-depth), kissing = contact_of_gap(0),
+               clear = contact_of_gap(0.5 * kContactNear);
     ASSERT_TRUE(pressed && kissing && clear);
     EXPECT_EQ(to_string(pressed->place.contact), to_string(ContactClass::uniform_interference)) << pressed->place.share;
-    EXPECT_NEAR(pressed->depth, depth, 2 * kTolerance);
+    EXPECT_NEAR(pressed->depth, depth, 2 * kContactTolerance);
     EXPECT_FALSE(pressed->place.axis);
     EXPECT_EQ(to_string(kissing->place.contact), to_string(ContactClass::kissing));
     EXPECT_EQ(to_string(clear->place.contact), to_string(ContactClass::clearance));
-    EXPECT_FALSE(contact_of_gap(3 * kNear));
+    EXPECT_FALSE(contact_of_gap(3 * kContactNear));
   }
 }
 
@@ -136,7 +139,7 @@ TEST(Contact, BallsOnPlatesAreLocal) {
     const double r = rng.uniform(0.3, 1.5), depth = rng.uniform(0.02, 0.1) * r, x = rng.uniform(-2, 2);
     const Mesh plate = shapes::box({-4, -4, -2}, {4, 4, 0}), ball = shapes::sphere({x, 1, r - depth}, r, 4);
     const auto found = classify_contact(DepthBody(shapes::moved(ball, pose)), DepthBody(shapes::moved(plate, pose)),
-                                        kTolerance, kNear);
+                                        kContactTolerance, kContactNear);
     ASSERT_TRUE(found);
     EXPECT_EQ(to_string(found->place.contact), to_string(ContactClass::local_interference)) << found->place.share;
     const double half_chord = std::sqrt(2 * r * depth);
@@ -156,7 +159,7 @@ TEST(Contact, PinsOffTheirAxisAreLocal) {
     off.t = away * Eigen::Vector3d(std::cos(turn), std::sin(turn), 0);
     const Mesh bush = shapes::tube(r, 2 * r, -1, 1, 64), pin = shapes::tube(0, r - play, -1.5, 1.5, 64);
     const auto found = classify_contact(DepthBody(shapes::moved(pin, pose * off)), DepthBody(shapes::moved(bush, pose)),
-                                        kTolerance, kNear);
+                                        kContactTolerance, kContactNear);
     ASSERT_TRUE(found);
     EXPECT_EQ(to_string(found->place.contact), to_string(ContactClass::local_interference)) << found->place.share;
     EXPECT_FALSE(found->place.axis);
@@ -165,22 +168,22 @@ TEST(Contact, PinsOffTheirAxisAreLocal) {
 
 TEST(Contact, OneInTheSolidOfTheOther) {
   Rng rng(46);
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 6; ++i) {
     const Pose pose = shapes::random_pose(rng, 5);
     const Eigen::Vector3d at(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
     const Mesh inner =
         shapes::moved(shapes::box(at - Eigen::Vector3d::Constant(0.5), at + Eigen::Vector3d::Constant(0.5)), pose);
     const Mesh solid = shapes::moved(shapes::box({-2, -2, -2}, {2, 2, 2}), pose);
     const Mesh hollow = shapes::moved(shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.3), pose);
-    const auto found = classify_contact(DepthBody(inner), DepthBody(solid), kTolerance, kNear);
+    const auto found = classify_contact(DepthBody(inner), DepthBody(solid), kContactTolerance, kContactNear);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->place.contact, ContactClass::inside);
     EXPECT_TRUE(found->first_inside);
-    const auto turned = classify_contact(DepthBody(solid), DepthBody(inner), kTolerance, kNear);
+    const auto turned = classify_contact(DepthBody(solid), DepthBody(inner), kContactTolerance, kContactNear);
     ASSERT_TRUE(turned);
     EXPECT_EQ(turned->place.contact, ContactClass::inside);
     EXPECT_FALSE(turned->first_inside);
-    const auto in_void = classify_contact(DepthBody(inner), DepthBody(hollow), kTolerance, kNear);
+    const auto in_void = classify_contact(DepthBody(inner), DepthBody(hollow), kContactTolerance, kContactNear);
     if (in_void) {
       EXPECT_NE(in_void->place.contact, ContactClass::inside);
     }
@@ -189,7 +192,7 @@ TEST(Contact, OneInTheSolidOfTheOther) {
 
 TEST(Contact, NeedsATolerance) {
   const DepthBody a(shapes::box({0, 0, 0}, {1, 1, 1}));
-  EXPECT_THROW(classify_contact(a, a, 0, kNear), std::invalid_argument);
+  EXPECT_THROW(classify_contact(a, a, 0, kContactNear), std::invalid_argument);
   EXPECT_THROW(classify_overlap(a, a, {}, 0), std::invalid_argument);
 }
 

@@ -130,17 +130,21 @@ bool within(const Field& a, const Field& b, double distance) {
   return false;
 }
 
+OverlapPlace place_of_duplicate(const Field& a, const Field& b) {
+  const Aabb common{a.box().lo.cwiseMax(b.box().lo), a.box().hi.cwiseMin(b.box().hi)};
+  return {ContactClass::duplicate, common.center(), common, 1};
+}
+
 PairContact of_overlap(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
   PairContact found;
   found.depth = deepest.depth;
-  found.place.at = deepest.point;
-  Aabb common{a.box().lo.cwiseMax(b.box().lo), a.box().hi.cwiseMin(b.box().hi)};
-  const bool first = lies_in(a, b, tolerance);
   if (coincident(a, b, tolerance)) {
-    found.place.contact = ContactClass::duplicate;
-    found.place.region = common;
-    found.place.share = 1;
-  } else if (first || lies_in(b, a, tolerance)) {
+    found.place = place_of_duplicate(a, b);
+    return found;
+  }
+  const bool first = lies_in(a, b, tolerance);
+  if (first || lies_in(b, a, tolerance)) {
+    found.place.at = deepest.point;
     found.place.contact = ContactClass::inside;
     found.place.region = first ? a.box() : b.box();
     found.place.share = 1;
@@ -165,13 +169,15 @@ std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody&
   Aabb around = x.box();
   around.inflate(near);
   if (!around.overlaps(y.box())) return std::nullopt;
+  PairContact found;
+  if (verify::coincident(x, y, tolerance)) {  // its depth would take long to bound, and says nothing
+    found.place = verify::place_of_duplicate(x, y);
+    return found;
+  }
   const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance);
   if (deepest.depth > verify::kRounding * tolerance) return verify::of_overlap(x, y, deepest, tolerance);
-  PairContact found;
   found.depth = deepest.depth;
-  if (verify::coincident(x, y, tolerance))
-    found.place = {ContactClass::duplicate, x.box().center(), x.box(), 1};
-  else if (verify::within(x, y, verify::kRounding * tolerance))
+  if (verify::within(x, y, verify::kRounding * tolerance))
     found.place.contact = ContactClass::kissing;
   else if (verify::within(x, y, near))
     found.place.contact = ContactClass::clearance;

@@ -11,7 +11,7 @@ namespace dismantle {
 
 /// Two parts as they stand.
 struct PairContact {
-  double depth = 0;           ///< as deepest_penetration(), in the unit of the meshes; 0 when they do not overlap
+  double depth = 0;           ///< as deepest_penetration(), in the unit of the meshes; 0: no overlap, or a duplicate
   OverlapPlace place;         ///< same unit, world; below `contact`, it means something only where they overlap
   bool first_inside = false;  ///< `inside`: the first lies in the solid of the second; else the second in the first
 };
