@@ -48,9 +48,10 @@ std::string prepare_text(const Assembly& assembly, const PrepareReport& report) 
                        part.shells, part.volume, done.empty() ? "nothing" : done);
   }
   for (const auto& o : assembly.overlaps)
-    out += fmt::format("overlap when assembled: {} and {}, {:.3g} {}\n", assembly.parts[o.a].name,
+    out += fmt::format("overlap when assembled: {} and {}, {:.3g} {}{}\n", assembly.parts[o.a].name,
                        assembly.parts[o.b].name, o.depth / assembly.normalization.scale,
-                       assembly.unit.empty() ? "input units" : assembly.unit);
+                       assembly.unit.empty() ? "input units" : assembly.unit,
+                       o.place ? fmt::format(", {}", to_string(o.place->contact)) : "");
   for (const auto& warning : report.warnings) out += fmt::format("warning: {}\n", warning);
   const Eigen::Vector3d size = assembly.input_box.size();
   out += fmt::format("size {:.6g} x {:.6g} x {:.6g} input units, scale {:.6g}\n", size.x(), size.y(), size.z(),

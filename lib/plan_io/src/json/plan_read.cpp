@@ -13,6 +13,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/hex_colour.h"
+#include "json/json_place.h"
 #include "json/parse_json.h"
 
 namespace dismantle {
@@ -20,117 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value, and where in which file it stands (a JSON pointer).
-class Place {
- public:
-  Place(const Json& value, const std::string& source, std::string path)
-      : value_(value), source_(source), path_(std::move(path)) {}
-
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(source_, fmt::format("{}: {}", path_.empty() ? "/" : path_, problem));
-  }
-
-  const Json& object(std::initializer_list<const char*> required,
-                     std::initializer_list<const char*> optional = {}) const {
-    if (!value_.is_object()) fail("expected an object");
-    for (const char* key : required)
-      if (!value_.contains(key)) fail(fmt::format("'{}' is missing", key));
-    const auto known = [&](const std::string& key) {
-      const auto same = [&](const char* k) { return key == k; };
-      return std::ranges::any_of(required, same) || std::ranges::any_of(optional, same);
-    };
-    for (const auto& item : value_.items())
-      if (!known(item.key())) fail(fmt::format("unknown key '{}'", item.key()));
-    return value_;
-  }
-  bool has(const char* key) const { return value_.contains(key); }
-  bool is_null() const { return value_.is_null(); }
-  Place at(const std::string& key) const { return {value_.at(key), source_, path_ + "/" + key}; }
-
-  std::vector<Place> items() const {
-    if (!value_.is_array()) fail("expected an array");
-    std::vector<Place> out;
-    out.reserve(value_.size());
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      out.emplace_back(value_[i], source_, fmt::format("{}/{}", path_, i));
-    return out;
-  }
-
-  std::vector<std::pair<std::string, Place>> members() const {
-    if (!value_.is_object()) fail("expected an object");
-    std::vector<std::pair<std::string, Place>> out;
-    for (const auto& item : value_.items()) out.emplace_back(item.key(), at(item.key()));
-    return out;
-  }
-
-  ParamValue parameter() const {
-    if (value_.is_boolean()) return value_.get<bool>();
-    if (value_.is_number_integer()) return value_.get<std::int64_t>();
-    if (value_.is_number()) return value_.get<double>();
-    if (!value_.is_string()) fail("expected a number, a string, true or false");
-    return value_.get<std::string>();
-  }
-
-  std::string text() const {
-    if (!value_.is_string()) fail("expected a string");
-    return value_.get<std::string>();
-  }
-  std::string name() const {
-    std::string s = text();
-    if (s.empty()) fail("expected a name, found an empty string");
-    return s;
-  }
-  double number() const {
-    if (!value_.is_number()) fail("expected a number");
-    const double x = value_.get<double>();
-    if (!std::isfinite(x)) fail("expected a finite number");
-    return x;
-  }
-  double number_from_zero() const {
-    const double x = number();
-    if (x < 0) fail("expected a number >= 0");
-    return x;
-  }
-  double number_within(double least, double most) const {
-    const double x = number();
-    if (x < least || x > most) fail(fmt::format("expected a number between {:g} and {:g}", least, most));
-    return x;
-  }
-  bool truth() const {
-    if (!value_.is_boolean()) fail("expected true or false");
-    return value_.get<bool>();
-  }
-  double positive() const {
-    const double x = number();
-    if (x <= 0) fail("expected a number > 0");
-    return x;
-  }
-  std::uint64_t count(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const {
-    if (!value_.is_number_unsigned()) fail("expected a whole number >= 0");
-    const auto n = value_.get<std::uint64_t>();
-    if (n > limit) fail(fmt::format("expected a whole number <= {}", limit));
-    return n;
-  }
-  unsigned small_count() const { return static_cast<unsigned>(count(std::numeric_limits<unsigned>::max())); }
-
-  template <std::size_t N>
-  std::array<double, N> numbers() const {
-    std::array<double, N> out{};
-    bool right = value_.is_array() && value_.size() == N;
-    for (std::size_t i = 0; right && i < N; ++i) right = value_[i].is_number();
-    if (!right) fail(fmt::format("expected {} numbers", N));
-    for (std::size_t i = 0; i < N; ++i) {
-      out[i] = value_[i].template get<double>();
-      if (!std::isfinite(out[i])) fail("expected finite numbers");
-    }
-    return out;
-  }
-
- private:
-  const Json& value_;
-  const std::string& source_;
-  std::string path_;
-};
+using json_read::Place;
 
 Eigen::Vector3d read_vector(const Place& place) {
   const auto n = place.numbers<3>();
@@ -173,6 +64,34 @@ ImportParams read_import(const Place& place) {
   return out;
 }
 
+Aabb read_box(const Place& place) {
+  const auto corners = place.items();
+  if (corners.size() != 2) place.fail("expected two corners");
+  const Aabb box{read_vector(corners[0]), read_vector(corners[1])};
+  if (box.empty()) place.fail("the first corner is above the second");
+  return box;
+}
+
+/// Files of older versions do not say what kind of overlap it is.
+PlanOverlap read_overlap(const Place& place, const Names& parts) {
+  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis"});
+  PlanOverlap o{read_part(place.at("a"), parts), read_part(place.at("b"), parts), place.at("depth").number_from_zero()};
+  if (o.a == o.b) place.fail("a part cannot overlap itself");
+  if (!place.has("class")) return o;
+  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis"});
+  const auto contact = contact_class_from_string(place.at("class").text());
+  if (!contact) place.at("class").fail("expected the class of a contact, as in \"uniform_interference\"");
+  o.place = OverlapPlace{*contact, read_vector(place.at("at")), read_box(place.at("region")),
+                         place.at("share").number_within(0, 1)};
+  if (!place.has("axis")) return o;
+  const Place axis = place.at("axis");
+  axis.object({"point", "direction"});
+  o.place->axis_point = read_vector(axis.at("point"));
+  o.place->axis = read_vector(axis.at("direction"));
+  if (!(std::abs(o.place->axis->norm() - 1) <= 1e-3)) axis.at("direction").fail("expected a vector of length 1");
+  return o;
+}
+
 PlanAssembly read_assembly(const Place& place, Names& parts) {
   place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"},
                {"repair", "unit", "import"});
@@ -181,13 +100,7 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
   a.sha256 = place.at("sha256").text();
   a.scale = place.at("scale").positive();
   a.center = read_vector(place.at("center"));
-  if (const Place box = place.at("bbox"); !box.is_null()) {
-    const auto corners = box.items();
-    if (corners.size() != 2) box.fail("expected two corners");
-    a.box.lo = read_vector(corners[0]);
-    a.box.hi = read_vector(corners[1]);
-    if (a.box.empty()) box.fail("the first corner is above the second");
-  }
+  if (const Place box = place.at("bbox"); !box.is_null()) a.box = read_box(box);
   for (const Place& item : place.at("parts").items()) {
     item.object({"id", "name", "file"}, {"color", "parents"});
     PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
@@ -206,12 +119,7 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     item.object({"name", "reason"});
     a.excluded.emplace_back(item.at("name").text(), item.at("reason").text());
   }
-  for (const Place& item : place.at("overlaps").items()) {
-    item.object({"a", "b", "depth"});
-    PlanOverlap o{read_part(item.at("a"), parts), read_part(item.at("b"), parts), item.at("depth").number_from_zero()};
-    if (o.a == o.b) item.fail("a part cannot overlap itself");
-    a.overlaps.push_back(std::move(o));
-  }
+  for (const Place& item : place.at("overlaps").items()) a.overlaps.push_back(read_overlap(item, parts));
   if (place.has("unit")) a.unit = place.at("unit").name();
   if (place.has("import")) a.import_params = read_import(place.at("import"));
   if (place.has("repair")) {

@@ -75,6 +75,20 @@ Json import_json(const ImportParams& params) {
   return out;
 }
 
+Json box_json(const Aabb& box) { return Json::array({vector_json(box.lo), vector_json(box.hi)}); }
+
+Json overlap_json(const PlanOverlap& o) {
+  Json out = {{"a", o.a}, {"b", o.b}, {"depth", o.depth}};
+  if (!o.place) return out;
+  out["class"] = std::string(to_string(o.place->contact));
+  out["at"] = vector_json(o.place->at);
+  out["region"] = box_json(o.place->region);
+  out["share"] = o.place->share;
+  if (o.place->axis)
+    out["axis"] = {{"point", vector_json(o.place->axis_point)}, {"direction", vector_json(*o.place->axis)}};
+  return out;
+}
+
 Json assembly_json(const PlanAssembly& a) {
   Json parts = Json::array(), excluded = Json::array(), overlaps = Json::array();
   for (const PlanPart& p : a.parts) {
@@ -83,13 +97,13 @@ Json assembly_json(const PlanAssembly& a) {
     if (!p.parents.empty()) parts.back()["parents"] = p.parents;
   }
   for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
-  for (const PlanOverlap& o : a.overlaps) overlaps.push_back({{"a", o.a}, {"b", o.b}, {"depth", o.depth}});
+  for (const PlanOverlap& o : a.overlaps) overlaps.push_back(overlap_json(o));
   Json out;
   out["source"] = a.source;
   out["sha256"] = a.sha256;
   out["scale"] = a.scale;
   out["center"] = vector_json(a.center);
-  out["bbox"] = a.box.empty() ? Json(nullptr) : Json::array({vector_json(a.box.lo), vector_json(a.box.hi)});
+  out["bbox"] = a.box.empty() ? Json(nullptr) : box_json(a.box);
   out["parts"] = std::move(parts);
   out["excluded"] = std::move(excluded);
   out["overlaps"] = std::move(overlaps);

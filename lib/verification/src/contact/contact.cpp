@@ -163,6 +163,15 @@ PairContact classify_overlap(const DepthBody& a, const DepthBody& b, const Penet
   return verify::of_overlap(verify::Field(a.impl().solids), verify::Field(b.impl().solids), deepest, tolerance);
 }
 
+std::optional<ContactClass> classify_apart(const DepthBody& a, const DepthBody& b, double tolerance, double near) {
+  if (!(tolerance > 0)) throw std::invalid_argument("classify_apart: tolerance must be > 0");
+  const verify::Field x(a.impl().solids), y(b.impl().solids);
+  if (verify::coincident(x, y, tolerance)) return ContactClass::duplicate;
+  if (verify::within(x, y, verify::kRounding * tolerance)) return ContactClass::kissing;
+  if (verify::within(x, y, near)) return ContactClass::clearance;
+  return std::nullopt;
+}
+
 std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody& b, double tolerance, double near) {
   if (!(tolerance > 0)) throw std::invalid_argument("classify_contact: tolerance must be > 0");
   const verify::Field x(a.impl().solids), y(b.impl().solids);
@@ -176,13 +185,10 @@ std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody&
   }
   const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance);
   if (deepest.depth > verify::kRounding * tolerance) return verify::of_overlap(x, y, deepest, tolerance);
+  const std::optional<ContactClass> apart = classify_apart(a, b, tolerance, near);
+  if (!apart) return std::nullopt;
   found.depth = deepest.depth;
-  if (verify::within(x, y, verify::kRounding * tolerance))
-    found.place.contact = ContactClass::kissing;
-  else if (verify::within(x, y, near))
-    found.place.contact = ContactClass::clearance;
-  else
-    return std::nullopt;
+  found.place.contact = *apart;
   return found;
 }
 

@@ -36,6 +36,11 @@ struct PairContact {
 DISMANTLE_API std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody& b, double tolerance,
                                                           double near);
 
+/// The same for two parts of which it is known that they do not overlap deeper: `duplicate`, `kissing`, `clearance` or
+/// none.
+DISMANTLE_API std::optional<ContactClass> classify_apart(const DepthBody& a, const DepthBody& b, double tolerance,
+                                                         double near);
+
 /// The same for two parts of which the depth is known and more than twice the tolerance.
 DISMANTLE_API PairContact classify_overlap(const DepthBody& a, const DepthBody& b, const Penetration& deepest,
                                            double tolerance);
