@@ -77,7 +77,8 @@ PlanOverlap read_overlap(const Place& place, const Names& parts) {
   place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis"});
   PlanOverlap o{read_part(place.at("a"), parts), read_part(place.at("b"), parts), place.at("depth").number_from_zero()};
   if (o.a == o.b) place.fail("a part cannot overlap itself");
-  if (!place.has("class")) return o;
+  const auto says = [&](const char* key) { return place.has(key); };
+  if (std::ranges::none_of(std::array{"class", "at", "region", "share", "axis"}, says)) return o;
   place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis"});
   const auto contact = contact_class_from_string(place.at("class").text());
   if (!contact) place.at("class").fail("expected the class of a contact, as in \"uniform_interference\"");
