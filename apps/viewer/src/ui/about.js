@@ -26,5 +26,5 @@ export function makeAbout(app) {
   return element('div.pane', {}, element('dl.facts.wide', {}, rows),
     overlaps.length === 0 ? null : element('details', {}, element('summary', {}, `${counted(overlaps.length, 'pair')} overlap when assembled`),
       element('p.note', {}, 'Usual in CAD: allowed as it was, for this pair alone.'),
-      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size`)))));
+      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size${o.class ? `, ${o.class.replaceAll('_', ' ')}` : ''}`)))));
 }

@@ -30,6 +30,8 @@ constexpr double kUniformShare = 0.5, kUniformMean = 0.5, kDeepCell = 0.5;
 /// Cells are not divided below this share of the depth.
 constexpr double kFinestCell = 0.5;
 
+Aabb common_box(const Aabb& a, const Aabb& b) { return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)}; }
+
 double smaller_diagonal(const Field& a, const Field& b) {
   return std::min(a.box().size().norm(), b.box().size().norm());
 }
@@ -100,7 +102,8 @@ OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest
   sum.add(survey(b, a, reach, finest), reach, deepest.depth, tolerance, -1);
   OverlapPlace place;
   place.at = deepest.point;
-  place.region = sum.region;
+  // Cells at the border of the overlap reach out of it, and no part of it is outside either box.
+  if (!sum.region.empty()) place.region = common_box(sum.region, common_box(a.box(), b.box()));
   place.region.extend(deepest.point);
   place.share = sum.near_area > 0 ? sum.area / sum.near_area : 0;
   if (const auto axis = round_axis(sum.deep)) {
@@ -131,7 +134,7 @@ bool within(const Field& a, const Field& b, double distance) {
 }
 
 OverlapPlace place_of_duplicate(const Field& a, const Field& b) {
-  const Aabb common{a.box().lo.cwiseMax(b.box().lo), a.box().hi.cwiseMin(b.box().hi)};
+  const Aabb common = common_box(a.box(), b.box());
   return {ContactClass::duplicate, common.center(), common, 1};
 }
 
