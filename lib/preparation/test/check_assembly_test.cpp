@@ -109,45 +109,44 @@ const CheckedContact* contact_of(const AssemblyCheck& check, const std::string& 
 /// Every sample that overlaps: its contacts have the class and the depth of its truth, in input units, in the check and
 /// in the assembly; what is clean has no overlap.
 TEST(CheckAssembly, ContactsOfSamplesAreThoseOfTheirTruth) {
-  for (const samples::Sample& sample : samples::list())
-    for (const std::int64_t seed : {0, 7}) {
-      const samples::Model model = samples::make_model(sample.name, {{"rotate_seed", seed}});
-      PrepareOptions options;
-      options.drop_duplicates = false;
-      RunContext context;
-      PrepareReport report;
-      const Assembly assembly = prepare_assembly(model.parts, sample.name, "", options, context, report);
-      const AssemblyCheck check = check_assembly(assembly, report, kTolerance, context);
-      SCOPED_TRACE(sample.name);
-      const double scale = assembly.normalization.scale;
-      std::size_t overlapping = 0;
-      for (const CheckedContact& c : check.contacts)
-        if (c.place.contact != ContactClass::clearance && c.place.contact != ContactClass::kissing) ++overlapping;
-      EXPECT_EQ(overlapping, model.truth.contacts.size());
-      for (const samples::TruthContact& truth : model.truth.contacts) {
-        const CheckedContact* found = contact_of(check, truth.a, truth.b);
-        ASSERT_TRUE(found) << truth.a << " " << truth.b;
-        EXPECT_EQ(to_string(found->place.contact), to_string(truth.contact));
-        EXPECT_NEAR(found->depth, truth.depth, truth.depth_error + 0.01 * truth.depth + 2 * kTolerance / scale);
-        EXPECT_EQ(found->place.axis.has_value(), truth.contact == ContactClass::uniform_interference);
-        const bool reported = std::any_of(check.findings.begin(), check.findings.end(), [&](const Finding& f) {
-          return f.contact == truth.contact &&
-                 std::is_permutation(f.parts.begin(), f.parts.end(), std::vector{truth.a, truth.b}.begin());
-        });
-        EXPECT_TRUE(reported);
-      }
-      for (const InitialOverlap& o : assembly.overlaps) {
-        ASSERT_TRUE(o.place);
-        const CheckedContact* found = contact_of(check, assembly.parts[o.a].name, assembly.parts[o.b].name);
-        ASSERT_TRUE(found);
-        EXPECT_EQ(found->place.contact, o.place->contact);
-        Aabb region = o.place->region;
-        region.inflate(1e-9);
-        EXPECT_TRUE(region.contains(o.place->at));
-      }
-      const auto json = nlohmann::json::parse(findings_json(check));
-      EXPECT_EQ(json["contacts"].size(), check.contacts.size());
+  for (const samples::Sample& sample : samples::list()) {
+    const samples::Model model = samples::make_model(sample.name, {{"rotate_seed", std::int64_t{7}}});
+    PrepareOptions options;
+    options.drop_duplicates = false;
+    RunContext context;
+    PrepareReport report;
+    const Assembly assembly = prepare_assembly(model.parts, sample.name, "", options, context, report);
+    const AssemblyCheck check = check_assembly(assembly, report, kTolerance, context);
+    SCOPED_TRACE(sample.name);
+    const double scale = assembly.normalization.scale;
+    std::size_t overlapping = 0;
+    for (const CheckedContact& c : check.contacts)
+      if (c.place.contact != ContactClass::clearance && c.place.contact != ContactClass::kissing) ++overlapping;
+    EXPECT_EQ(overlapping, model.truth.contacts.size());
+    for (const samples::TruthContact& truth : model.truth.contacts) {
+      const CheckedContact* found = contact_of(check, truth.a, truth.b);
+      ASSERT_TRUE(found) << truth.a << " " << truth.b;
+      EXPECT_EQ(to_string(found->place.contact), to_string(truth.contact));
+      EXPECT_NEAR(found->depth, truth.depth, truth.depth_error + 0.01 * truth.depth + 2 * kTolerance / scale);
+      EXPECT_EQ(found->place.axis.has_value(), truth.contact == ContactClass::uniform_interference);
+      const bool reported = std::any_of(check.findings.begin(), check.findings.end(), [&](const Finding& f) {
+        return f.contact == truth.contact &&
+               std::is_permutation(f.parts.begin(), f.parts.end(), std::vector{truth.a, truth.b}.begin());
+      });
+      EXPECT_TRUE(reported);
     }
+    for (const InitialOverlap& o : assembly.overlaps) {
+      ASSERT_TRUE(o.place);
+      const CheckedContact* found = contact_of(check, assembly.parts[o.a].name, assembly.parts[o.b].name);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->place.contact, o.place->contact);
+      Aabb region = o.place->region;
+      region.inflate(1e-9);
+      EXPECT_TRUE(region.contains(o.place->at));
+    }
+    const auto json = nlohmann::json::parse(findings_json(check));
+    EXPECT_EQ(json["contacts"].size(), check.contacts.size());
+  }
 }
 
 TEST(CheckAssembly, JsonHoldsEveryFinding) {

@@ -51,7 +51,7 @@ std::string add_part(Model& model, std::string name, Mesh mesh);
 TruthStep slide(const std::string& part, const Point& way, bool out);
 
 /// The straight motion that slide() makes.
-Screw along(const Point& way);
+Screw along(const Point& travel);
 
 /// Adds `clearance` with the doc that all samples share.
 template <class Params>

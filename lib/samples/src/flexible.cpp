@@ -159,13 +159,13 @@ Model gear_pair(const GearParams& p) {
   Mesh other = gear(p.teeth_b, pi + pi / p.teeth_b);  // a gap where the first gear has a tooth
   for (Point& v : other.vertices) v.x() += p.module * (p.teeth_a + p.teeth_b) / 2 - p.cut;
   add_part(model, "gear_b", std::move(other));
-  const Point way(0, 0, 1.2 * p.width);
+  const Point travel(0, 0, 1.2 * p.width);
   model.truth.base = "gear_a";
-  model.truth.steps.push_back(slide("gear_b", way, true));
+  model.truth.steps.push_back(slide("gear_b", travel, true));
   // Involutes that come nearer by `cut` approach by this along the line of action, at every tooth in contact.
   const double depth = p.cut * std::sin(kPressureAngle);
   model.truth.contacts.push_back(
-      {"gear_b", "gear_a", ContactClass::local_interference, depth, 0.25 * depth + 0.002 * p.module, along(way)});
+      {"gear_b", "gear_a", ContactClass::local_interference, depth, 0.25 * depth + 0.002 * p.module, along(travel)});
   return model;
 }
 

@@ -33,11 +33,11 @@ Model pressed_pin(const PressedPinParams& p) {
   const double bottom = -0.1 * p.length;
   add_part(model, "pin",
            Loft().to(circle(r, bottom, p.segments)).to(circle(r, bottom + p.length, p.segments)).capped());
-  const Point way(0, 0, top - bottom + 0.1 * p.length);
+  const Point travel(0, 0, top - bottom + 0.1 * p.length);
   model.truth.base = "plate";
-  model.truth.steps.push_back(slide("pin", way, true));
+  model.truth.steps.push_back(slide("pin", travel, true));
   model.truth.contacts.push_back(
-      {"pin", "plate", ContactClass::uniform_interference, p.interference / 2, 0, along(way)});
+      {"pin", "plate", ContactClass::uniform_interference, p.interference / 2, 0, along(travel)});
   return model;
 }
 
@@ -96,11 +96,11 @@ Model plain_bore_screw(const PlainBoreParams& p) {
   plate.to(rectangle(2 * d, 2 * d, gap)).to(rectangle(2 * d, 2 * d, top));
   plate.to(circle(bore, top, p.segments)).to(circle(bore, gap, p.segments));
   add_part(model, "plate", plate.ring());
-  const Point way(0, 0, -(tip - gap + 0.2 * d));
+  const Point travel(0, 0, -(tip - gap + 0.2 * d));
   model.truth.base = "plate";
-  model.truth.steps.push_back(slide("screw", way, true));
+  model.truth.steps.push_back(slide("screw", travel, true));
   const double facets = r * (1 - std::cos(pi / p.segments));
-  model.truth.contacts.push_back({"screw", "plate", ContactClass::uniform_interference, p.bite, facets, along(way)});
+  model.truth.contacts.push_back({"screw", "plate", ContactClass::uniform_interference, p.bite, facets, along(travel)});
   return model;
 }
 
@@ -148,10 +148,10 @@ Model o_ring(const ORingParams& p) {
     ring.to(section);
   }
   add_part(model, "ring", ring.ring());
-  const Point way(0, 0, length + 2 * over);
+  const Point travel(0, 0, length + 2 * over);
   const double facets = (floor + w) * (1 - std::cos(pi / p.segments)) + w * (1 - std::cos(pi / kSides));
   model.truth.contacts.push_back(
-      {"ring", "housing", ContactClass::uniform_interference, p.squeeze, facets, along(way)});
+      {"ring", "housing", ContactClass::uniform_interference, p.squeeze, facets, along(travel)});
   model.truth.contacts.push_back({"ring", "shaft", ContactClass::uniform_interference, p.squeeze, facets, {}});
   return model;
 }

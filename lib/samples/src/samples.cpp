@@ -102,7 +102,7 @@ std::string add_part(Model& model, std::string name, Mesh mesh) {
   return name;
 }
 
-Screw along(const Point& way) { return {way.normalized(), Point::Zero(), 0.0, way.norm()}; }
+Screw along(const Point& travel) { return {travel.normalized(), Point::Zero(), 0.0, travel.norm()}; }
 
 TruthStep slide(const std::string& part, const Point& way, bool out) {
   TruthStep step;

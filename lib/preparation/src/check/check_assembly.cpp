@@ -195,7 +195,8 @@ class Geometry {
       case ContactClass::uniform_interference:
         overlaps(pair.place.axis ? "all around an axis" : "over a whole face");
         finding.advice =
-            deep ? mend : "nothing, if this is a press fit, or a screw without its thread; else correct the model";
+            deep ? mend
+                 : "nothing, if this is a press fit, a seal, or a screw without its thread; else correct the model";
         break;
       default:
         overlaps("in a small region");
