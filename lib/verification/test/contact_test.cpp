@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -145,6 +146,31 @@ TEST(Contact, BallsOnPlatesAreLocal) {
     const double half_chord = std::sqrt(2 * r * depth);
     EXPECT_LT((found->place.region.center() - pose * Eigen::Vector3d(x, 1, 0)).norm(), half_chord);
     EXPECT_LT(found->place.region.size().norm(), 6 * half_chord);
+  }
+}
+
+/// Facets of pin and hole need not match, and neither need be round: the overlap is deep enough on every side.
+TEST(Contact, PressFitsOfUnequalFacetsAndOfPrismsAreUniform) {
+  Rng rng(47);
+  for (int i = 0; i < 30; ++i) {
+    const Pose pose = shapes::random_pose(rng, 5);
+    const bool prism = i % 3 == 0;
+    const int around = prism ? 4 + static_cast<int>(rng.below(3)) : 16 + static_cast<int>(rng.below(80));
+    const int of_hole = prism ? around : 16 + static_cast<int>(rng.below(80));
+    const double r = rng.uniform(0.5, 1.5), stray = r * (1 - std::cos(std::numbers::pi / std::min(around, of_hole)));
+    const double press = prism ? rng.uniform(0.02, 0.1) : std::max(rng.uniform(0.02, 0.05), 3 * stray);
+    const double phase = prism ? 0 : rng.uniform(0, 1);
+    const Mesh bush = shapes::tube(r, 2.5 * r, -1, 1, of_hole),
+               pin = shapes::tube(0, r + press, -1.5, 1.5, around, 1, phase);
+    const auto found = classify_contact(DepthBody(shapes::moved(pin, pose)), DepthBody(shapes::moved(bush, pose)),
+                                        kContactTolerance, kContactNear);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(to_string(found->place.contact), to_string(ContactClass::uniform_interference))
+        << around << " in " << of_hole << ", share " << found->place.share;
+    ASSERT_TRUE(found->place.axis);
+    EXPECT_GT(std::abs(found->place.axis->dot(pose.q * Eigen::Vector3d::UnitZ())), 0.99);
+    const Eigen::Vector3d arm = found->place.axis_point - pose.t;
+    EXPECT_LT((arm - arm.dot(*found->place.axis) * *found->place.axis).norm(), 0.05 * r);
   }
 }
 
