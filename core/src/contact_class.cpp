@@ -1,32 +1,17 @@
 #include "dismantle/contact_class.h"
 
 #include <array>
-#include <utility>
 
 namespace dismantle {
 
-namespace {
+constexpr std::array<std::string_view, 6> kContactNames{"clearance",          "kissing",   "uniform_interference",
+                                                        "local_interference", "duplicate", "inside"};
 
-constexpr std::array<std::pair<ContactClass, std::string_view>, 6> kContactNames{{
-    {ContactClass::clearance, "clearance"},
-    {ContactClass::kissing, "kissing"},
-    {ContactClass::uniform_interference, "uniform_interference"},
-    {ContactClass::local_interference, "local_interference"},
-    {ContactClass::duplicate, "duplicate"},
-    {ContactClass::inside, "inside"},
-}};
-
-}  // namespace
-
-std::string_view to_string(ContactClass contact) {
-  for (const auto& [value, name] : kContactNames)
-    if (value == contact) return name;
-  return "unknown";
-}
+std::string_view to_string(ContactClass contact) { return kContactNames.at(static_cast<std::size_t>(contact)); }
 
 std::optional<ContactClass> contact_class_from_string(std::string_view text) {
-  for (const auto& [value, name] : kContactNames)
-    if (name == text) return value;
+  for (std::size_t i = 0; i < kContactNames.size(); ++i)
+    if (kContactNames[i] == text) return static_cast<ContactClass>(i);
   return std::nullopt;
 }
 

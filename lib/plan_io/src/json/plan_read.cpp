@@ -74,12 +74,13 @@ Aabb read_box(const Place& place) {
 
 /// Files of older versions do not say what kind of overlap it is.
 PlanOverlap read_overlap(const Place& place, const Names& parts) {
-  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis"});
+  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis", "declared"});
   PlanOverlap o{read_part(place.at("a"), parts), read_part(place.at("b"), parts), place.at("depth").number_from_zero()};
   if (o.a == o.b) place.fail("a part cannot overlap itself");
+  if (place.has("declared")) o.declared = place.at("declared").number_from_zero();
   const auto says = [&](const char* key) { return place.has(key); };
   if (std::ranges::none_of(std::array{"class", "at", "region", "share", "axis"}, says)) return o;
-  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis"});
+  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis", "declared"});
   const auto contact = contact_class_from_string(place.at("class").text());
   if (!contact) place.at("class").fail("expected the class of a contact, as in \"uniform_interference\"");
   o.place = OverlapPlace{*contact, read_vector(place.at("at")), read_box(place.at("region")),
@@ -159,10 +160,10 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   // Assembly steps are verified as the reverse of the disassembly; other programs need not repeat its figures.
   if (kind == StepKind::disassembly)
     place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"},
-                 {"after", "layer"});
+                 {"after", "layer", "forced", "overlaps"});
   else
     place.object({"step", "moves"},
-                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
+                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts", "forced"});
   PlanStep s;
   s.step = place.at("step").small_count();
   if (s.step != number) place.at("step").fail(fmt::format("expected {}: steps are numbered in order", number));
@@ -189,6 +190,28 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
       if (s.after.back() == 0 || s.after.back() >= number) item.fail("expected the number of an earlier step");
     }
   if (place.has("layer")) s.layer = place.at("layer").small_count();
+  if (place.has("overlaps"))
+    for (const Place& item : place.at("overlaps").items()) {
+      item.object({"pair", "assembled", "allowed", "depth"});
+      const auto pair = item.at("pair").items();
+      if (pair.size() != 2) item.at("pair").fail("expected two parts");
+      s.overlaps.push_back({read_part(pair[0], parts), read_part(pair[1], parts),
+                            item.at("assembled").number_from_zero(), item.at("allowed").number_from_zero(),
+                            item.at("depth").number_from_zero()});
+    }
+  if (place.has("forced")) {
+    const Place forced = place.at("forced");
+    forced.object({"pair", "depth", "assembled", "at", "reason"}, {"certificate"});
+    const auto pair = forced.at("pair").items();
+    if (pair.size() != 2) forced.at("pair").fail("expected two parts");
+    s.forced = PlanForced{read_part(pair[0], parts),
+                          read_part(pair[1], parts),
+                          forced.at("depth").number_from_zero(),
+                          forced.at("assembled").number_from_zero(),
+                          read_vector(forced.at("at")),
+                          forced.at("reason").text()};
+    if (forced.has("certificate")) s.forced->certificate = forced.at("certificate").count();
+  }
   return s;
 }
 
@@ -274,8 +297,11 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   plan.generator_version = generator.at("version").text();
   plan.assembly = read_assembly(root.at("assembly"), parts);
   const std::string status = root.at("status").text();
-  if (status != "complete" && status != "partial") root.at("status").fail("expected \"complete\" or \"partial\"");
-  plan.status = status == "complete" ? PlanStatus::complete : PlanStatus::partial;
+  if (status != "complete" && status != "forced" && status != "partial")
+    root.at("status").fail("expected \"complete\", \"forced\" or \"partial\"");
+  plan.status = status == "complete" ? PlanStatus::complete
+                : status == "forced" ? PlanStatus::forced
+                                     : PlanStatus::partial;
   plan.seed = root.at("seed").count();
   plan.verified_max_penetration = root.at("verified_max_penetration").positive();
   plan.disassembly = read_steps(root.at("disassembly"), StepKind::disassembly, parts);
@@ -290,6 +316,13 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
     if (plan.unsolved[i].certificate && *plan.unsolved[i].certificate >= plan.certificates.size())
       root.at("unsolved").items()[i].at("certificate").fail("there is no such certificate");
+  const auto check_forced = [&](const std::vector<PlanStep>& steps, const char* key) {
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      if (steps[i].forced && steps[i].forced->certificate && *steps[i].forced->certificate >= plan.certificates.size())
+        root.at(key).items()[i].at("forced").at("certificate").fail("there is no such certificate");
+  };
+  check_forced(plan.disassembly, "disassembly");
+  check_forced(plan.assembly_steps, "assembly_steps");
   return plan;
 }
 

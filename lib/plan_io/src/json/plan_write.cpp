@@ -50,6 +50,20 @@ Json step_json(const PlanStep& s, bool assembly) {
   if (!assembly) {
     out["after"] = s.after;
     out["layer"] = s.layer;
+    for (const PlanStepOverlap& o : s.overlaps)
+      out["overlaps"].push_back({{"pair", Json::array({o.part, o.other})},
+                                 {"assembled", o.assembled},
+                                 {"allowed", o.allowed},
+                                 {"depth", o.depth}});
+  }
+  if (s.forced) {
+    Json& forced = out["forced"];
+    forced = {{"pair", Json::array({s.forced->part, s.forced->other})},
+              {"depth", s.forced->depth},
+              {"assembled", s.forced->assembled},
+              {"at", vector_json(s.forced->at)},
+              {"reason", s.forced->reason}};
+    if (s.forced->certificate) forced["certificate"] = *s.forced->certificate;
   }
   return out;
 }
@@ -79,6 +93,7 @@ Json box_json(const Aabb& box) { return Json::array({vector_json(box.lo), vector
 
 Json overlap_json(const PlanOverlap& o) {
   Json out = {{"a", o.a}, {"b", o.b}, {"depth", o.depth}};
+  if (o.declared) out["declared"] = *o.declared;
   if (!o.place) return out;
   out["class"] = std::string(to_string(o.place->contact));
   out["at"] = vector_json(o.place->at);
@@ -136,6 +151,18 @@ Json certificates_json(const std::vector<PlanCertificate>& certificates) {
 
 }  // namespace
 
+std::string_view to_string(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::complete:
+      return "complete";
+    case PlanStatus::forced:
+      return "forced";
+    case PlanStatus::partial:
+      return "partial";
+  }
+  return "partial";
+}
+
 std::string_view to_string(AssemblyStatus status) {
   switch (status) {
     case AssemblyStatus::complete:
@@ -174,7 +201,7 @@ std::string to_json(const Plan& plan) {
   out["version"] = 1;
   out["generator"] = {{"name", plan.generator_name}, {"version", plan.generator_version}};
   out["assembly"] = assembly_json(plan.assembly);
-  out["status"] = plan.status == PlanStatus::complete ? "complete" : "partial";
+  out["status"] = std::string(to_string(plan.status));
   out["seed"] = plan.seed;
   out["verified_max_penetration"] = plan.verified_max_penetration;
   out["disassembly"] = steps_json(plan.disassembly, false);
