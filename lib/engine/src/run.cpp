@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -12,9 +13,11 @@
 #include "assembler.h"
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "force_steps.h"
 #include "oracle.h"
 #include "plan_builder.h"
 #include "precedence.h"
+#include "step_overlaps.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -228,6 +231,9 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
+  const bool forces = options.force.when == ForceWhen::last_resort && !only_one;
+  if (const double left = context.deadline.seconds_left(); forces && std::isfinite(left))
+    own.deadline = Deadline::after_seconds((1 - options.force.share) * left);
   if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
 
   RunResult result;
@@ -268,6 +274,12 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
     prove_left(unsolved, builder.left(), oracle, options.proofs, own);
     builder.set_unsolved(unsolved, places);
+    own.deadline = context.deadline;
+    if (forces && prepared && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
+      ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options)
+          .run(sequence.outcome == Outcome::timeout, own);
+      builder.drop_solved();
+    }
   }
   AssemblyPlan back;
   const bool puts_together =
@@ -285,6 +297,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   parallel_for(
       2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
   builder.set_needed(needed);
+  builder.set_overlaps(step_overlaps(builder.recorded(), assembly, verifier, options.named_overlap, own));
   for (const auto& [a, b] : part_precedence(builder.recorded(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
   if (puts_together) builder.set_assembly(std::move(back.steps), back.status, std::move(back.message));
