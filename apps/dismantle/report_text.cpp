@@ -19,8 +19,11 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::names_of(step), width));
     if (bad)
       out += "NOT VALID\n";
+    else if (step.forced)
+      out += fmt::format("FORCED: {}; measured again\n", forced_text(plan, *step.forced));
     else if (i < check.step_penetration.size())
-      out += fmt::format("valid, penetration <= {}\n", length_text(plan, check.step_penetration[i] / scale));
+      out += fmt::format("valid, penetration <= {}\n{}", length_text(plan, check.step_penetration[i] / scale),
+                         overlaps_text(plan, step));
     else
       out += "not checked\n";
   }
@@ -28,9 +31,11 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
-  out +=
-      fmt::format("The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
-                  check.complete ? "complete" : "partial: some parts are still together");
+  out += fmt::format(
+      "The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
+      check.complete                      ? "complete"
+      : plan.status == PlanStatus::forced ? "forced: all parts are apart, some by steps that cut into other parts"
+                                          : "partial: some parts are still together");
   return out;
 }
 
