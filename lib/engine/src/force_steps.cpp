@@ -23,8 +23,8 @@ constexpr double kCoarse = 8;         // resolution of the first measurement, in
 constexpr double kCoarseShare = 0.1;  // or this share of the depth
 constexpr std::uint64_t kCoarsePoses = 200;
 constexpr double kFineShare = 0.03;  // of the depth, in the statement
-constexpr std::uint64_t kFinePoses = 1000;
-constexpr std::size_t kFinalists = 6;            // measured again, exactly
+constexpr std::uint64_t kFinePoses = 400;
+constexpr std::size_t kFinalists = 4;            // measured again, more exactly
 constexpr double kAlike = 0.9;                   // cosine: directions of one set of parts differ by 25 degrees
 constexpr std::size_t kOfOneSet = 4;             // motions of the same parts that are measured, at least
 constexpr double kShareOfPlanning = 0.5;         // of the time that is left, for verified steps between forced ones
@@ -92,7 +92,7 @@ const ForcedMotion* ForceSteps::best_of(const std::vector<const ForcedMotion*>& 
   }
   std::stable_sort(measured.begin(), measured.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   const double worth_a_look = unsure(least);
-  options = {tolerance, kFineShare, std::numeric_limits<double>::infinity(), kFinePoses};
+  options = {2 * tolerance, kFineShare, std::numeric_limits<double>::infinity(), kFinePoses};
   const ForcedMotion* best = nullptr;
   for (std::size_t k = 0; k < measured.size() && k < kFinalists && measured[k].first <= worth_a_look; ++k) {
     const auto found = motions_.depth(*measured[k].second, options, context);
