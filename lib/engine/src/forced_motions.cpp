@@ -298,8 +298,47 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
   return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
 }
 
+/// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
+/// than `enough`; nothing when there is none among those that were tried. Measuring a deep overlap to its end takes
+/// seconds for large parts, and a motion that cuts in deeper than another needs no more than a witness.
+std::optional<MotionDepth> ForcedMotions::sampled_depth(const ForcedMotion& motion, double enough) const {
+  constexpr std::size_t kInstants = 6;
+  const Path all = path(motion);
+  const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
+    const double allowed = assembly_.initial_overlap(of.part, in.part);
+    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / (2 * kRays));
+    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
+      const Pose back = (in.pose * solid.frame).inverse() * of.pose;
+      for (std::size_t v = 0; v < vertices.size(); v += stride) {
+        const Vec3 x = back * vertices[v];
+        if ((x - x.cwiseMax(solid.box.lo).cwiseMin(solid.box.hi)).squaredNorm() > 0) continue;
+        const double depth = -solid.bvh.signed_distance(x);
+        if (depth > allowed + enough)
+          return MotionDepth{of.part, in.part, depth, allowed, of.pose * vertices[v], false};
+      }
+    }
+    return {};
+  };
+  for (std::size_t k = 1; k < kInstants; ++k) {
+    const double at = static_cast<double>(k * (all.size() - 1)) / kInstants;
+    const auto i = static_cast<std::size_t>(at);
+    for (std::size_t m = 0; m < motion.moving.size(); ++m) {
+      const PlacedPart now{motion.moving[m].part,
+                           screw_interpolate(all[i][m], all[i + 1][m], at - static_cast<double>(i))};
+      for (const PlacedPart& other : motion.fixed) {
+        if (auto found = try_points(now, other)) return found;
+        if (auto found = try_points(other, now)) return found;
+      }
+    }
+  }
+  return {};
+}
+
 std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                                 const RunContext& context) {
+  if (std::isfinite(options.stop_above))
+    if (auto found = sampled_depth(motion, options.stop_above)) return found;
   if (!motion.straight()) return depth(motion, path(motion), options, context);
   std::optional<MotionDepth> worst;
   const auto take = [&](const std::optional<MotionDepth>& found) {

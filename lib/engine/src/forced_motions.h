@@ -64,6 +64,7 @@ class ForcedMotions {
   std::vector<Eigen::Vector3d> directions(const Placed& group);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
   const std::vector<geometry::Twist>& turns(PartId part);
+  std::optional<MotionDepth> sampled_depth(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
