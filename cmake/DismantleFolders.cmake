@@ -5,7 +5,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
-  planners/path/navigation_tree planners/path/portfolio planners/path/rrt
+  planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/transfer/rrt_connect

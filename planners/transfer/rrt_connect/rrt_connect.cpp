@@ -136,8 +136,9 @@ class RrtConnect final : public TransferPlanner {
       for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
         status = trees.solve(stop);
         if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
-        std::size_t edge = 0;  // both trees begin anew all the same
+        std::size_t edge = 0;  // not used: both trees begin anew
         if (candidates.accepts(problem, trees.solution(), result, edge, query.goal)) break;
+        trees.clear();
       }
       result.stats.nodes += trees.nodes();
       if (result.outcome() == Outcome::solved) {

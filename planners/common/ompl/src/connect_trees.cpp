@@ -9,38 +9,28 @@ namespace dismantle::sampling {
 
 namespace ob = ompl::base;
 
-std::uint32_t ConnectTrees::Tree::add(const StateType& state, std::uint32_t parent) {
-  nodes.push_back({state, parent});
-  return near.add(state.center);
-}
-
-std::vector<SamplingProblem::StateType> ConnectTrees::Tree::to_root(std::uint32_t node) const {
-  std::vector<StateType> states;
-  for (std::uint32_t n = node; n != 0; n = nodes[n].parent) states.push_back(nodes[n].state);
-  states.push_back(nodes[0].state);
-  return states;
-}
-
 ConnectTrees::ConnectTrees(SamplingProblem& problem, double range, const Rng& rng)
-    : Planner(problem.information(), "ConnectTrees"), problem_(problem), range_(range), rng_(rng) {}
+    : Planner(problem.information(), "ConnectTrees"),
+      problem_(problem),
+      range_(range),
+      rng_(rng),
+      trees_{StateTree(problem.space()), StateTree(problem.space())} {}
 
 void ConnectTrees::clear() {
   Planner::clear();
-  for (Tree& tree : trees_) {
-    grown_ += tree.nodes.size();
-    tree = {};
+  for (StateTree& tree : trees_) {
+    grown_ += tree.size();
+    tree.clear();
   }
+  growing_ = 0;
+  connection_.reset();
+  sampled_ = 0;
   solution_.clear();
 }
 
-std::uint32_t ConnectTrees::nearest(const Tree& tree, const StateType& state) const {
-  return tree.near.nearest(state.center,
-                           [&](std::uint32_t n) { return problem_.space().distance(tree.nodes[n].state, state); });
-}
-
-std::optional<std::uint32_t> ConnectTrees::extend(Tree& tree, std::uint32_t node, const StateType& target) {
+std::optional<std::uint32_t> ConnectTrees::extend(StateTree& tree, std::uint32_t node, const StateType& target) {
   const auto& space = problem_.space();
-  const StateType from = tree.nodes[node].state;
+  const StateType from = tree.state(node);
   const double way = space.distance(from, target);
   if (!(way > 0)) return std::nullopt;
   const StateType to = way <= range_ ? target : space.between(from, target, range_ / way);
@@ -49,46 +39,95 @@ std::optional<std::uint32_t> ConnectTrees::extend(Tree& tree, std::uint32_t node
   return tree.add(share < 1 ? space.between(from, to, share) : to, node);
 }
 
-void ConnectTrees::report(std::uint32_t in_first, std::uint32_t in_second) {
-  solution_ = trees_[0].to_root(in_first);
-  std::reverse(solution_.begin(), solution_.end());
-  const auto rest = trees_[1].to_root(in_second);  // begins with the state that ends the first
-  solution_.insert(solution_.end(), rest.begin() + 1, rest.end());
+void ConnectTrees::report(std::uint32_t in_first, std::optional<std::uint32_t> in_second) {
+  child_of_edge_ = trees_[0].to_root(in_first);
+  std::reverse(child_of_edge_.begin(), child_of_edge_.end());
+  solution_.clear();
+  for (const auto n : child_of_edge_) solution_.push_back(trees_[0].state(n));
+  child_of_edge_.erase(child_of_edge_.begin());  // the root ends no edge
+  edges_of_first_ = child_of_edge_.size();
+  if (in_second) {
+    auto rest = trees_[1].to_root(*in_second);  // begins with the state that ends the first
+    for (auto n = rest.begin() + 1; n != rest.end(); ++n) solution_.push_back(trees_[1].state(*n));
+    rest.pop_back();
+    child_of_edge_.insert(child_of_edge_.end(), rest.begin(), rest.end());
+  }
   auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
   for (const auto& s : solution_) path->append(&s);
   getProblemDefinition()->clearSolutionPaths();
   getProblemDefinition()->addSolutionPath(path, false, 0, getName());
 }
 
+void ConnectTrees::discard(std::size_t edge) {
+  trees_[edge <= edges_of_first_ ? 0 : 1].discard(child_of_edge_.at(edge - 1));
+  solution_.clear();
+  next_iteration();
+}
+
+void ConnectTrees::add_root(const ob::GoalSampleableRegion& goal) {
+  if (sampled_ >= goal.maxSampleCount()) return;
+  ++sampled_;
+  StateType root;
+  goal.sampleGoal(&root);
+  if (!problem_.is_free(root)) return;
+  trees_[1].add_root(root);
+  growing_ = 0;
+  target_ = root;
+}
+
+void ConnectTrees::next_iteration() {
+  connection_.reset();
+  growing_ = 1 - growing_;
+  problem_.space().draw(rng_, target_);
+}
+
 ob::PlannerStatus ConnectTrees::solve(const ob::PlannerTerminationCondition& stop) {
   checkValidity();
-  clear();
-  const auto* goal = dynamic_cast<const ob::GoalState*>(getProblemDefinition()->getGoal().get());
+  const auto* goal = dynamic_cast<const ob::GoalSampleableRegion*>(getProblemDefinition()->getGoal().get());
   if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
-  const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
-  const auto end = *static_cast<const StateType*>(goal->getState());
-  if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
-  if (!problem_.is_free(end)) return ob::PlannerStatus::INVALID_GOAL;
-  trees_[0].add(start, 0);
-  trees_[1].add(end, 0);
-
-  StateType target = end;
-  for (int growing = 0; !stop(); growing = 1 - growing) {
-    Tree& a = trees_[growing];
-    Tree& b = trees_[1 - growing];
-    if (const auto grown = extend(a, nearest(a, target), target)) {
-      const StateType meeting = a.nodes[*grown].state;
-      std::uint32_t at = nearest(b, meeting);
-      while (!stop()) {
-        const auto next = extend(b, at, meeting);
-        if (!next) break;
-        at = *next;
-        if (problem_.space().distance(b.nodes[at].state, meeting) > 0) continue;
-        growing == 0 ? report(*grown, at) : report(at, *grown);
+  // A single state is reached where the trees meet, a region by any state of it.
+  const bool is_region = dynamic_cast<const ob::GoalState*>(goal) == nullptr;
+  if (trees_[0].size() == 0) {
+    const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
+    if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
+    trees_[0].add_root(start);
+  }
+  while (!stop()) {
+    if (!connection_) {
+      ++iterations_;
+      add_root(*goal);
+      if (trees_[1].size() == 0) return ob::PlannerStatus::INVALID_GOAL;
+      StateTree& a = trees_[growing_];
+      const auto grown = extend(a, a.nearest(target_), target_);
+      if (!grown) {
+        next_iteration();
+        continue;
+      }
+      if (growing_ == 0 && is_region && goal->isSatisfied(&a.state(*grown))) {
+        report(*grown, std::nullopt);
         return ob::PlannerStatus::EXACT_SOLUTION;
       }
+      connection_ = {*grown, trees_[1 - growing_].nearest(a.state(*grown))};
+      continue;
     }
-    problem_.space().draw(rng_, target);
+    StateTree& b = trees_[1 - growing_];
+    const StateType meeting = trees_[growing_].state(connection_->meeting);
+    const auto next = extend(b, connection_->at, meeting);
+    if (!next) {
+      next_iteration();
+      continue;
+    }
+    connection_->at = *next;
+    const bool met = !(problem_.space().distance(b.state(*next), meeting) > 0);
+    const bool out = !met && growing_ == 1 && is_region && goal->isSatisfied(&b.state(*next));
+    if (!met && !out) continue;
+    if (out)
+      report(*next, std::nullopt);
+    else if (growing_ == 0)
+      report(connection_->meeting, *next);
+    else
+      report(*next, connection_->meeting);
+    return ob::PlannerStatus::EXACT_SOLUTION;
   }
   return ob::PlannerStatus::TIMEOUT;
 }

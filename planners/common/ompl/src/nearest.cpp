@@ -2,14 +2,26 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace dismantle::sampling {
 
 struct NearestNodes::Search {
   Eigen::Vector3d point;
   const std::function<double(std::uint32_t)>& metric;
-  double best = std::numeric_limits<double>::infinity();
-  std::uint32_t label = kNone;
+  std::size_t count = 1;
+  std::vector<std::pair<double, std::uint32_t>> best{};  ///< ascending, at most `count`
+
+  /// Nothing further than this can be among the best.
+  double reach() const { return best.size() < count ? std::numeric_limits<double>::infinity() : best.back().first; }
+  void add(std::uint32_t label) {
+    const std::pair entry(metric(label), label);
+    if (best.size() == count) {
+      if (entry >= best.back()) return;
+      best.pop_back();
+    }
+    best.insert(std::upper_bound(best.begin(), best.end(), entry), entry);
+  }
 };
 
 std::uint32_t NearestNodes::add(const Eigen::Vector3d& point) {
@@ -49,14 +61,8 @@ void NearestNodes::visit(const Tree& tree, std::size_t first, std::size_t last, 
     visit(tree, first, middle, next, search);
   else
     visit(tree, middle + 1, last, next, search);
-  if (!removed_[label] && (points_[label] - search.point).norm() <= search.best) {
-    const double d = search.metric(label);
-    if (d < search.best || (d == search.best && label < search.label)) {
-      search.best = d;
-      search.label = label;
-    }
-  }
-  if (std::abs(off) > search.best) return;
+  if (!removed_[label] && (points_[label] - search.point).norm() <= search.reach()) search.add(label);
+  if (std::abs(off) > search.reach()) return;
   if (off < 0)
     visit(tree, middle + 1, last, next, search);
   else
@@ -65,9 +71,19 @@ void NearestNodes::visit(const Tree& tree, std::size_t first, std::size_t last, 
 
 std::uint32_t NearestNodes::nearest(const Eigen::Vector3d& point,
                                     const std::function<double(std::uint32_t)>& metric) const {
-  Search search{point, metric};
+  const auto labels = nearest(point, metric, 1);
+  return labels.empty() ? kNone : labels.front();
+}
+
+std::vector<std::uint32_t> NearestNodes::nearest(const Eigen::Vector3d& point,
+                                                 const std::function<double(std::uint32_t)>& metric,
+                                                 std::size_t count) const {
+  std::vector<std::uint32_t> labels;
+  if (count == 0) return labels;
+  Search search{point, metric, count};
   for (auto tree = forest_.rbegin(); tree != forest_.rend(); ++tree) visit(*tree, 0, tree->size(), 0, search);
-  return search.label;
+  for (const auto& [metric_of, label] : search.best) labels.push_back(label);
+  return labels;
 }
 
 }  // namespace dismantle::sampling

@@ -16,34 +16,14 @@ TargetTree::TargetTree(SamplingProblem& problem, const Settings& settings, std::
       problem_(problem),
       settings_(settings),
       rule_(std::move(rule)),
-      rng_(rng) {}
+      rng_(rng),
+      tree_(problem.space()) {}
 
 void TargetTree::clear() {
   Planner::clear();
-  nodes_.clear();
-  near_ = {};
+  tree_.clear();
   solution_.clear();
   iterations_ = 0;
-  farthest_ = 0;
-}
-
-std::uint32_t TargetTree::add(const StateType& state, std::uint32_t parent) {
-  nodes_.push_back({state, parent});
-  const std::uint32_t id = near_.add(state.center);
-  const auto way = [&](std::uint32_t n) { return (nodes_[n].state.center - nodes_[0].state.center).squaredNorm(); };
-  if (way(id) > way(farthest_)) farthest_ = id;
-  return id;
-}
-
-std::uint32_t TargetTree::nearest(const StateType& state) const {
-  const auto& space = problem_.space();
-  return near_.nearest(state.center, [&](std::uint32_t n) { return space.distance(nodes_[n].state, state); });
-}
-
-void TargetTree::discard(std::uint32_t node) {
-  near_.remove(node);
-  for (std::uint32_t n = node + 1; n < nodes_.size(); ++n)  // children come after their parents
-    if (near_.removed(nodes_[n].parent) && nodes_[n].parent >= node) near_.remove(n);
 }
 
 /// Returns the first new node that is out, if any.
@@ -51,36 +31,34 @@ std::optional<std::uint32_t> TargetTree::extend(std::uint32_t node, const StateT
                                                 const ob::PlannerTerminationCondition& stop) {
   const auto& space = problem_.space();
   while (true) {
-    const StateType from = nodes_[node].state;
+    const StateType from = tree_.state(node);
     const double way = space.distance(from, target);
     if (!(way > 0)) return std::nullopt;
     const bool last = way <= settings_.range;
     const StateType to = last ? target : space.between(from, target, settings_.range / way);
     const double share = problem_.free_share(from, to);
     if (share <= 0) return std::nullopt;
-    node = add(share < 1 ? space.between(from, to, share) : to, node);
-    if (getProblemDefinition()->getGoal()->isSatisfied(&nodes_[node].state)) return node;
+    node = tree_.add(share < 1 ? space.between(from, to, share) : to, node);
+    if (getProblemDefinition()->getGoal()->isSatisfied(&tree_.state(node))) return node;
     if (share < 1 || last || !greedy || stop()) return std::nullopt;
   }
 }
 
 void TargetTree::report(std::uint32_t node) {
-  solution_.clear();
-  for (std::uint32_t n = node; n != 0; n = nodes_[n].parent) solution_.push_back(n);
-  solution_.push_back(0);
+  solution_ = tree_.to_root(node);
   std::reverse(solution_.begin(), solution_.end());
   auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
-  for (const auto n : solution_) path->append(&nodes_[n].state);
+  for (const auto n : solution_) path->append(&tree_.state(n));
   getProblemDefinition()->clearSolutionPaths();
   getProblemDefinition()->addSolutionPath(path, false, 0, getName());
 }
 
 ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop) {
   checkValidity();
-  if (nodes_.empty()) {
+  if (tree_.size() == 0) {
     const ob::State* start = pis_.nextStart();
     if (start == nullptr) return ob::PlannerStatus::INVALID_START;
-    add(*static_cast<const StateType*>(start), 0);
+    tree_.add_root(*static_cast<const StateType*>(start));
   }
   StateType drawn;
   while (!stop()) {
@@ -92,7 +70,7 @@ ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop)
       out = extend(target->node, target->state, true, stop);
     } else {
       problem_.space().draw(rng_, drawn);
-      out = extend(nearest(drawn), drawn, false, stop);
+      out = extend(tree_.nearest(drawn), drawn, false, stop);
     }
     if (out) {
       report(*out);
@@ -104,12 +82,12 @@ ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop)
 
 void TargetTree::getPlannerData(ob::PlannerData& data) const {
   Planner::getPlannerData(data);
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    if (near_.removed(n)) continue;
+  for (std::uint32_t n = 0; n < tree_.size(); ++n) {
+    if (tree_.discarded(n)) continue;
     if (n == 0)
-      data.addStartVertex(ob::PlannerDataVertex(&nodes_[n].state));
+      data.addStartVertex(ob::PlannerDataVertex(&tree_.state(n)));
     else
-      data.addEdge(ob::PlannerDataVertex(&nodes_[nodes_[n].parent].state), ob::PlannerDataVertex(&nodes_[n].state));
+      data.addEdge(ob::PlannerDataVertex(&tree_.state(tree_.parent(n))), ob::PlannerDataVertex(&tree_.state(n)));
   }
 }
 

@@ -97,6 +97,13 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
     for (std::uint32_t n = 0; n < points.size(); ++n)
       if (!near.removed(n) && (best == NearestNodes::kNone || metric(n) < metric(best))) best = n;
     ASSERT_EQ(near.nearest(q, metric), best);
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t n = 0; n < points.size(); ++n)
+      if (!near.removed(n)) all.push_back(n);
+    std::stable_sort(all.begin(), all.end(), [&](auto a, auto b) { return metric(a) < metric(b); });
+    const std::size_t count = rng.below(9);
+    all.resize(std::min(all.size(), count));
+    ASSERT_EQ(near.nearest(q, metric, count), all);
   }
 }
 

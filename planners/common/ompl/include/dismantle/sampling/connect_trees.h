@@ -2,22 +2,27 @@
 #pragma once
 
 #include <ompl/base/Planner.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "dismantle/sampling/nearest.h"
 #include "dismantle/sampling/sampling_problem.h"
+#include "dismantle/sampling/state_tree.h"
 
 namespace dismantle::sampling {
 
-/// RRT-Connect (Kuffner and LaValle 2000): one tree from the start, one from the goal (the problem's GoalState). In
-/// each iteration one of them extends towards a random state, and the other goes on towards the new node until it gets
-/// there or is blocked; then they change roles. The first random state is the other end itself.
+/// RRT-Connect (Kuffner and LaValle 2000): one tree from the start, one from states of the goal. In each iteration one
+/// of them extends towards a random state, and the other goes on towards the new node until it gets there or is
+/// blocked; then they change roles. A new root of the second tree is the first state that the other extends to.
+///
+/// The problem's goal is a GoalState, or a region that can be sampled: then each iteration adds a root until there are
+/// maxSampleCount(), and a node of the first tree that is in the region ends the search, too.
 ///
 /// Not ompl::geometric::RRTConnect: that draws its seeds from a sequence of the whole process. All random numbers
-/// come from the generator given. solve() again starts with fresh trees and other numbers.
+/// come from the generator given. solve() again goes on with the same trees, unless clear() was called: that begins
+/// anew with other numbers.
 class ConnectTrees final : public ompl::base::Planner {
  public:
   using StateType = SamplingProblem::StateType;
@@ -30,30 +35,35 @@ class ConnectTrees final : public ompl::base::Planner {
 
   /// From start to goal; empty before a solution was found.
   const std::vector<StateType>& solution() const { return solution_; }
-  std::uint64_t nodes() const { return grown_ + trees_[0].nodes.size() + trees_[1].nodes.size(); }
+  /// Takes the motion from state `edge` - 1 to `edge` of the solution out of its tree, with all that grew from it.
+  void discard(std::size_t edge);
+  std::uint64_t nodes() const { return grown_ + trees_[0].size() + trees_[1].size(); }
+  std::uint64_t iterations() const { return iterations_; }
+  const StateTree& from_start() const { return trees_[0]; }
 
  private:
-  struct Node {
-    StateType state;
-    std::uint32_t parent = 0;
+  /// The second of two trees is on its way to the node that the first has got.
+  struct Connection {
+    std::uint32_t meeting = 0, at = 0;
   };
-  struct Tree {
-    std::vector<Node> nodes;
-    NearestNodes near;
-    std::uint32_t add(const StateType& state, std::uint32_t parent);
-    std::vector<StateType> to_root(std::uint32_t node) const;
-  };
-  std::uint32_t nearest(const Tree& tree, const StateType& state) const;
   /// Up to `range` towards the target, as far as it is free. Nothing: not a step.
-  std::optional<std::uint32_t> extend(Tree& tree, std::uint32_t node, const StateType& target);
-  void report(std::uint32_t in_first, std::uint32_t in_second);
+  std::optional<std::uint32_t> extend(StateTree& tree, std::uint32_t node, const StateType& target);
+  void add_root(const ompl::base::GoalSampleableRegion& goal);
+  void next_iteration();
+  void report(std::uint32_t in_first, std::optional<std::uint32_t> in_second);
 
   SamplingProblem& problem_;
   double range_;
   Rng rng_;
-  Tree trees_[2];  // from the start, from the goal
-  std::uint64_t grown_ = 0;
+  StateTree trees_[2];  // from the start, from the goal
+  int growing_ = 0;
+  StateType target_;
+  std::optional<Connection> connection_;
+  unsigned sampled_ = 0;  // states of the goal
+  std::uint64_t grown_ = 0, iterations_ = 0;
   std::vector<StateType> solution_;
+  std::vector<std::uint32_t> child_of_edge_;  // of the solution, by edge - 1: a node of the first tree ...
+  std::size_t edges_of_first_ = 0;            // ... where edge <= this, else of the second
 };
 
 }  // namespace dismantle::sampling

@@ -21,6 +21,9 @@ class NearestNodes {
   /// Label with the least metric(label), of several the lowest; kNone when there is none. The metric must not be
   /// below the distance from `point` to the label's point.
   std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
+  /// Up to `count` labels with the least metric, the nearest first; of equals the lower label first.
+  std::vector<std::uint32_t> nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric,
+                                     std::size_t count) const;
   std::size_t size() const { return points_.size(); }
 
  private:

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "dismantle/sampling/nearest.h"
 #include "dismantle/sampling/sampling_problem.h"
+#include "dismantle/sampling/state_tree.h"
 
 namespace dismantle::sampling {
 
@@ -52,22 +52,17 @@ class TargetTree final : public ompl::base::Planner {
   /// Nodes from the root to the one that solve() ended with; empty before.
   const std::vector<std::uint32_t>& solution() const { return solution_; }
   /// Takes a node and all that grew from it out of the tree. Not for the root.
-  void discard(std::uint32_t node);
+  void discard(std::uint32_t node) { tree_.discard(node); }
 
   SamplingProblem& problem() { return problem_; }
-  const StateType& state(std::uint32_t node) const { return nodes_[node].state; }
-  std::size_t size() const { return nodes_.size(); }
+  const StateType& state(std::uint32_t node) const { return tree_.state(node); }
+  std::size_t size() const { return tree_.size(); }
   std::uint64_t iterations() const { return iterations_; }
-  std::uint32_t nearest(const StateType& state) const;
+  std::uint32_t nearest(const StateType& state) const { return tree_.nearest(state); }
   /// The node whose centre went furthest from the start.
-  std::uint32_t farthest() const { return farthest_; }
+  std::uint32_t farthest() const { return tree_.farthest(); }
 
  private:
-  struct Node {
-    StateType state;
-    std::uint32_t parent = 0;
-  };
-  std::uint32_t add(const StateType& state, std::uint32_t parent);
   std::optional<std::uint32_t> extend(std::uint32_t node, const StateType& target, bool greedy,
                                       const ompl::base::PlannerTerminationCondition& stop);
   void report(std::uint32_t node);
@@ -76,10 +71,8 @@ class TargetTree final : public ompl::base::Planner {
   Settings settings_;
   std::unique_ptr<TargetRule> rule_;
   Rng rng_;
-  std::vector<Node> nodes_;
-  NearestNodes near_;
+  StateTree tree_;
   std::uint64_t iterations_ = 0;
-  std::uint32_t farthest_ = 0;
   std::vector<std::uint32_t> solution_;
 };
 

@@ -1,0 +1,47 @@
+/// States that grow from roots: what every tree planner keeps.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dismantle/sampling/nearest.h"
+#include "dismantle/sampling/sampling_problem.h"
+
+namespace dismantle::sampling {
+
+/// Nodes 0, 1, 2... in the order in which they are added, children after their parents. A root is its own parent.
+class StateTree {
+ public:
+  using StateType = SamplingProblem::StateType;
+
+  /// `space` outlives this.
+  explicit StateTree(const DisplacementSpace& space) : space_(space) {}
+
+  std::uint32_t add_root(const StateType& state);
+  std::uint32_t add(const StateType& state, std::uint32_t parent);
+  /// Takes a node and all that grew from it out of the tree. Not for roots.
+  void discard(std::uint32_t node);
+  void clear();
+
+  std::size_t size() const { return nodes_.size(); }  ///< with those that were discarded
+  bool discarded(std::uint32_t node) const { return near_.removed(node); }
+  const StateType& state(std::uint32_t node) const { return nodes_[node].state; }
+  std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
+  std::uint32_t nearest(const StateType& state) const;
+  /// From the node to its root, both included.
+  std::vector<std::uint32_t> to_root(std::uint32_t node) const;
+  /// The node whose centre went furthest from the first root.
+  std::uint32_t farthest() const { return farthest_; }
+
+ private:
+  struct Node {
+    StateType state;
+    std::uint32_t parent = 0;
+  };
+  const DisplacementSpace& space_;
+  std::vector<Node> nodes_;
+  NearestNodes near_;
+  std::uint32_t farthest_ = 0;
+};
+
+}  // namespace dismantle::sampling

@@ -1,0 +1,216 @@
+#include "dismantle/sampling/roadmap.h"
+
+#include <ompl/geometric/PathGeometric.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace dismantle::sampling {
+
+namespace ob = ompl::base;
+
+namespace {
+
+constexpr int kDrawsOfANode = 20;  // rejection sampling of the milestone to expand
+
+}  // namespace
+
+Roadmap::Roadmap(SamplingProblem& problem, const Settings& settings, const Rng& rng)
+    : Planner(problem.information(), "Roadmap"), problem_(problem), settings_(settings), rng_(rng) {}
+
+void Roadmap::clear() {
+  Planner::clear();
+  milestones_.clear();
+  near_ = {};
+  sampled_ = 0;
+  changed_ = false;
+  iterations_ = 0;
+  solution_.clear();
+  route_.clear();
+}
+
+std::uint32_t Roadmap::component(std::uint32_t node) {
+  while (milestones_[node].component != node)
+    node = milestones_[node].component = milestones_[milestones_[node].component].component;
+  return node;
+}
+
+void Roadmap::join(std::uint32_t a, std::uint32_t b) {
+  const double length = problem_.space().distance(milestones_[a].state, milestones_[b].state);
+  milestones_[a].edges.emplace_back(b, length);
+  milestones_[b].edges.emplace_back(a, length);
+  const std::uint32_t i = component(a), j = component(b);
+  milestones_[std::max(i, j)].component = std::min(i, j);
+  changed_ = true;
+}
+
+std::uint32_t Roadmap::add(const StateType& state) {
+  const std::uint32_t node = near_.add(state.center);
+  milestones_.push_back({state, getProblemDefinition()->getGoal()->isSatisfied(&state), node});
+  return node;
+}
+
+void Roadmap::connect(std::uint32_t node) {
+  const auto metric = [&](std::uint32_t n) {
+    return problem_.space().distance(milestones_[n].state, milestones_[node].state);
+  };
+  for (const auto other : near_.nearest(milestones_[node].state.center, metric, settings_.neighbours + 1)) {
+    if (other == node || component(other) == component(node)) continue;
+    if (problem_.budget().spent()) return;
+    ++milestones_[node].tried;
+    ++milestones_[other].tried;
+    if (problem_.motion_is_free(milestones_[other].state, milestones_[node].state)) {
+      join(other, node);
+    } else {
+      ++milestones_[node].blocked;
+      ++milestones_[other].blocked;
+    }
+  }
+}
+
+std::optional<std::uint32_t> Roadmap::expand() {
+  for (int k = 0; k < kDrawsOfANode; ++k) {
+    const auto node = static_cast<std::uint32_t>(rng_.below(milestones_.size()));
+    const Milestone& from = milestones_[node];
+    if (rng_.uniform() * (from.tried + 1) >= from.blocked) continue;
+    StateType to;
+    problem_.space().draw(rng_, to);
+    const double way = problem_.space().distance(from.state, to);
+    if (way > settings_.range) to = problem_.space().between(from.state, to, settings_.range / way);
+    const double share = problem_.free_share(from.state, to);
+    if (share <= 0) return std::nullopt;
+    const std::uint32_t end = add(share < 1 ? problem_.space().between(from.state, to, share) : to);
+    join(node, end);
+    return end;
+  }
+  return std::nullopt;
+}
+
+/// One of two states at a random distance, where the other is not free.
+std::optional<SamplingProblem::StateType> Roadmap::near_obstacle() {
+  StateType a, far;
+  problem_.space().draw(rng_, a);
+  problem_.space().draw(rng_, far);
+  const double way = problem_.space().distance(a, far);
+  if (!(way > 0)) return std::nullopt;
+  const StateType b = problem_.space().between(a, far, std::min(1.0, std::abs(settings_.range * rng_.normal()) / way));
+  const bool a_free = problem_.is_free(a), b_free = problem_.is_free(b);
+  if (a_free == b_free) return std::nullopt;
+  return a_free ? a : b;
+}
+
+std::optional<std::uint32_t> Roadmap::sample(const ob::GoalSampleableRegion& goal) {
+  StateType state;
+  if (sampled_ < goal.maxSampleCount()) {
+    ++sampled_;
+    goal.sampleGoal(&state);
+  } else if (rng_.uniform() < settings_.expansion) {
+    return expand();
+  } else if (rng_.uniform() < settings_.gaussian) {
+    const auto near = near_obstacle();
+    return near ? std::optional(add(*near)) : std::nullopt;
+  } else {
+    problem_.space().draw(rng_, state);
+  }
+  return problem_.is_free(state) ? std::optional(add(state)) : std::nullopt;
+}
+
+/// Dijkstra from the start to the nearest milestone of the goal, by lengths.
+bool Roadmap::find_path() {
+  changed_ = false;
+  solution_.clear();
+  route_.clear();
+  const std::uint32_t start = component(0);
+  bool reaches = false;
+  for (std::uint32_t n = 0; n < milestones_.size() && !reaches; ++n)
+    reaches = milestones_[n].goal && component(n) == start;
+  if (!reaches) return false;
+  std::vector<double> length(milestones_.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::uint32_t> before(milestones_.size(), 0);
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  open.emplace(length[0] = 0, 0);
+  while (!open.empty()) {
+    const auto [way, node] = open.top();
+    open.pop();
+    if (way > length[node]) continue;
+    if (milestones_[node].goal) {
+      for (std::uint32_t n = node; n != 0; n = before[n]) route_.push_back(n);
+      route_.push_back(0);
+      std::reverse(route_.begin(), route_.end());
+      for (const auto n : route_) solution_.push_back(milestones_[n].state);
+      return true;
+    }
+    for (const auto& [to, edge] : milestones_[node].edges)
+      if (way + edge < length[to]) {
+        before[to] = node;
+        open.emplace(length[to] = way + edge, to);
+      }
+  }
+  return false;
+}
+
+void Roadmap::discard(std::size_t edge) {
+  const std::uint32_t a = route_.at(edge - 1), b = route_.at(edge);
+  std::erase_if(milestones_[a].edges, [&](const auto& e) { return e.first == b; });
+  std::erase_if(milestones_[b].edges, [&](const auto& e) { return e.first == a; });
+  ++milestones_[a].blocked, ++milestones_[b].blocked;
+  for (std::uint32_t n = 0; n < milestones_.size(); ++n) milestones_[n].component = n;
+  for (std::uint32_t n = 0; n < milestones_.size(); ++n)
+    for (const auto& [to, length] : milestones_[n].edges) {
+      const std::uint32_t i = component(n), j = component(to);
+      milestones_[std::max(i, j)].component = std::min(i, j);
+    }
+  solution_.clear();
+  changed_ = true;
+}
+
+std::optional<SamplingProblem::StateType> Roadmap::farthest() const {
+  if (milestones_.empty()) return std::nullopt;
+  std::vector<bool> seen(milestones_.size(), false);
+  std::vector<std::uint32_t> open{0};
+  seen[0] = true;
+  std::uint32_t best = 0;
+  const auto way = [&](std::uint32_t n) {
+    return (milestones_[n].state.center - milestones_[0].state.center).squaredNorm();
+  };
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    if (way(node) > way(best) || (way(node) == way(best) && node < best)) best = node;
+    for (const auto& [to, length] : milestones_[node].edges)
+      if (!seen[to]) {
+        seen[to] = true;
+        open.push_back(to);
+      }
+  }
+  return milestones_[best].state;
+}
+
+ob::PlannerStatus Roadmap::solve(const ob::PlannerTerminationCondition& stop) {
+  checkValidity();
+  const auto* goal = dynamic_cast<const ob::GoalSampleableRegion*>(getProblemDefinition()->getGoal().get());
+  if (goal == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
+  if (milestones_.empty()) {
+    const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
+    if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
+    add(start);
+  }
+  while (!stop()) {
+    if (!changed_) {
+      ++iterations_;
+      if (const auto node = sample(*goal)) connect(*node);
+    }
+    if (!changed_ || !find_path()) continue;
+    auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
+    for (const auto& s : solution_) path->append(&s);
+    getProblemDefinition()->clearSolutionPaths();
+    getProblemDefinition()->addSolutionPath(path, false, 0, getName());
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+  return ob::PlannerStatus::TIMEOUT;
+}
+
+}  // namespace dismantle::sampling

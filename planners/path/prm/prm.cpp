@@ -1,0 +1,81 @@
+#include "dismantle/plugin.h"
+#include "dismantle/sampling/disassembled_goal.h"
+#include "dismantle/sampling/roadmap.h"
+#include "dismantle/sampling/space_search.h"
+
+namespace dismantle::prm {
+namespace {
+
+using sampling::Roadmap;
+using sampling::SamplingProblem;
+
+struct Parameters : sampling::SpaceParameters {
+  std::int64_t goals = 20;
+  std::int64_t neighbours = 8;
+  double expansion = 0.3;
+  double gaussian = 0.3;
+
+  static void describe(Schema<Parameters>& s) {
+    sampling::describe_motion(s);
+    s.add("goals", &Parameters::goals,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e6,
+           .doc = "Disassembled states that the roadmap begins with: the six nearest exits, the others are random."});
+    s.add("neighbours", &Parameters::neighbours,
+          {.unit = "1", .min = 1, .max = 1000, .doc = "Nearest milestones that a new one is joined to."});
+    s.add("expansion", &Parameters::expansion,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Probability of extending a milestone whose motions were mostly blocked, in place of a sample."});
+    s.add("gaussian", &Parameters::gaussian,
+          {.unit = "1", .min = 0, .max = 1, .doc = "Share of the other samples that are drawn near obstacles."});
+    sampling::describe_space(s, "Longest extension of a milestone, and deviation of the samples near obstacles.");
+  }
+};
+
+class RoadmapInSpace final : public sampling::SpacePlanner {
+ public:
+  RoadmapInSpace(SamplingProblem& problem, const Parameters& p, const Rng& rng)
+      : roadmap_(problem, {static_cast<std::size_t>(p.neighbours), p.range, p.expansion, p.gaussian}, rng.fork(1)) {
+    roadmap_.setProblemDefinition(sampling::definition_of(
+        problem, std::make_shared<sampling::DisassembledGoal>(problem, static_cast<unsigned>(p.goals), rng.fork(2))));
+  }
+
+  std::vector<StateType> solve(const ompl::base::PlannerTerminationCondition& stop) override {
+    return roadmap_.solve(stop) == ompl::base::PlannerStatus::EXACT_SOLUTION ? roadmap_.solution()
+                                                                             : std::vector<StateType>{};
+  }
+  void discard(std::size_t edge) override { roadmap_.discard(edge); }
+  std::uint64_t nodes() const override { return roadmap_.nodes(); }
+  std::uint64_t iterations() const override { return roadmap_.iterations(); }
+  std::optional<StateType> farthest() const override { return roadmap_.farthest(); }
+
+ private:
+  Roadmap roadmap_;
+};
+
+class Prm final : public PathPlanner {
+ public:
+  explicit Prm(const Parameters& parameters) : parameters_(parameters) {}
+  PathPlannerTraits traits() const noexcept override { return {.needs = sampling::kSpaceNeeds}; }
+  std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    return sampling::start_search(query, context, parameters_,
+                                  [p = parameters_](SamplingProblem& problem, const Rng& rng) {
+                                    return std::make_unique<RoadmapInSpace>(problem, p, rng);
+                                  });
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+}  // namespace
+}  // namespace dismantle::prm
+
+DISMANTLE_PLUGIN("dismantle.prm", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::PathPlanner, dismantle::prm::Prm, dismantle::prm::Parameters>(
+      "prm", "Probabilistic roadmap that joins the start to disassembled states.",
+      {.source = "Kavraki, Svestka, Latombe and Overmars 1996", .needs = dismantle::sampling::kSpaceNeeds});
+}
