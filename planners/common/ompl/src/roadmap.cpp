@@ -27,6 +27,7 @@ void Roadmap::clear() {
   sampled_ = 0;
   changed_ = false;
   iterations_ = 0;
+  reached_.clear();
   solution_.clear();
   route_.clear();
 }
@@ -71,17 +72,24 @@ void Roadmap::connect(std::uint32_t node) {
 }
 
 std::optional<std::uint32_t> Roadmap::expand() {
+  const bool at_start = rng_.uniform() < 0.5;
   for (int k = 0; k < kDrawsOfANode; ++k) {
-    const auto node = static_cast<std::uint32_t>(rng_.below(milestones_.size()));
+    const auto node =
+        at_start ? reached_[rng_.below(reached_.size())] : static_cast<std::uint32_t>(rng_.below(milestones_.size()));
     const Milestone& from = milestones_[node];
-    if (rng_.uniform() * (from.tried + 1) >= from.blocked) continue;
+    if (rng_.uniform() * (from.tried + 2) >= from.blocked + 1) continue;
     StateType to;
     problem_.space().draw(rng_, to);
     const double way = problem_.space().distance(from.state, to);
     if (way > settings_.range) to = problem_.space().between(from.state, to, settings_.range / way);
     const double share = problem_.free_share(from.state, to);
+    const std::uint32_t hits = share < 1 ? 1 : 0;
+    ++milestones_[node].tried;
+    milestones_[node].blocked += hits;
     if (share <= 0) return std::nullopt;
     const std::uint32_t end = add(share < 1 ? problem_.space().between(from.state, to, share) : to);
+    milestones_[end].tried = 1;
+    milestones_[end].blocked = hits;
     join(node, end);
     return end;
   }
@@ -122,11 +130,11 @@ bool Roadmap::find_path() {
   changed_ = false;
   solution_.clear();
   route_.clear();
-  const std::uint32_t start = component(0);
-  bool reaches = false;
-  for (std::uint32_t n = 0; n < milestones_.size() && !reaches; ++n)
-    reaches = milestones_[n].goal && component(n) == start;
-  if (!reaches) return false;
+  reached_.clear();
+  for (std::uint32_t n = 0; n < milestones_.size(); ++n)
+    if (component(n) == component(0)) reached_.push_back(n);
+  if (std::none_of(reached_.begin(), reached_.end(), [&](std::uint32_t n) { return milestones_[n].goal; }))
+    return false;
   std::vector<double> length(milestones_.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint32_t> before(milestones_.size(), 0);
   using Entry = std::pair<double, std::uint32_t>;
@@ -168,25 +176,13 @@ void Roadmap::discard(std::size_t edge) {
 }
 
 std::optional<SamplingProblem::StateType> Roadmap::farthest() const {
-  if (milestones_.empty()) return std::nullopt;
-  std::vector<bool> seen(milestones_.size(), false);
-  std::vector<std::uint32_t> open{0};
-  seen[0] = true;
-  std::uint32_t best = 0;
+  if (reached_.empty()) return std::nullopt;
   const auto way = [&](std::uint32_t n) {
     return (milestones_[n].state.center - milestones_[0].state.center).squaredNorm();
   };
-  while (!open.empty()) {
-    const std::uint32_t node = open.back();
-    open.pop_back();
-    if (way(node) > way(best) || (way(node) == way(best) && node < best)) best = node;
-    for (const auto& [to, length] : milestones_[node].edges)
-      if (!seen[to]) {
-        seen[to] = true;
-        open.push_back(to);
-      }
-  }
-  return milestones_[best].state;
+  const auto best = std::max_element(reached_.begin(), reached_.end(),
+                                     [&](std::uint32_t a, std::uint32_t b) { return way(a) < way(b); });
+  return milestones_[*best].state;
 }
 
 ob::PlannerStatus Roadmap::solve(const ob::PlannerTerminationCondition& stop) {
@@ -196,7 +192,7 @@ ob::PlannerStatus Roadmap::solve(const ob::PlannerTerminationCondition& stop) {
   if (milestones_.empty()) {
     const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
     if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
-    add(start);
+    reached_ = {add(start)};
   }
   while (!stop()) {
     if (!changed_) {

@@ -19,7 +19,8 @@ namespace dismantle::sampling {
 /// component holds a state of the goal. Each iteration adds at most one milestone:
 /// - as long as the goal has samples left, one of these;
 /// - with probability `expansion`, the end of a free motion from a milestone whose motions were mostly blocked (their
-///   expansion step), which is how the roadmap gets through narrow passages;
+///   expansion step), which is how the roadmap gets through narrow passages; every other time one that the start is
+///   joined to;
 /// - with probability `gaussian` of the rest, a state near an obstacle (Boor, Overmars and van der Stappen 1999);
 /// - else a uniform one.
 ///
@@ -76,6 +77,7 @@ class Roadmap final : public ompl::base::Planner {
   unsigned sampled_ = 0;  // states of the goal
   bool changed_ = false;  // since the last search for a path
   std::uint64_t iterations_ = 0;
+  std::vector<std::uint32_t> reached_;  // joined to the start, when a path was looked for last
   std::vector<StateType> solution_;
   std::vector<std::uint32_t> route_;  // the same, as milestones
 };
