@@ -6,8 +6,7 @@
 
 #include "blocking/blocking.h"
 #include "blocking/path_searcher.h"
-#include "blocking/report.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/strategy_list.h"
 
 namespace dismantle::blocking {
 
@@ -17,11 +16,9 @@ class Disassembly {
               RunContext& context);
   SequenceResult run();
   /// In the order in which they are tried.
-  const std::vector<std::unique_ptr<Strategy>>& strategies() const { return strategies_; }
+  const std::vector<std::unique_ptr<Strategy>>& strategies() const { return list_.strategies(); }
 
  private:
-  void take_apart(GroupState group);
-  void add(std::unique_ptr<Strategy> strategy);
   void make_strategies();
 
   const BlockingParams& params_;
@@ -33,8 +30,7 @@ class Disassembly {
   std::unique_ptr<Immobility> immobility_;    // null when switched off, or without geometry
   std::unique_ptr<Lookahead> lookahead_;
   std::unique_ptr<PathSearcher> searcher_;
-  std::vector<std::unique_ptr<Strategy>> strategies_;
-  Report report_;
+  StrategyList list_;
 };
 
 }  // namespace dismantle::blocking

@@ -14,7 +14,7 @@
 #include "blocking/params.h"
 #include "blocking/proofs_ahead.h"
 #include "blocking/search_history.h"
-#include "blocking/straight_motion.h"
+#include "blocking_graph/straight_motion.h"
 
 namespace dismantle::blocking {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "blocking/directions.h"
+#include "blocking_graph/directions.h"
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
 

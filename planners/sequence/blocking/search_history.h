@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "blocking/params.h"
-#include "blocking/state.h"
+#include "blocking_graph/state.h"
 
 namespace dismantle::blocking {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <unordered_set>
 
-#include "blocking/directions.h"
+#include "blocking_graph/directions.h"
 
 namespace dismantle::blocking {
 namespace {

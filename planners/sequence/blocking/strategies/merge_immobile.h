@@ -3,7 +3,7 @@
 #pragma once
 
 #include "blocking/immobility.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "blocking/path_searcher.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

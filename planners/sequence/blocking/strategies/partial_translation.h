@@ -5,7 +5,7 @@
 
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/strategy.h"
 #include "blocking/translation_search.h"
 
 namespace dismantle::blocking {

@@ -10,8 +10,8 @@
 
 #include "blocking/params.h"
 #include "blocking/rotation_axes.h"
-#include "blocking/straight_motion.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/straight_motion.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

@@ -9,7 +9,7 @@
 
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

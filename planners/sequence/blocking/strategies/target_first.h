@@ -1,8 +1,8 @@
 /// One step towards the target part: the target itself if it is free, else a free one among those in its way.
 #pragma once
 
-#include "blocking/straight_motion.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/straight_motion.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "blocking/directions.h"
-#include "blocking/graph.h"
+#include "blocking_graph/directions.h"
+#include "blocking_graph/graph.h"
 #include "blocking/polyhedron.h"
 #include "blocking/rotation_axes.h"
 #include "dismantle/testing/fake_planning.h"

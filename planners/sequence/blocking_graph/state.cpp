@@ -1,4 +1,4 @@
-#include "blocking/state.h"
+#include "blocking_graph/state.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "blocking/report.h"
+#include "blocking_graph/report.h"
 
 #include <algorithm>
 

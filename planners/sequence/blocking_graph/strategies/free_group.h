@@ -2,16 +2,16 @@
 /// strongly connected components of the directional blocking graph). It is taken apart by itself later.
 #pragma once
 
-#include "blocking/params.h"
-#include "blocking/straight_motion.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/straight_motion.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 
 class FreeGroup final : public Strategy {
  public:
-  FreeGroup(DisassemblyState& state, StraightMotion& straight, const FreeGroupParams& params)
-      : state_(state), straight_(straight), params_(params) {}
+  /// `proposals`: groups that are proposed to the verifier before other strategies are tried.
+  FreeGroup(DisassemblyState& state, StraightMotion& straight, unsigned proposals)
+      : state_(state), straight_(straight), proposals_(proposals) {}
   std::string_view name() const noexcept override { return "free_group"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -27,7 +27,7 @@ class FreeGroup final : public Strategy {
 
   DisassemblyState& state_;
   StraightMotion& straight_;
-  const FreeGroupParams& params_;
+  unsigned proposals_;
   PerGroup<bool> done_;
 };
 

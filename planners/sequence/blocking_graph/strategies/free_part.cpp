@@ -1,4 +1,4 @@
-#include "blocking/strategies/free_part.h"
+#include "blocking_graph/strategies/free_part.h"
 
 #include <span>
 

@@ -1,8 +1,8 @@
-#include "blocking/strategies/free_group.h"
+#include "blocking_graph/strategies/free_group.h"
 
 #include <algorithm>
 
-#include "blocking/graph.h"
+#include "blocking_graph/graph.h"
 
 namespace dismantle::blocking {
 
@@ -10,7 +10,7 @@ Result FreeGroup::apply(GroupState& group) {
   if (done_[group]) return Result::unchanged;
   unsigned proposed = 0;
   for (const Candidate& c : candidates(group)) {
-    if (state_.stop() || proposed == params_.group_proposals) break;
+    if (state_.stop() || proposed == proposals_) break;
     if (straight_.was_refused(c.ids, c.direction)) continue;
     ++proposed;
     if (straight_.leave(group, c.ids, c.direction)) return Result::restart;

@@ -1,4 +1,4 @@
-#include "blocking/relations.h"
+#include "blocking_graph/relations.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/directions.h"
-#include "blocking/relations.h"
-#include "blocking/state.h"
+#include "blocking_graph/directions.h"
+#include "blocking_graph/relations.h"
+#include "blocking_graph/state.h"
 
 namespace dismantle::blocking {
 
@@ -20,8 +20,8 @@ namespace dismantle::blocking {
 /// questions about them in advance.
 class StraightMotion final : public GroupListener {
  public:
-  /// All references must outlive this.
-  StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep);
+  /// Along `directions`. All references must outlive this.
+  StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, Directions directions);
 
   /// Of the shortest path among the first few directions of which one is free.
   std::optional<std::size_t> free_direction(const GroupState& group, SubassemblyId id,

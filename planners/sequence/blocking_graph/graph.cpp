@@ -1,4 +1,4 @@
-#include "blocking/graph.h"
+#include "blocking_graph/graph.h"
 
 #include <algorithm>
 #include <limits>

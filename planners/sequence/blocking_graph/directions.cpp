@@ -1,4 +1,4 @@
-#include "blocking/directions.h"
+#include "blocking_graph/directions.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -7,8 +7,8 @@
 
 #include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/solid.h"
-#include "dismantle/path_oracle.h"
 #include "dismantle/part_memo.h"
+#include "dismantle/path_oracle.h"
 
 namespace dismantle::blocking {
 

@@ -1,8 +1,8 @@
 /// Removes a subassembly that nothing blocks along some direction.
 #pragma once
 
-#include "blocking/straight_motion.h"
-#include "blocking/strategy.h"
+#include "blocking_graph/straight_motion.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

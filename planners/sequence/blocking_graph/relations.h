@@ -11,9 +11,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "blocking/directions.h"
-#include "blocking/orientations.h"
-#include "blocking/pair_sweep.h"
+#include "blocking_graph/directions.h"
+#include "blocking_graph/orientations.h"
+#include "blocking_graph/pair_sweep.h"
 #include "dismantle/speculative_cache.h"
 
 namespace dismantle::blocking {

@@ -1,4 +1,4 @@
-#include "blocking/pair_sweep.h"
+#include "blocking_graph/pair_sweep.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "blocking/orientations.h"
+#include "blocking_graph/orientations.h"
 
 #include <algorithm>
 #include <cmath>

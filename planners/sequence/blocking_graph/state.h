@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "blocking/orientations.h"
+#include "blocking_graph/orientations.h"
 #include "dismantle/sequence_planner.h"
 #include "one_by_one/one_by_one.h"
 

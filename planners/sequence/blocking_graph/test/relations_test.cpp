@@ -1,5 +1,5 @@
 // Who is in whose way does not depend on who is asked, on which thread, and what was told ahead.
-#include "blocking/relations.h"
+#include "blocking_graph/relations.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
-#include "blocking/straight_motion.h"
+#include "blocking_graph/straight_motion.h"
 
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace dismantle::blocking {
 namespace {
@@ -15,11 +16,12 @@ constexpr double kClear = 0.01;     // assembly units: further than that, so tha
 
 }  // namespace
 
-StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep)
+StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep,
+                               Directions directions)
     : state_(state),
       oracle_(oracle),
       sweep_(sweep),
-      directions_(blocking::directions_of(state.assembly())),
+      directions_(std::move(directions)),
       relations_(sweep, directions_, state.orientations(), state.context().executor),
       blocker_(state.subassemblies()) {}
 

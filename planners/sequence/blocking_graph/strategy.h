@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "blocking/state.h"
+#include "blocking_graph/state.h"
 
 namespace dismantle::blocking {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "blocking/state.h"
+#include "blocking_graph/state.h"
 
 namespace dismantle::blocking {
 

@@ -1,0 +1,44 @@
+/// Non-directional blocking graphs (Wilson and Latombe 1994): which parts can be translated to infinity, along any
+/// direction whatever?
+#pragma once
+
+#include "blocking_graph/directions.h"
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+/// How much of the arrangement of directions is examined; each includes those before it.
+enum class NdbgCells { vertices, arcs, faces };
+
+struct NdbgParams {
+  PartOrder order = PartOrder::small_first;
+  unsigned circles = 6;
+  NdbgCells cells = NdbgCells::faces;
+  bool groups = true;
+  unsigned group_proposals = 8;
+  bool searches = false;
+  unsigned max_depth = 0;
+  static void describe(Schema<NdbgParams>& schema);
+};
+
+class Ndbg final : public SequencePlanner {
+ public:
+  explicit Ndbg(const NdbgParams& params) : params_(params) {}
+  bool keeps_constraints() const noexcept override { return true; }
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  NdbgParams params_;
+};
+
+namespace ndbg {
+
+/// The axes of the parts (a round surface lets its part go along its axis: there all circles of its normals cross),
+/// then one direction of each cell of the arrangement.
+blocking::Directions directions_of(const Assembly& assembly, unsigned circles, NdbgCells cells);
+
+}  // namespace ndbg
+}  // namespace dismantle

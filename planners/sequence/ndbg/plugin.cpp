@@ -1,0 +1,9 @@
+#include "dismantle/plugin.h"
+
+#include "ndbg/ndbg.h"
+
+DISMANTLE_PLUGIN("dismantle.ndbg", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::SequencePlanner, dismantle::Ndbg, dismantle::NdbgParams>(
+      "ndbg", "Non-directional blocking graphs alone: parts and groups that a translation takes out.",
+      {.source = "Wilson and Latombe 1994"});
+}
