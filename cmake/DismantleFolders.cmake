@@ -8,6 +8,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
+  planners/sequence/state_based
   planners/transfer/rrt_connect
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook
   planners/immobility/interlock_lp planners/immobility/overlap_lock planners/immobility/ring planners/immobility/spool)

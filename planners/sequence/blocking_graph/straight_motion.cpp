@@ -33,11 +33,11 @@ void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
     for (const SubassemblyId s : change.moved) blocker_[s].clear();
 }
 
-Pair StraightMotion::pair_of(PartId moving, PartId fixed, std::size_t direction) const {
+Pair StraightMotion::pair_of(PartId moving, PartId fixed, std::size_t direction, const Eigen::Vector3d& shift) const {
   return {moving,
           fixed,
           direction,
-          state_.pose(moving).t - state_.pose(fixed).t,
+          state_.pose(moving).t + shift - state_.pose(fixed).t,
           state_.orientation(moving),
           state_.orientation(fixed)};
 }
@@ -132,21 +132,22 @@ bool StraightMotion::was_refused(const Subassemblies& ids, std::size_t direction
   return refused_.contains({state_.parts_of(ids), direction});
 }
 
-double StraightMotion::path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction) const {
+double StraightMotion::path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                                   const Eigen::Vector3d& shift) const {
   const Eigen::Vector3d& d = directions_.all[direction];
   double ours = std::numeric_limits<double>::infinity(), theirs = -ours;
   for (const SubassemblyId u : group.members) {
     const bool leaves = std::find(ids.begin(), ids.end(), u) != ids.end();
     for (const PartId id : state_.parts_of(u)) {
       const auto [lo, hi] = relations_.extent(id, direction, state_.orientation(id));
-      const double shift = state_.pose(id).t.dot(d);
+      const double along = state_.pose(id).t.dot(d);
       if (leaves)
-        ours = std::min(ours, lo + shift);
+        ours = std::min(ours, lo + along);
       else
-        theirs = std::max(theirs, hi + shift);
+        theirs = std::max(theirs, hi + along);
     }
   }
-  return std::max(0.0, theirs - ours);
+  return std::max(0.0, theirs - ours - shift.dot(d));
 }
 
 std::vector<std::size_t> StraightMotion::own_directions(SubassemblyId unit) const {
@@ -296,12 +297,18 @@ std::optional<std::size_t> StraightMotion::free_direction(const GroupState& grou
   return std::nullopt;
 }
 
+double StraightMotion::way_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                               const Eigen::Vector3d& shift) const {
+  Attempt attempt = state_.attempt_for(group, ids);
+  for (PlacedPart& p : attempt.moving) p.pose.t += shift;
+  const double most = path_length(group, ids, direction, shift) + kBeyond;
+  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most, kHalvings) + kClear;
+}
+
 bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
-  const double length =
-      sweep_.distance_apart(attempt.moving, attempt.fixed, d, path_length(group, ids, direction) + kBeyond, kHalvings) +
-      kClear;
+  const double length = way_out(group, ids, direction);
   Path path(2);
   for (const auto& p : attempt.moving) {
     path[0].push_back(p.pose);

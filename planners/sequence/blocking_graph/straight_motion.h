@@ -36,6 +36,9 @@ class StraightMotion final : public GroupListener {
   /// answer if the path is accepted. A refusal is remembered until a group changes.
   bool leave(GroupState& group, const Subassemblies& ids, std::size_t direction);
   bool was_refused(const Subassemblies& ids, std::size_t direction) const;
+  /// How far `ids`, translated by `shift` at first, have to go along the direction until the hulls are apart.
+  double way_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                 const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
   /// Directions of `id`, the one with the shortest path out of the group first.
   std::vector<std::size_t> directions_of(const GroupState& group, SubassemblyId id) const;
@@ -55,14 +58,19 @@ class StraightMotion final : public GroupListener {
   /// Empty: decided, and is_blocked() says how.
   std::vector<Pair> open_pairs(const GroupState& group, SubassemblyId id, std::size_t direction);
   bool blocks(const Pair& pair) { return relations_.blocks(pair); }
+  /// `moving`, translated by `shift`, past `fixed`.
+  Pair pair_of(PartId moving, PartId fixed, std::size_t direction,
+               const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
+  /// Way along the direction after which the moving part is past the other one.
+  double distance_past(const Pair& pair) const { return relations_.distance_past(pair); }
 
   std::uint64_t computed() const { return relations_.computed(); }
   void on_group_changed(GroupState& group, const GroupChange& change) override;
 
  private:
-  Pair pair_of(PartId moving, PartId fixed, std::size_t direction) const;
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
-  double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction) const;
+  double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                     const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
   std::vector<std::size_t> own_directions(SubassemblyId id) const;
   std::pair<std::optional<SubassemblyId>, std::vector<Pair>> examine(const GroupState& group, SubassemblyId id,
                                                                      std::size_t direction) const;

@@ -1,0 +1,98 @@
+#include "state_based/state_based.h"
+
+#include <memory>
+#include <utility>
+
+#include "blocking_graph/strategies/free_group.h"
+#include "blocking_graph/strategies/free_part.h"
+#include "blocking_graph/strategies/search_rounds.h"
+#include "blocking_graph/strategy_list.h"
+#include "state_based/evaluation.h"
+#include "state_based/translate_out.h"
+
+namespace dismantle {
+namespace {
+
+constexpr unsigned kGroupProposals = 8;
+
+}  // namespace
+
+void StateBasedParams::describe(Schema<StateBasedParams>& s) {
+  s.add_choice("order", &StateBasedParams::order,
+               {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
+                {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
+                {"large_first", PartOrder::large_first, "descending volume"}},
+               "Order in which translations are tried, and searches that are evaluated alike.");
+  s.add_choice("evaluation", &StateBasedParams::evaluation,
+               {{"fewest_blockers", StateBasedEvaluation::fewest_blockers,
+                 "the part that the fewest others hold, from any state that it has reached"},
+                {"most_useful", StateBasedEvaluation::most_useful, "the part that holds most others"}},
+               "Which part is searched for first where translations take none out.");
+  s.add("states", &StateBasedParams::states,
+        {.unit = "1", .min = 1, .max = 1e5, .doc = "Motion states of one part that translations may reach, at most."});
+  s.add("stops", &StateBasedParams::stops,
+        {.unit = "1",
+         .min = 1,
+         .max = 100,
+         .doc = "States that one translation leads to: at contact, and evenly spaced on the way there."});
+  s.add("halvings", &StateBasedParams::halvings,
+        {.unit = "1", .min = 1, .max = 50, .doc = "Bisections to find where a translation meets a part."});
+  s.add("retreat", &StateBasedParams::retreat,
+        {.unit = "verify.max_penetration", .min = 0, .max = 1e6, .doc = "How far before contact a translation stops."});
+  s.add("least_step", &StateBasedParams::least_step,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .max = 1e6,
+         .min_open = true,
+         .doc = "Shortest translation that is kept, and least distance between two states."});
+  s.add("groups", &StateBasedParams::groups,
+        {.doc = "Where no single part is free, take out the smallest group that is."});
+  s.add(
+      "searches", &StateBasedParams::searches,
+      {.doc = "Where translations take nothing out, ask the path planner for each part, round by round: that is where "
+              "rotations come in."});
+  s.add("resume", &StateBasedParams::resume,
+        {.doc = "Searches by the path planner, too, go on with the states that they had when others were in the way."});
+  s.add("max_depth", &StateBasedParams::max_depth,
+        {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
+}
+
+SequenceResult StateBased::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                                RunContext& context) {
+  using namespace blocking;
+  DisassemblyState state(assembly, oracle.constraints(), overlap_locks(assembly, oracle, context), params_.order,
+                         observer, context);
+  StrategyList list(state, oracle);
+  std::unique_ptr<PairSweep> sweep;
+  std::unique_ptr<StraightMotion> straight;
+  std::unique_ptr<state_based::MotionStates> states;
+  SearchRounds::Order order;
+  if (oracle.tolerance() > 0) {
+    sweep = std::make_unique<PairSweep>(assembly, oracle);
+    straight = std::make_unique<StraightMotion>(state, oracle, *sweep, directions_of(assembly));
+    states = std::make_unique<state_based::MotionStates>(
+        state, *straight, *sweep, oracle.tolerance(),
+        state_based::MotionStateParams{params_.states, params_.stops, params_.halvings, params_.retreat,
+                                       params_.least_step});
+    state.add_listener(*straight);
+    list.add(std::make_unique<FreePart>(state, *straight));
+    list.add(std::make_unique<state_based::TranslateOut>(state, *states, oracle));
+    if (params_.groups) list.add(std::make_unique<FreeGroup>(state, *straight, kGroupProposals));
+    order = [&](const GroupState& group, const Subassemblies& ids) {
+      return state_based::by_evaluation(state, *states, group, ids, params_.evaluation);
+    };
+  }
+  // Without geometry there are no states: then the oracle is all that can be asked.
+  if (params_.searches || !straight)
+    list.add(std::make_unique<SearchRounds>(state, oracle, SearchRounds::Settings{params_.max_depth, params_.resume},
+                                            std::move(order)));
+  SequenceResult result = list.run();
+  if (straight) {
+    result.counts["relations"] = static_cast<double>(straight->computed());
+    result.counts["states"] = static_cast<double>(states->states());
+    result.counts["kept"] = static_cast<double>(states->kept());
+  }
+  return result;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,40 @@
+/// Translations before rotations, motion states that are kept, parts chosen by blocking graphs enriched with states: in
+/// the manner of Lei, Lipovetzky and Ehinger (AAAI 2025).
+#pragma once
+
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+/// Which part is searched for first.
+enum class StateBasedEvaluation { fewest_blockers, most_useful };
+
+struct StateBasedParams {
+  PartOrder order = PartOrder::small_first;
+  StateBasedEvaluation evaluation = StateBasedEvaluation::fewest_blockers;
+  unsigned states = 24;
+  unsigned stops = 1;
+  unsigned halvings = 12;
+  double retreat = 1;
+  double least_step = 20;
+  bool groups = false;
+  bool searches = true;
+  bool resume = true;
+  unsigned max_depth = 0;
+  static void describe(Schema<StateBasedParams>& schema);
+};
+
+class StateBased final : public SequencePlanner {
+ public:
+  explicit StateBased(const StateBasedParams& params) : params_(params) {}
+  bool keeps_constraints() const noexcept override { return true; }
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  StateBasedParams params_;
+};
+
+}  // namespace dismantle
