@@ -6,7 +6,8 @@
 
 namespace dismantle::state_based {
 
-/// Sorts `ids`, all of the group, the most promising first; the housing last.
+/// Sorts `ids`, all of the group, the most promising first; the housing last. Directions along which the housing is
+/// in the way do not count: it is what remains.
 /// - fewest_blockers: the fewest others in the way of it, from any state along any direction; of equals the most
 /// useful;
 /// - most_useful: the use of a part is the sum of its shares in the smallest sets that are in the way of others; of

@@ -115,19 +115,20 @@ std::optional<std::vector<Vector3d>> MotionStates::way_out(const GroupState& gro
   return std::nullopt;
 }
 
-Subassemblies MotionStates::fewest_blockers(const GroupState& group, SubassemblyId id) const {
-  Subassemblies fewest;
-  bool found = false;
+std::optional<Subassemblies> MotionStates::fewest_blockers(const GroupState& group, SubassemblyId id,
+                                                           SubassemblyId stays) const {
+  std::optional<Subassemblies> fewest;
   const auto known = states_.find(id);
   if (known == states_.end()) return fewest;
   for (const State& state : known->second)
     for (const auto& [direction, translation] : state.translations) {
+      if (!translation.examined) continue;
       Subassemblies left;
       for (const SubassemblyId other : translation.in_way)
         if (group.contains(other)) left.push_back(other);
-      if (found && left.size() >= fewest.size()) continue;
+      if (std::find(left.begin(), left.end(), stays) != left.end() || (fewest && left.size() >= fewest->size()))
+        continue;
       fewest = std::move(left);
-      found = true;
     }
   return fewest;
 }

@@ -41,8 +41,9 @@ class MotionStates {
   void refuse(SubassemblyId id);
   void on_group_changed() { refused_.clear(); }
 
-  /// Of all states of the part and all directions, the smallest set of others that is in the way.
-  Subassemblies fewest_blockers(const GroupState& group, SubassemblyId id) const;
+  /// Of all states of the part and all directions, the smallest set of others that is in the way, where `stays` (which
+  /// will not be removed) is not among them. Nothing: it always is.
+  std::optional<Subassemblies> fewest_blockers(const GroupState& group, SubassemblyId id, SubassemblyId stays) const;
   std::size_t size(SubassemblyId id) const;
   std::uint64_t states() const;  ///< of all parts
   /// Examinations that the states kept from before made needless: they would have been made anew from the assembly.

@@ -171,7 +171,9 @@ TEST(StateBased, EvaluatesAPileFromTheTop) {
     const auto name = [&](blocking::SubassemblyId id) { return b.assembly.parts[b.state.part_of(id)].name; };
     for (const auto id : blocks) {
       const unsigned k = static_cast<unsigned>(std::stoul(name(id).substr(5)));  // block1 is at the bottom
-      EXPECT_EQ(b.states.fewest_blockers(b.group, id).size(), n - k);
+      const auto fewest = b.states.fewest_blockers(b.group, id, b.state.housing_of(b.group));
+      ASSERT_TRUE(fewest);
+      EXPECT_EQ(fewest->size(), n - k);
     }
     const auto order =
         state_based::by_evaluation(b.state, b.states, b.group, b.group.members, StateBasedEvaluation::fewest_blockers);
@@ -184,7 +186,6 @@ TEST(StateBased, EvaluatesAPileFromTheTop) {
 }
 
 TEST(StateBased, SamePlanOnAnyNumberOfThreads) {
-  std::vector<std::size_t> relations;
   std::string plans[2];
   for (const unsigned threads : {1U, 3U}) {
     const RunResult r = take_apart(stopped_passage(), {}, threads);
