@@ -7,7 +7,7 @@ set(DISMANTLE_SHIPPED_PLUGINS
   planners/path/bfs planners/path/bk_rrt planners/path/contact_search planners/path/mv_t_rrt
   planners/path/navigation_tree planners/path/portfolio planners/path/prm planners/path/rrt planners/path/rrt_connect_removal
   planners/path/t_rrt planners/path/tolerant_rrt planners/path/tunnel_forest
-  planners/sequence/blocking planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
+  planners/sequence/blocking planners/sequence/mcts planners/sequence/ndbg planners/sequence/progressive planners/sequence/queue planners/sequence/random
   planners/sequence/state_based
   planners/transfer/rrt_connect
   planners/immobility/configuration_cells planners/immobility/disc planners/immobility/enclosed_ball planners/immobility/hook

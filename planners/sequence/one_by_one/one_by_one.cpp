@@ -60,6 +60,7 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
     oracle_.prefetch(ahead, context_);
   }
   const AttemptResult& answer = oracle_.attempt(question(part, max_depth), context_);
+  answer_ = &answer;
   const PathResult& result = answer.result;
   if (is_success(result.outcome())) {
     std::erase(left_, part);

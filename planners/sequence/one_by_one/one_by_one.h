@@ -29,6 +29,8 @@ class OneByOne {
   /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). When it can it
   /// is removed at once. `next`: parts that will be asked for after it, should it stay; worked ahead on.
   Outcome attempt(PartId part, unsigned max_depth, std::span<const PartId> next = {});
+  /// That of the last attempt; lives as long as the oracle. Null before the first.
+  const AttemptResult* answer() const { return answer_; }
   /// The result as it stands.
   SequenceResult finish() const;
 
@@ -43,6 +45,7 @@ class OneByOne {
   std::vector<PartId> left_;
   std::vector<Removal> removals_;
   std::vector<std::optional<Unsolved>> last_;  // by part id: the last attempt that said something
+  const AttemptResult* answer_ = nullptr;
   bool interrupted_ = false;
   Outcome why_ = Outcome::cancelled;
 };

@@ -1,0 +1,64 @@
+#include "mcts/mcts.h"
+
+#include <vector>
+
+#include "one_by_one/one_by_one.h"
+
+namespace dismantle {
+
+void MctsParams::describe(Schema<MctsParams>& s) {
+  s.add(
+      "simulations", &MctsParams::simulations,
+      {.unit = "1", .min = 1, .max = 1e9, .doc = "Simulated orders for each decision about what to search for next."});
+  s.add("exploration", &MctsParams::exploration,
+        {.unit = "1",
+         .min = 0,
+         .max = 1e3,
+         .doc = "Weight of what was tried seldom against what has a high value (UCT)."});
+  s.add("discount", &MctsParams::discount,
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .min_open = true,
+         .doc = "What a removal is worth that takes one search of mean cost: less makes cheap searches come first."});
+  s.add("horizon", &MctsParams::horizon,
+        {.unit = "1", .min = 1, .max = 1e6, .doc = "Searches in one simulated order, at most."});
+  s.add("max_depth", &MctsParams::max_depth,
+        {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the path search; 0 = no limit."});
+  s.add("max_attempts", &MctsParams::max_attempts,
+        {.unit = "1", .min = 0, .doc = "Searches that are made in all; 0 = as many as it takes."});
+}
+
+SequenceResult Mcts::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                          RunContext& context) {
+  OneByOne sequence(assembly, ordered_parts(assembly, PartOrder::as_given), oracle, observer, context);
+  mcts::Knowledge knowledge(assembly.parts.size(), params_.max_depth);
+  const mcts::UctSettings settings{params_.simulations, params_.exploration, params_.discount, params_.horizon};
+  Rng rng = context.rng.fork(1);
+  std::int64_t attempts = 0, simulations = 0;
+  while (!sequence.done() && !sequence.interrupted()) {
+    if (params_.max_attempts > 0 && attempts == params_.max_attempts) break;
+    const std::vector<mcts::Choice> choices = mcts::choose(knowledge, settings, rng);
+    if (choices.empty()) break;
+    if (choices.size() > 1) simulations += params_.simulations;
+    const PartId part = choices.front().part;
+    // Two parts that are left: whatever depth the path planner needs.
+    const bool last_pair = params_.max_depth == 0 && knowledge.left() == 2;
+    const unsigned depth = last_pair ? 0 : knowledge[part].depth;
+    std::vector<PartId> next;
+    for (const mcts::Choice& c : choices)
+      if (c.part != part && (last_pair || knowledge[c.part].depth == depth)) next.push_back(c.part);
+    ++attempts;
+    const Outcome outcome = sequence.attempt(part, depth, next);
+    const PathResult& result = sequence.answer()->result;
+    if (is_success(outcome))
+      knowledge.removed(part, result.stats.cost);
+    else
+      knowledge.failed(part, outcome, result.blocked_by, result.stats.cost);
+  }
+  SequenceResult result = sequence.finish();
+  result.counts["simulations"] = static_cast<double>(simulations);
+  return result;
+}
+
+}  // namespace dismantle

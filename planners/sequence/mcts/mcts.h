@@ -1,0 +1,32 @@
+/// Which part to search for next, by Monte Carlo tree search over what the searches so far let expect.
+#pragma once
+
+#include <cstdint>
+
+#include "dismantle/parameters.h"
+#include "dismantle/sequence_planner.h"
+#include "mcts/uct.h"
+
+namespace dismantle {
+
+struct MctsParams {
+  std::int64_t simulations = 200;
+  double exploration = 0.7;
+  double discount = 0.9;
+  unsigned horizon = 64;
+  unsigned max_depth = 0;
+  std::int64_t max_attempts = 0;
+  static void describe(Schema<MctsParams>& schema);
+};
+
+class Mcts final : public SequencePlanner {
+ public:
+  explicit Mcts(const MctsParams& params) : params_(params) {}
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override;
+
+ private:
+  MctsParams params_;
+};
+
+}  // namespace dismantle

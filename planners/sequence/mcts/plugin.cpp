@@ -1,0 +1,9 @@
+#include "dismantle/plugin.h"
+
+#include "mcts/mcts.h"
+
+DISMANTLE_PLUGIN("dismantle.mcts", DISMANTLE_VERSION, "MIT", "") {
+  r.add<dismantle::SequencePlanner, dismantle::Mcts, dismantle::MctsParams>(
+      "mcts", "Monte Carlo tree search over the order of searches, by what those before let expect.",
+      {.source = "Kocsis and Szepesvari 2006; suggested, for paths, by Tian et al. 2022, section 4.2"});
+}
