@@ -39,8 +39,8 @@ TEST(Registry, FindsWhatWasRegistered) {
   registry.scan();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
   EXPECT_EQ(ids(registry, PluginKind::path_planner),
-            (std::vector<std::string>{"acme.lines", "acme.straight", "bfs", "clash", "duo", "guided", "pairs", "solo",
-                                      "t_rrt", "team"}));
+            (std::vector<std::string>{"acme.first_of", "acme.lines", "acme.straight", "bfs", "clash", "duo", "guided",
+                                      "pairs", "solo", "t_rrt", "team"}));
   EXPECT_EQ(ids(registry, PluginKind::simulator),
             (std::vector<std::string>{"acme.stepper", "geometry_only", "sdf_penalty"}));
   const RegisteredType& bfs = registry.find(PluginKind::path_planner, "bfs");
@@ -93,7 +93,7 @@ TEST(Registry, BareIdsBelongToTheBuiltInFolder) {
     EXPECT_NE(registry.problems()[k].message.find("must carry a dot"), std::string::npos);
   Registry dotted(kAcme);  // and dots do not belong there
   dotted.scan();
-  ASSERT_EQ(dotted.problems().size(), 5u);
+  ASSERT_EQ(dotted.problems().size(), 6u);
   for (const auto& problem : dotted.problems())
     EXPECT_NE(problem.message.find("has a dot in its id"), std::string::npos);
 }
@@ -165,26 +165,54 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// Law: the code that the documentation shows is the code that is built here.
-TEST(Examples, DocumentationShowsThem) {
+/// The blocks of a page that are in this language, in order.
+std::vector<std::string> blocks_of(const std::string& page, const std::string& language) {
+  std::vector<std::string> blocks;
+  const std::string open = "\n```" + language + "\n";
+  for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at)) {
+    at += open.size();
+    blocks.push_back(page.substr(at, page.find("```\n", at) - at));
+  }
+  return blocks;
+}
+
+// Law: the C++ and CMake that the pages for authors of plugins show is what is built here, all of it; each example has
+// its number.
+TEST(Examples, AllCodeOfThePagesIsBuilt) {
   const fs::path source = SOURCE_FOLDER;
-  const std::pair<const char*, const char*> shown[] = {
-      {"docs/write-a-planner.md", "tests/plugins_good/acme_straight/straight.cpp"},
-      {"docs/write-a-planner.md", "tests/plugins_good/acme_straight/CMakeLists.txt"},
-      {"docs/write-a-planner.md", "plugins/templates/path_planner/acme_lines.cpp"},
-      {"docs/write-a-simulator.md", "plugins/templates/simulator/acme_stepper.cpp"}};
-  for (const auto& [page, example] : shown) {
-    const std::string code = content(source / example);
-    ASSERT_FALSE(code.empty()) << example;
-    EXPECT_NE(content(source / page).find("\n" + code + "```\n"), std::string::npos)
-        << page << " does not show " << example;
+  struct Page {
+    const char* file;
+    std::vector<std::string> examples, projects;
+  };
+  const Page pages[] = {
+      {"docs/write-a-planner.md",
+       {"plugins/templates/path_planner/acme_lines.cpp", "tests/plugins_good/acme_straight/straight.cpp",
+        "tests/plugins_good/acme_first_of/first_of.cpp", "plugins/templates/sequence_planner/acme_in_turn.cpp"},
+       {"tests/plugins_good/acme_straight/CMakeLists.txt"}},
+      {"docs/write-a-simulator.md", {"plugins/templates/simulator/acme_stepper.cpp"}, {}}};
+  for (const Page& page : pages) {
+    const std::string text = content(source / page.file);
+    const auto expect = [&](const std::string& language, const std::vector<std::string>& files) {
+      const auto blocks = blocks_of(text, language);
+      ASSERT_EQ(blocks.size(), files.size()) << page.file << ", " << language;
+      for (std::size_t k = 0; k < files.size(); ++k) EXPECT_EQ(blocks[k], content(source / files[k])) << files[k];
+    };
+    expect("cpp", page.examples);
+    expect("cmake", page.projects);
+    std::size_t at = 0;
+    for (std::size_t k = 1; k <= page.examples.size(); ++k) {
+      const std::size_t heading = text.find("\n## Example " + std::to_string(k) + ": ", at);
+      ASSERT_NE(heading, std::string::npos) << page.file << ", example " << k;
+      at = text.find("\n```cpp\n", heading);
+    }
+    EXPECT_EQ(text.find("\n## Example ", at), std::string::npos) << page.file << ": an example without code";
   }
 }
 
 // Law: a plugin exports its header and nothing else.
 TEST(Plugin, ExportsOnlyItsHeader) {
-  for (const char* name :
-       {"libacme_straight.so", "libacme_lines.so", "libacme_in_turn.so", "libacme_stepper.so", "libacme_facets.so"}) {
+  for (const char* name : {"libacme_straight.so", "libacme_first_of.so", "libacme_lines.so", "libacme_in_turn.so",
+                           "libacme_stepper.so", "libacme_facets.so"}) {
     std::ifstream stream(kAcme / name, std::ios::binary);
     const std::string file((std::istreambuf_iterator<char>(stream)), {});
     ElfW(Ehdr) header;
