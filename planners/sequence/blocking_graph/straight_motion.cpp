@@ -297,8 +297,8 @@ std::optional<std::size_t> StraightMotion::free_direction(const GroupState& grou
   return std::nullopt;
 }
 
-double StraightMotion::way_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
-                               const Eigen::Vector3d& shift) const {
+double StraightMotion::length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                                  const Eigen::Vector3d& shift) const {
   Attempt attempt = state_.attempt_for(group, ids);
   for (PlacedPart& p : attempt.moving) p.pose.t += shift;
   const double most = path_length(group, ids, direction, shift) + kBeyond;
@@ -308,7 +308,7 @@ double StraightMotion::way_out(const GroupState& group, const Subassemblies& ids
 bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {
   const Attempt attempt = state_.attempt_for(group, ids);
   const Eigen::Vector3d& d = directions_.all[direction];
-  const double length = way_out(group, ids, direction);
+  const double length = length_out(group, ids, direction);
   Path path(2);
   for (const auto& p : attempt.moving) {
     path[0].push_back(p.pose);

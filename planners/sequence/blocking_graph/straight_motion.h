@@ -37,8 +37,8 @@ class StraightMotion final : public GroupListener {
   bool leave(GroupState& group, const Subassemblies& ids, std::size_t direction);
   bool was_refused(const Subassemblies& ids, std::size_t direction) const;
   /// How far `ids`, translated by `shift` at first, have to go along the direction until the hulls are apart.
-  double way_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
-                 const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
+  double length_out(const GroupState& group, const Subassemblies& ids, std::size_t direction,
+                    const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
 
   /// Directions of `id`, the one with the shortest path out of the group first.
   std::vector<std::size_t> directions_of(const GroupState& group, SubassemblyId id) const;

@@ -52,7 +52,7 @@ std::size_t rank_of(const std::vector<Vector3d>& normals) {
 /// Cells around a vertex, as sign vectors: on the arcs that leave it, and in the sectors between these.
 void cells_at(const Vector3d& vertex, const Signs& at, const std::vector<Vector3d>& normals, std::set<Signs>& arcs,
               std::set<Signs>& faces) {
-  // Tangents of the circles through the vertex, both ways, by angle.
+  // Tangents of the circles through the vertex, in both directions, by angle.
   const Vector3d x = vertex.unitOrthogonal(), y = vertex.cross(x);
   std::vector<double> angles;
   for (std::size_t k = 0; k < normals.size(); ++k) {

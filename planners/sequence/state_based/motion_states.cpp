@@ -51,9 +51,9 @@ double MotionStates::free_distance(SubassemblyId id, const State& state, std::si
   double nearest = std::numeric_limits<double>::infinity();
   for (const SubassemblyId other : translation.in_way)
     for (const PartId fixed : state_.parts_of(other)) {
-      const auto passes = [&](double way) {
+      const auto passes = [&](double length) {
         Pose end = begin;
-        end.t += way * d;
+        end.t += length * d;
         return sweep_.passes(part, fixed, state_.pose(fixed), {begin, end});
       };
       const double past = straight_.distance_past(straight_.pair_of(part, fixed, direction, state.at));
@@ -75,18 +75,18 @@ void MotionStates::add_stops(std::vector<State>& states, std::size_t from, std::
                              double distance) const {
   const double least = params_.least_step * tolerance_;
   for (unsigned k = params_.stops; k > 0 && states.size() < params_.states; --k) {
-    const double way = distance * k / params_.stops;
-    if (way < least) return;
-    const Vector3d at = states[from].at + way * straight_.directions().all[direction];
+    const double length = distance * k / params_.stops;
+    if (length < least) return;
+    const Vector3d at = states[from].at + length * straight_.directions().all[direction];
     if (std::none_of(states.begin(), states.end(), [&](const State& s) { return (s.at - at).norm() < least; }))
       states.push_back({at, from});
   }
 }
 
-std::optional<std::vector<Vector3d>> MotionStates::way_out(const GroupState& group, SubassemblyId id) {
+std::optional<std::vector<Vector3d>> MotionStates::path_out(const GroupState& group, SubassemblyId id) {
   std::vector<State>& states = states_[id];
   if (states.empty()) states.push_back({Vector3d::Zero(), 0});
-  const std::set<Way>& refused = refused_[id];
+  const std::set<Edge>& refused = refused_[id];
   for (std::size_t s = 0; s < states.size(); ++s)
     for (const std::size_t d : straight_.directions_of(group, id)) {
       if (state_.stop()) return std::nullopt;
@@ -99,13 +99,13 @@ std::optional<std::vector<Vector3d>> MotionStates::way_out(const GroupState& gro
       translation = {true, in_way(group, id, states[s], d), 0};
       if (translation.in_way.empty()) {
         states[s].translations[d] = translation;
-        std::vector<Vector3d> way{states[s].at +
-                                  straight_.way_out(group, {id}, d, states[s].at) * straight_.directions().all[d]};
-        for (std::size_t k = s; k != 0; k = states[k].parent) way.push_back(states[k].at);
-        way.emplace_back(Vector3d::Zero());
-        std::reverse(way.begin(), way.end());
+        std::vector<Vector3d> path{states[s].at +
+                                   straight_.length_out(group, {id}, d, states[s].at) * straight_.directions().all[d]};
+        for (std::size_t k = s; k != 0; k = states[k].parent) path.push_back(states[k].at);
+        path.emplace_back(Vector3d::Zero());
+        std::reverse(path.begin(), path.end());
         last_[id] = {s, d};
-        return way;
+        return path;
       }
       translation.first = translation.in_way.front();
       const double distance = free_distance(id, states[s], d, translation);

@@ -33,11 +33,11 @@ class MotionStates {
   MotionStates(blocking::DisassemblyState& state, blocking::StraightMotion& straight, const blocking::PairSweep& sweep,
                double tolerance, const MotionStateParams& params);
 
-  /// Waypoints of a way out for a single part: translations since its pose in the group, the first zero. Goes on with
-  /// the states that it has, breadth first; nothing: no way out through at most params.states of them. Ways that were
-  /// refused since the group changed are not found again.
-  std::optional<std::vector<Eigen::Vector3d>> way_out(const GroupState& group, SubassemblyId id);
-  /// The checker refused the last way out of this part.
+  /// Waypoints of a path that takes out a single part: translations since its pose in the group, the first zero. Goes
+  /// on with the states that it has, breadth first; nothing: no path through at most params.states of them. Paths that
+  /// were refused since the group changed are not found again.
+  std::optional<std::vector<Eigen::Vector3d>> path_out(const GroupState& group, SubassemblyId id);
+  /// The checker refused the last path of this part.
   void refuse(SubassemblyId id);
   void on_group_changed() { refused_.clear(); }
 
@@ -60,9 +60,9 @@ class MotionStates {
     std::size_t parent = 0;
     std::map<std::size_t, Translation> translations{};  ///< by direction
   };
-  struct Way {
+  struct Edge {
     std::size_t state = 0, direction = 0;
-    bool operator<(const Way& o) const { return std::tie(state, direction) < std::tie(o.state, o.direction); }
+    bool operator<(const Edge& o) const { return std::tie(state, direction) < std::tie(o.state, o.direction); }
   };
   Subassemblies in_way(const GroupState& group, SubassemblyId id, const State& state, std::size_t direction);
   double free_distance(SubassemblyId id, const State& state, std::size_t direction, Translation& translation) const;
@@ -74,8 +74,8 @@ class MotionStates {
   double tolerance_;
   MotionStateParams params_;
   std::map<SubassemblyId, std::vector<State>> states_;
-  std::map<SubassemblyId, Way> last_;
-  std::map<SubassemblyId, std::set<Way>> refused_;
+  std::map<SubassemblyId, Edge> last_;
+  std::map<SubassemblyId, std::set<Edge>> refused_;
   std::uint64_t kept_ = 0;
 };
 

@@ -17,7 +17,7 @@ class TranslateOut final : public blocking::Strategy {
   void on_group_changed(GroupState&, const blocking::GroupChange&) override { states_.on_group_changed(); }
 
  private:
-  bool propose(GroupState& group, SubassemblyId id, const std::vector<Eigen::Vector3d>& way);
+  bool propose(GroupState& group, SubassemblyId id, const std::vector<Eigen::Vector3d>& waypoints);
 
   blocking::DisassemblyState& state_;
   MotionStates& states_;

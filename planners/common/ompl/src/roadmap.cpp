@@ -80,8 +80,8 @@ std::optional<std::uint32_t> Roadmap::expand() {
     if (rng_.uniform() * (from.tried + 2) >= from.blocked + 1) continue;
     StateType to;
     problem_.space().draw(rng_, to);
-    const double way = problem_.space().distance(from.state, to);
-    if (way > settings_.range) to = problem_.space().between(from.state, to, settings_.range / way);
+    const double distance = problem_.space().distance(from.state, to);
+    if (distance > settings_.range) to = problem_.space().between(from.state, to, settings_.range / distance);
     const double share = problem_.free_share(from.state, to);
     const std::uint32_t hits = share < 1 ? 1 : 0;
     ++milestones_[node].tried;
@@ -101,9 +101,10 @@ std::optional<SamplingProblem::StateType> Roadmap::near_obstacle() {
   StateType a, far;
   problem_.space().draw(rng_, a);
   problem_.space().draw(rng_, far);
-  const double way = problem_.space().distance(a, far);
-  if (!(way > 0)) return std::nullopt;
-  const StateType b = problem_.space().between(a, far, std::min(1.0, std::abs(settings_.range * rng_.normal()) / way));
+  const double distance = problem_.space().distance(a, far);
+  if (!(distance > 0)) return std::nullopt;
+  const StateType b =
+      problem_.space().between(a, far, std::min(1.0, std::abs(settings_.range * rng_.normal()) / distance));
   const bool a_free = problem_.is_free(a), b_free = problem_.is_free(b);
   if (a_free == b_free) return std::nullopt;
   return a_free ? a : b;
@@ -141,9 +142,9 @@ bool Roadmap::find_path() {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   open.emplace(length[0] = 0, 0);
   while (!open.empty()) {
-    const auto [way, node] = open.top();
+    const auto [cost, node] = open.top();
     open.pop();
-    if (way > length[node]) continue;
+    if (cost > length[node]) continue;
     if (milestones_[node].goal) {
       for (std::uint32_t n = node; n != 0; n = before[n]) route_.push_back(n);
       route_.push_back(0);
@@ -152,9 +153,9 @@ bool Roadmap::find_path() {
       return true;
     }
     for (const auto& [to, edge] : milestones_[node].edges)
-      if (way + edge < length[to]) {
+      if (cost + edge < length[to]) {
         before[to] = node;
-        open.emplace(length[to] = way + edge, to);
+        open.emplace(length[to] = cost + edge, to);
       }
   }
   return false;
@@ -177,11 +178,11 @@ void Roadmap::discard(std::size_t edge) {
 
 std::optional<SamplingProblem::StateType> Roadmap::farthest() const {
   if (reached_.empty()) return std::nullopt;
-  const auto way = [&](std::uint32_t n) {
+  const auto distance = [&](std::uint32_t n) {
     return (milestones_[n].state.center - milestones_[0].state.center).squaredNorm();
   };
   const auto best = std::max_element(reached_.begin(), reached_.end(),
-                                     [&](std::uint32_t a, std::uint32_t b) { return way(a) < way(b); });
+                                     [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
   return milestones_[*best].state;
 }
 

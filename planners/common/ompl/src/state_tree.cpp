@@ -9,8 +9,10 @@ std::uint32_t StateTree::add_root(const StateType& state) {
 std::uint32_t StateTree::add(const StateType& state, std::uint32_t parent) {
   nodes_.push_back({state, parent});
   const std::uint32_t id = near_.add(state.center);
-  const auto way = [&](std::uint32_t n) { return (nodes_[n].state.center - nodes_[0].state.center).squaredNorm(); };
-  if (way(id) > way(farthest_)) farthest_ = id;
+  const auto distance = [&](std::uint32_t n) {
+    return (nodes_[n].state.center - nodes_[0].state.center).squaredNorm();
+  };
+  if (distance(id) > distance(farthest_)) farthest_ = id;
   return id;
 }
 

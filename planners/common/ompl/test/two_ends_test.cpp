@@ -199,10 +199,10 @@ TEST(DisassembledGoal, SamplesAreOut) {
       EXPECT_TRUE(goal.isSatisfied(&state));
       EXPECT_TRUE(task.problem->space().satisfiesBounds(&state));
       if (k >= 6) continue;
-      const double way = task.problem->space().distance(task.problem->space().start(), state);
-      EXPECT_GE(way, last - 1e-9);
+      const double length = task.problem->space().distance(task.problem->space().start(), state);
+      EXPECT_GE(length, last - 1e-9);
       EXPECT_TRUE(state.turn.isApprox(Eigen::Quaterniond::Identity(), 0));
-      last = way;
+      last = length;
     }
   }
 }

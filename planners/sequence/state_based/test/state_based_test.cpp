@@ -87,7 +87,7 @@ struct Beginning {
   blocking::GroupState group;
 };
 
-/// Slots of any size, turned in any way.
+/// Slots of any size, turned by any rotation.
 TEST(StateBased, TranslatesRoundBends) {
   Rng rng(1);
   for (std::int64_t trial = 0; trial < 8; ++trial) {
@@ -117,44 +117,45 @@ TEST(StateBased, GoesOnFromTheStatesThatItHas) {
 
   Beginning b(stopped_passage());
   const auto slider = b.state.subassembly_of(0), stopper = b.state.subassembly_of(1);
-  EXPECT_FALSE(b.states.way_out(b.group, slider));
+  EXPECT_FALSE(b.states.path_out(b.group, slider));
   const std::size_t reached = b.states.size(slider);
   EXPECT_GE(reached, 2u);
   EXPECT_EQ(b.states.kept(), 0u);
-  EXPECT_FALSE(b.states.way_out(b.group, slider));  // nothing has changed: nothing is examined again
+  EXPECT_FALSE(b.states.path_out(b.group, slider));  // nothing has changed: nothing is examined again
   EXPECT_EQ(b.states.size(slider), reached);
   const std::uint64_t again = b.states.kept();
   EXPECT_GT(again, 0u);
   std::erase(b.group.members, stopper);
-  const auto way = b.states.way_out(b.group, slider);
-  ASSERT_TRUE(way);
-  EXPECT_GE(way->size(), 5u) << "along, up, along, up";
+  const auto path = b.states.path_out(b.group, slider);
+  ASSERT_TRUE(path);
+  EXPECT_GE(path->size(), 5u) << "along, up, along, up";
   EXPECT_GT(b.states.size(slider), reached);
   EXPECT_GT(b.states.kept(), again);
 }
 
-/// Each translation of a way out passes all others, and begins where the last one ended.
-TEST(StateBased, WaysOutPassAllOthers) {
+/// Each translation of a path out passes all others, and begins where the last one ended.
+TEST(StateBased, PathsPassAllOthers) {
   Rng rng(2);
   for (std::int64_t trial = 0; trial < 6; ++trial) {
     Beginning b(sample("zigzag", {{"clearance", rng.uniform(0.1, 0.5)},
                                   {"bends", static_cast<std::int64_t>(1 + rng.below(3))},
                                   {"rotate_seed", trial}}));
     for (const auto id : b.group.members) {
-      const auto way = b.states.way_out(b.group, id);
-      if (!way) continue;
-      EXPECT_EQ(way->front(), Eigen::Vector3d::Zero());
+      const auto path = b.states.path_out(b.group, id);
+      if (!path) continue;
+      EXPECT_EQ(path->front(), Eigen::Vector3d::Zero());
       const PartId part = b.state.part_of(id);
-      for (std::size_t k = 1; k < way->size(); ++k)
+      for (std::size_t k = 1; k < path->size(); ++k)
         for (const Part& other : b.assembly.parts) {
           if (other.id == part) continue;
-          const Pose from{(*way)[k - 1], Eigen::Quaterniond::Identity()}, to{(*way)[k], Eigen::Quaterniond::Identity()};
+          const Pose from{(*path)[k - 1], Eigen::Quaterniond::Identity()},
+              to{(*path)[k], Eigen::Quaterniond::Identity()};
           EXPECT_TRUE(b.sweep.passes(part, other.id, {}, {from, to}));
         }
       // Refused, another is found, or none: never the same.
       b.states.refuse(id);
-      const auto next = b.states.way_out(b.group, id);
-      EXPECT_FALSE(next && *next == *way);
+      const auto next = b.states.path_out(b.group, id);
+      EXPECT_FALSE(next && *next == *path);
     }
   }
 }
@@ -163,7 +164,7 @@ TEST(StateBased, WaysOutPassAllOthers) {
 TEST(StateBased, EvaluatesAPileFromTheTop) {
   for (const unsigned n : {2U, 5U, 8U}) {
     Beginning b(fake::tube_with_blocks(n));
-    for (const auto id : b.group.members) b.states.way_out(b.group, id);
+    for (const auto id : b.group.members) b.states.path_out(b.group, id);
     std::vector<blocking::SubassemblyId> blocks;
     for (const auto id : b.group.members)
       if (b.assembly.parts[b.state.part_of(id)].name.starts_with("block")) blocks.push_back(id);

@@ -7,7 +7,7 @@
 
 namespace dismantle::sampling {
 
-/// Hulls apart. Its samples: the start moved out of the box of the rest by each of the six shortest ways, the shortest
+/// Hulls apart. Its samples: the start moved out of the box of the rest by each of the six exits, the nearest
 /// first, as the bases of Targetless-RRT do; then states drawn at random. All random numbers come from the generator
 /// given.
 class DisassembledGoal final : public ompl::base::GoalSampleableRegion {

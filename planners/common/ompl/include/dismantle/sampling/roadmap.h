@@ -77,7 +77,7 @@ class Roadmap final : public ompl::base::Planner {
   unsigned sampled_ = 0;  // states of the goal
   bool changed_ = false;  // since the last search for a path
   std::uint64_t iterations_ = 0;
-  std::vector<std::uint32_t> reached_;  // joined to the start, when a path was looked for last
+  std::vector<std::uint32_t> reached_;  // joined to the start, at the last search for a path
   std::vector<StateType> solution_;
   std::vector<std::uint32_t> route_;  // the same, as milestones
 };
