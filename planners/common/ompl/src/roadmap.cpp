@@ -25,9 +25,8 @@ void Roadmap::clear() {
   milestones_.clear();
   near_ = {};
   sampled_ = 0;
-  changed_ = false;
   iterations_ = 0;
-  reached_.clear();
+  components_.clear();
   solution_.clear();
   route_.clear();
 }
@@ -42,14 +41,24 @@ void Roadmap::join(std::uint32_t a, std::uint32_t b) {
   const double length = problem_.space().distance(milestones_[a].state, milestones_[b].state);
   milestones_[a].edges.emplace_back(b, length);
   milestones_[b].edges.emplace_back(a, length);
-  const std::uint32_t i = component(a), j = component(b);
-  milestones_[std::max(i, j)].component = std::min(i, j);
-  changed_ = true;
+  merge(a, b);
+}
+
+void Roadmap::merge(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t root = std::min(component(a), component(b)), other = std::max(component(a), component(b));
+  if (root == other) return;
+  milestones_[other].component = root;
+  Component &to = components_[root], &from = components_[other];
+  if (to.members.size() < from.members.size()) std::swap(to.members, from.members);
+  to.members.insert(to.members.end(), from.members.begin(), from.members.end());
+  to.goals += from.goals;
+  from = {};
 }
 
 std::uint32_t Roadmap::add(const StateType& state) {
   const std::uint32_t node = near_.add(state.center);
   milestones_.push_back({state, getProblemDefinition()->getGoal()->isSatisfied(&state), node});
+  components_.push_back({{node}, milestones_.back().goal ? 1U : 0U});
   return node;
 }
 
@@ -74,8 +83,9 @@ void Roadmap::connect(std::uint32_t node) {
 std::optional<std::uint32_t> Roadmap::expand() {
   const bool at_start = rng_.uniform() < 0.5;
   for (int k = 0; k < kDrawsOfANode; ++k) {
+    const auto& reached = components_[0].members;
     const auto node =
-        at_start ? reached_[rng_.below(reached_.size())] : static_cast<std::uint32_t>(rng_.below(milestones_.size()));
+        at_start ? reached[rng_.below(reached.size())] : static_cast<std::uint32_t>(rng_.below(milestones_.size()));
     const Milestone& from = milestones_[node];
     if (rng_.uniform() * (from.tried + 2) >= from.blocked + 1) continue;
     StateType to;
@@ -128,14 +138,9 @@ std::optional<std::uint32_t> Roadmap::sample(const ob::GoalSampleableRegion& goa
 
 /// Dijkstra from the start to the nearest milestone of the goal, by lengths.
 bool Roadmap::find_path() {
-  changed_ = false;
   solution_.clear();
   route_.clear();
-  reached_.clear();
-  for (std::uint32_t n = 0; n < milestones_.size(); ++n)
-    if (component(n) == component(0)) reached_.push_back(n);
-  if (std::none_of(reached_.begin(), reached_.end(), [&](std::uint32_t n) { return milestones_[n].goal; }))
-    return false;
+  if (components_[0].goals == 0) return false;
   std::vector<double> length(milestones_.size(), std::numeric_limits<double>::infinity());
   std::vector<std::uint32_t> before(milestones_.size(), 0);
   using Entry = std::pair<double, std::uint32_t>;
@@ -166,22 +171,22 @@ void Roadmap::discard(std::size_t edge) {
   std::erase_if(milestones_[a].edges, [&](const auto& e) { return e.first == b; });
   std::erase_if(milestones_[b].edges, [&](const auto& e) { return e.first == a; });
   ++milestones_[a].blocked, ++milestones_[b].blocked;
-  for (std::uint32_t n = 0; n < milestones_.size(); ++n) milestones_[n].component = n;
+  for (std::uint32_t n = 0; n < milestones_.size(); ++n) {
+    milestones_[n].component = n;
+    components_[n] = {{n}, milestones_[n].goal ? 1U : 0U};
+  }
   for (std::uint32_t n = 0; n < milestones_.size(); ++n)
-    for (const auto& [to, length] : milestones_[n].edges) {
-      const std::uint32_t i = component(n), j = component(to);
-      milestones_[std::max(i, j)].component = std::min(i, j);
-    }
+    for (const auto& [to, length] : milestones_[n].edges) merge(n, to);
   solution_.clear();
-  changed_ = true;
 }
 
 std::optional<SamplingProblem::StateType> Roadmap::farthest() const {
-  if (reached_.empty()) return std::nullopt;
+  if (milestones_.empty()) return std::nullopt;
+  const auto& reached = components_[0].members;
   const auto distance = [&](std::uint32_t n) {
     return (milestones_[n].state.center - milestones_[0].state.center).squaredNorm();
   };
-  const auto best = std::max_element(reached_.begin(), reached_.end(),
+  const auto best = std::max_element(reached.begin(), reached.end(),
                                      [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
   return milestones_[*best].state;
 }
@@ -193,14 +198,14 @@ ob::PlannerStatus Roadmap::solve(const ob::PlannerTerminationCondition& stop) {
   if (milestones_.empty()) {
     const auto start = *static_cast<const StateType*>(getProblemDefinition()->getStartState(0));
     if (!problem_.is_free(start)) return ob::PlannerStatus::INVALID_START;
-    reached_ = {add(start)};
+    add(start);
   }
   while (!stop()) {
-    if (!changed_) {
+    if (components_[0].goals == 0) {
       ++iterations_;
       if (const auto node = sample(*goal)) connect(*node);
     }
-    if (!changed_ || !find_path()) continue;
+    if (!find_path()) continue;
     auto path = std::make_shared<ompl::geometric::PathGeometric>(si_);
     for (const auto& s : solution_) path->append(&s);
     getProblemDefinition()->clearSolutionPaths();

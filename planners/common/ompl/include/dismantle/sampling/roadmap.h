@@ -59,6 +59,13 @@ class Roadmap final : public ompl::base::Planner {
     std::uint32_t tried = 0, blocked = 0;
     std::vector<std::pair<std::uint32_t, double>> edges{};  ///< to, length
   };
+  /// Of a component, kept at its root (Milestone::component).
+  struct Component {
+    std::vector<std::uint32_t> members;
+    std::uint32_t goals = 0;  ///< members that are in the goal
+  };
+  /// One component of two. Roots are the lower: that of the start is 0.
+  void merge(std::uint32_t a, std::uint32_t b);
   std::uint32_t component(std::uint32_t node);
   void join(std::uint32_t a, std::uint32_t b);
   std::uint32_t add(const StateType& state);
@@ -75,9 +82,8 @@ class Roadmap final : public ompl::base::Planner {
   std::vector<Milestone> milestones_;
   NearestNodes near_;
   unsigned sampled_ = 0;  // states of the goal
-  bool changed_ = false;  // since the last search for a path
   std::uint64_t iterations_ = 0;
-  std::vector<std::uint32_t> reached_;  // joined to the start, at the last search for a path
+  std::vector<Component> components_;  // by root
   std::vector<StateType> solution_;
   std::vector<std::uint32_t> route_;  // the same, as milestones
 };
