@@ -87,13 +87,14 @@ std::optional<std::uint32_t> Roadmap::expand() {
     const auto node =
         at_start ? reached[rng_.below(reached.size())] : static_cast<std::uint32_t>(rng_.below(milestones_.size()));
     const Milestone& from = milestones_[node];
-    if (rng_.uniform() * (from.tried + 2) >= from.blocked + 1) continue;
+    if (rng_.uniform() * (from.tried + 2) * (from.expanded + 1) >= from.blocked + 1) continue;
     StateType to;
     problem_.space().draw(rng_, to);
     const double distance = problem_.space().distance(from.state, to);
     if (distance > settings_.range) to = problem_.space().between(from.state, to, settings_.range / distance);
     const double share = problem_.free_share(from.state, to);
     const std::uint32_t hits = share < 1 ? 1 : 0;
+    ++milestones_[node].expanded;
     ++milestones_[node].tried;
     milestones_[node].blocked += hits;
     if (share <= 0) return std::nullopt;

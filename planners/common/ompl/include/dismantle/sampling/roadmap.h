@@ -18,9 +18,10 @@ namespace dismantle::sampling {
 /// straight motions where these are free; only milestones of different components are joined. Ends when the start's
 /// component holds a state of the goal. Each iteration adds at most one milestone:
 /// - as long as the goal has samples left, one of these;
-/// - with probability `expansion`, the end of a free motion from a milestone whose motions were mostly blocked (their
-///   expansion step), which is how the roadmap gets through narrow passages; every other time one that the start is
-///   joined to;
+/// - with probability `expansion`, the end of a free motion from a milestone whose motions were mostly blocked and that
+/// was
+///   seldom expanded (their expansion step), which is how the roadmap gets through narrow passages; every other time
+///   one that the start is joined to;
 /// - with probability `gaussian` of the rest, a state near an obstacle (Boor, Overmars and van der Stappen 1999);
 /// - else a uniform one.
 ///
@@ -55,8 +56,9 @@ class Roadmap final : public ompl::base::Planner {
   struct Milestone {
     StateType state;
     bool goal = false;
-    std::uint32_t component = 0;  ///< parent in the forest of components
-    std::uint32_t tried = 0, blocked = 0;
+    std::uint32_t component = 0;                            ///< parent in the forest of components
+    std::uint32_t tried = 0, blocked = 0;                   ///< motions from here
+    std::uint32_t expanded = 0;                             ///< of these, expansions
     std::vector<std::pair<std::uint32_t, double>> edges{};  ///< to, length
   };
   /// Of a component, kept at its root (Milestone::component).
