@@ -91,7 +91,7 @@ TEST_P(EachPlanner, PlanDependsOnTheSeedAlone) {
 }
 
 TEST_P(EachPlanner, WorksUnderEachSequencePlanner) {
-  for (const std::string sequence : {"progressive", "queue", "random"}) {
+  for (const std::string sequence : {"progressive", "queue", "random", "mcts", "ndbg", "state_based"}) {
     const std::string planner = GetParam();
     Settings set = brief(planner, planner == "bk_rrt" ? "6000" : planner == "rrt" ? "3000" : "800");
     set.push_back("sequence_planner.type=" + sequence);
