@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kWave = 4;    // directions of one part that are examined together, shortest path first
 constexpr std::size_t kHints = 12;  // directions about which other threads are told in advance
+constexpr std::size_t kBatch = 16;  // pairs of a graph that are computed between two checks of the time
 constexpr double kBeyond = 1e-3;    // assembly units: how far past the last part a path leads at most
 constexpr int kHalvings = 12;       // of the path, to find where the hulls come apart
 constexpr double kClear = 0.01;     // assembly units: further than that, so that rounding when written does no harm
@@ -73,7 +74,10 @@ std::vector<std::vector<std::size_t>> StraightMotion::blocking_graph(const Group
     for (std::size_t j = 0; j < n; ++j)
       if (i != j)
         for (const Pair& pair : pairs_of(group.members[i], group.members[j], direction)) pairs.push_back(pair);
-  relations_.compute(pairs);
+  for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
+    if (state_.stop()) return {};
+    relations_.compute(std::span(pairs).subspan(first, std::min(kBatch, pairs.size() - first)));
+  }
   std::vector<std::vector<std::size_t>> blocked_by(n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {

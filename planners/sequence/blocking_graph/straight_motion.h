@@ -28,7 +28,7 @@ class StraightMotion final : public GroupListener {
                                             std::span<const SubassemblyId> next = {});
   /// Everything that `id` would run into.
   Subassemblies blockers(const GroupState& group, SubassemblyId id, std::size_t direction);
-  /// By member, in the group's order: indices of the members that it would run into.
+  /// By member, in the group's order: indices of the members that it would run into. Empty when the run is to stop.
   std::vector<std::vector<std::size_t>> blocking_graph(const GroupState& group, std::size_t direction);
   /// Of the directions common to all, the blockers along the one that has fewest.
   Subassemblies fewest_blockers(const GroupState& group, SubassemblyId id, std::span<const std::size_t> directions);
