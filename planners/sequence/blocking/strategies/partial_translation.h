@@ -5,8 +5,8 @@
 
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
-#include "blocking_graph/strategy.h"
 #include "blocking/translation_search.h"
+#include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 

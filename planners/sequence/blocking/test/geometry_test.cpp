@@ -6,10 +6,10 @@
 #include <limits>
 #include <numbers>
 
-#include "blocking_graph/directions.h"
-#include "blocking_graph/graph.h"
 #include "blocking/polyhedron.h"
 #include "blocking/rotation_axes.h"
+#include "blocking_graph/directions.h"
+#include "blocking_graph/graph.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle::blocking {
