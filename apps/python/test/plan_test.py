@@ -1,0 +1,93 @@
+import json
+import re
+
+import numpy as np
+import pytest
+
+import dismantle
+
+
+def without_times(text):
+    """A plan without what varies between runs."""
+
+    def clean(value):
+        if isinstance(value, dict):
+            return {k: clean(v) for k, v in value.items() if k != "seconds"}
+        return [clean(v) for v in value] if isinstance(value, list) else value
+
+    return clean(json.loads(text))
+
+
+def test_round_trip(box, peg, machine, tmp_path):
+    for assembly in (box, peg, machine):
+        for seed in (1, 7):
+            plan = dismantle.run(assembly, seed=seed)
+            text = plan.to_json()
+            assert dismantle.Plan.from_json(text).to_json() == text
+            plan.write(tmp_path / "plan.json")
+            again = dismantle.Plan.read(tmp_path / "plan.json")
+            assert again.to_json() == text and again.seed == seed and again.info == {}
+            for step, same in zip(plan.steps, again.steps):
+                assert step.parts == same.parts
+                for part in step.parts:
+                    assert np.array_equal(step.moves[part], same.moves[part])
+
+
+def test_same_plan_as_the_command_line(program, tmp_path):
+    for sample in ("stacked_box", "machine"):
+        folder = tmp_path / sample
+        program("sample", sample, "-o", folder)
+        program("plan", folder, "-o", tmp_path / f"{sample}.out", "--seed", 5, "-q")
+        theirs = (tmp_path / f"{sample}.out" / "plan.json").read_text()
+        plan = dismantle.run(folder, seed=5)
+        assert plan.complete
+        assert without_times(plan.to_json()) == without_times(theirs)
+        assert dismantle.verify(plan).complete
+        plan.write(tmp_path / "mine.json")
+        program("verify", tmp_path / "mine.json", "--assembly", folder)
+
+
+def test_poses_are_those_of_the_format(box):
+    plan = dismantle.run(box)
+    for step, written in zip(plan.steps, json.loads(plan.to_json())["disassembly"]):
+        for move in written["moves"]:
+            poses = step.moves[move["part"]]
+            assert poses.shape == (len(move["poses"]), 7) and poses.dtype == np.float64
+            assert np.array_equal(poses, np.array(move["poses"]))
+            assert np.allclose(np.linalg.norm(poses[:, 3:], axis=1), 1)
+    first = next(iter(plan.steps[0].moves.values()))
+    assert np.allclose(first[0], [0, 0, 0, 1, 0, 0, 0])
+
+
+def test_a_plan_that_was_tampered_with_is_not_valid(box):
+    plan = dismantle.run(box)
+    tampered = json.loads(plan.to_json())
+    tampered["disassembly"].reverse()
+    for number, step in enumerate(tampered["disassembly"], 1):
+        step["step"], step["after"] = number, []
+    check = dismantle.verify(dismantle.Plan.from_json(json.dumps(tampered)), box)
+    assert not check and not check.valid and check.problems
+    assert dismantle.verify(plan, box).valid
+
+
+def test_what_is_wrong_with_a_plan_file_is_placed(tmp_path):
+    (tmp_path / "plan.json").write_text('{"format": "dismantle.plan",\n "version": [}')
+    with pytest.raises(dismantle.InputError, match=re.escape(str(tmp_path / "plan.json"))):
+        dismantle.Plan.read(tmp_path / "plan.json")
+    with pytest.raises(dismantle.InputError, match="No such file"):
+        dismantle.Plan.read(tmp_path / "none.json")
+
+
+def test_interpolation_is_a_screw_motion():
+    rng = np.random.default_rng(3)
+    for _ in range(50):
+        a, b = rng.normal(size=(2, 7))
+        for pose in (a, b):
+            pose[3:] /= np.linalg.norm(pose[3:])
+        assert np.allclose(dismantle.interpolate(a, b, 0), a)
+        end = dismantle.interpolate(a, b, 1)
+        assert np.allclose(end[:3], b[:3]) and abs(abs(end[3:] @ b[3:]) - 1) < 1e-12
+        # The motion is the same from either end.
+        u = rng.uniform()
+        there, back = dismantle.interpolate(a, b, u), dismantle.interpolate(b, a, 1 - u)
+        assert np.allclose(there[:3], back[:3]) and abs(abs(there[3:] @ back[3:]) - 1) < 1e-9
