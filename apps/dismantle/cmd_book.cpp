@@ -9,6 +9,7 @@
 #include "dismantle/frame_options.h"
 #include "dismantle/host/planning_setup.h"
 #include "dismantle/plan_file.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/preparation/assembly_of_plan.h"
 #include "dismantle/settings.h"
@@ -69,10 +70,8 @@ int write_book(const BookCommand& options) {
   write_file(output, book);
   console.end_progress();
   console.text(fmt::format("wrote {}: {} steps\n", output, pages));
-  console.result({{"status", plan.status == PlanStatus::complete ? "complete" : "partial"},
-                  {"steps", pages},
-                  {"book", output},
-                  {"plan", options.plan}});
+  console.result(
+      {{"status", std::string(to_string(plan.status))}, {"steps", pages}, {"book", output}, {"plan", options.plan}});
   return kComplete;
 }
 #else

@@ -107,9 +107,9 @@ void add_check(CLI::App& app, Action& action) {
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(
-      "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth and "
-      "place),\n"
-      "parts inside the solid of others, and parts that touch nothing.\n"
+      "Finds parts that are open, have no volume or had to be repaired, duplicates, pairs that overlap (depth, place, "
+      "class),\n"
+      "parts inside the solid of others, and parts that touch nothing. Counts the contacts of each class.\n"
       "Exit status: 0 nothing found, 1 something was found, 3 the input cannot be planned with.\n"
       "Examples:\n"
       "  dismantle check gearbox/\n"

@@ -26,8 +26,9 @@ class UsageError : public Error {
 };
 
 std::string facts(const samples::Sample& sample) {
-  if (!sample.solvable) return "cannot be taken apart";
-  return fmt::format("{}{}", sample.translation_only ? "straight motions" : "needs turning",
+  const char* overlap = sample.clean ? "" : "parts overlap; ";
+  if (!sample.solvable) return fmt::format("{}cannot be taken apart", overlap);
+  return fmt::format("{}{}{}", overlap, sample.translation_only ? "straight motions" : "needs turning",
                      sample.one_at_a_time ? "" : ", several parts at once");
 }
 

@@ -58,12 +58,14 @@ int verify(const Verify& options) {
   console.text(check_text(plan, check));
   auto problems = nlohmann::ordered_json::array();
   for (const auto& p : check.problems) problems.push_back({{"step", p.step}, {"message", p.message}});
-  console.result({{"status", !check.valid     ? "invalid"
-                             : check.complete ? "complete"
-                                              : "partial"},
+  console.result({{"status", !check.valid                        ? "invalid"
+                             : check.complete                    ? "complete"
+                             : plan.status == PlanStatus::forced ? "forced"
+                                                                 : "partial"},
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"max_penetration", check.max_penetration},
+                  {"forced", check.forced},
                   {"certificates", check.certificates},
                   {"problems", problems},
                   {"plan", options.plan}});

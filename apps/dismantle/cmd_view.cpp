@@ -6,6 +6,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/loaded_plan.h"
 #include "dismantle/plan_io/page.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
 #include "dismantle/viewer_template.h"
 
@@ -30,7 +31,7 @@ int view(const ViewOptions& options) {
   write_file(page, to_page(plan, assembly, *page_template));
   console.end_progress();
   console.text(fmt::format("wrote {}: open it in a browser\n", page.string()));
-  console.result({{"status", plan.status == PlanStatus::complete ? "complete" : "partial"},
+  console.result({{"status", std::string(to_string(plan.status))},
                   {"parts", assembly.parts.size()},
                   {"steps", plan.disassembly.size()},
                   {"page", page.string()},

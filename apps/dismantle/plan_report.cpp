@@ -36,6 +36,7 @@ nlohmann::ordered_json counters_json(const RunResult& result) {
 
 int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
               const RunContext& context) {
+  if (result.plan.forced_steps() > 0) return any_crash(result) ? kPluginFailed : kPartial;
   const bool done = one_part || constrained ? is_success(result.outcome) : result.plan.status == PlanStatus::complete;
   if (done) return one_part || unusable_parts(assembly).empty() ? kComplete : kPartial;
   if (context.cancel.cancelled()) return kInterrupted;
@@ -47,11 +48,12 @@ nlohmann::ordered_json result_json(const RunResult& result, const Assembly& asse
   const std::size_t parts = result.plan.assembly.parts.size(), left = result.plan.remaining.size();
   const char* words = status == kComplete      ? "complete"
                       : status == kInterrupted ? "interrupted"
-                      : status == kPartial     ? "partial"
+                      : status == kPartial     ? (result.plan.status == PlanStatus::forced ? "forced" : "partial")
                                                : "error";
   nlohmann::ordered_json out = {{"status", words},
                                 {"parts", parts},
                                 {"steps", result.plan.disassembly.size()},
+                                {"forced", result.plan.forced_steps()},
                                 {"removed", parts - left},
                                 {"left", left},
                                 {"excluded", result.plan.assembly.excluded.size()},

@@ -19,8 +19,11 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::names_of(step), width));
     if (bad)
       out += "NOT VALID\n";
+    else if (step.forced)
+      out += fmt::format("FORCED: {}; measured again\n", forced_text(plan, *step.forced));
     else if (i < check.step_penetration.size())
-      out += fmt::format("valid, penetration <= {}\n", length_text(plan, check.step_penetration[i] / scale));
+      out += fmt::format("valid, penetration <= {}\n{}", length_text(plan, check.step_penetration[i] / scale),
+                         overlaps_text(plan, step));
     else
       out += "not checked\n";
   }
@@ -28,9 +31,11 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
-  out +=
-      fmt::format("The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
-                  check.complete ? "complete" : "partial: some parts are still together");
+  out += fmt::format(
+      "The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
+      check.complete                      ? "complete"
+      : plan.status == PlanStatus::forced ? "forced: all parts are apart, some by steps that cut into other parts"
+                                          : "partial: some parts are still together");
   return out;
 }
 
@@ -48,9 +53,10 @@ std::string prepare_text(const Assembly& assembly, const PrepareReport& report) 
                        part.shells, part.volume, done.empty() ? "nothing" : done);
   }
   for (const auto& o : assembly.overlaps)
-    out += fmt::format("overlap when assembled: {} and {}, {:.3g} {}\n", assembly.parts[o.a].name,
+    out += fmt::format("overlap when assembled: {} and {}, {:.3g} {}{}\n", assembly.parts[o.a].name,
                        assembly.parts[o.b].name, o.depth / assembly.normalization.scale,
-                       assembly.unit.empty() ? "input units" : assembly.unit);
+                       assembly.unit.empty() ? "input units" : assembly.unit,
+                       o.place ? fmt::format(", {}", to_string(o.place->contact)) : "");
   for (const auto& warning : report.warnings) out += fmt::format("warning: {}\n", warning);
   const Eigen::Vector3d size = assembly.input_box.size();
   out += fmt::format("size {:.6g} x {:.6g} x {:.6g} input units, scale {:.6g}\n", size.x(), size.y(), size.z(),

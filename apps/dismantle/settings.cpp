@@ -104,6 +104,7 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
                   [&](const auto& raw) { return std::find(ignore.begin(), ignore.end(), raw.name) != ignore.end(); });
     Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
     assembly.import_params = import_params;
+    declare_overlaps(config.constraints, assembly);
     assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());
     return assembly;
   });

@@ -38,9 +38,10 @@ std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& as
   for (std::size_t i = 0; i < n && parameters_.certified_depth > 0; ++i)
     depths[model[i]].insert(parameters_.certified_depth);
   for (const auto& o : assembly.overlaps) {
-    prepared->overlaps[{o.a, o.b}] = o.depth;
+    const double depth = o.allowed();
+    prepared->overlaps[{o.a, o.b}] = depth;
     if (parameters_.certified_depth > 0)
-      for (const PartId p : {o.a, o.b}) depths[model[p]].insert(o.depth + parameters_.certified_depth);
+      for (const PartId p : {o.a, o.b}) depths[model[p]].insert(depth + parameters_.certified_depth);
   }
   std::mutex progress;
   std::size_t done = 0;

@@ -29,6 +29,18 @@ class Check(CliTest):
         self.assertTrue(9.9 <= x <= 14.1 and 9.9 <= y <= 14.1 and 2.9 <= z <= 4.1, overlaps[0]["at"])
         self.assertNotIn("picture", overlaps[0])
 
+    def test_contacts_have_a_class(self):
+        done = self.run_program("check", "parts", "--format", "json", "-q", status=1)
+        result = json.loads(done.stdout.splitlines()[-1])
+        contacts = {tuple(sorted(c["parts"])): c for c in result["contacts"]}
+        self.assertEqual({pair: c["class"] for pair, c in contacts.items()},
+                         {("pin", "plate"): "uniform_interference", ("cap", "pin"): "kissing"})
+        lower, upper = contacts["pin", "plate"]["region"]
+        for value, expected in zip(lower + upper, (10, 10, 3, 14, 14, 4)):
+            self.assertAlmostEqual(value, expected, delta=0.5)
+        self.assertNotIn("region", contacts["cap", "pin"])
+        self.assertEqual([f["class"] for f in result["findings"] if f["kind"] == "overlap"], ["uniform_interference"])
+
     @unittest.skipUnless(HAS_PICTURES, "built without pangocairo")
     def test_the_place_is_drawn(self):
         found = [f for f in self.findings("--pictures", "places", status=1) if "picture" in f]

@@ -132,7 +132,7 @@ class Book(WithPlan):
         self.assert_fails(2, ".html or .pdf", "book", "out/plan.json", "-o", "book.doc")
         self.assert_fails(3, "cannot be read", "book", "none.json")
         self.run_program("sample", "closed_box", "-o", "closed", status=0)
-        self.run_program("plan", "closed", *QUICK, "-o", "stuck", "-q", status=1)
+        self.run_program("plan", "closed", *QUICK, "--set", "run.force=off", "-o", "stuck", "-q", status=1)
         self.assertEqual(json.loads(self.read("stuck", "plan.json"))["disassembly"], [])
         self.assert_fails(3, "no steps", "book", "stuck/plan.json", "-q")
         self.assertFalse(os.path.exists(self.path("stuck", "book.html")))

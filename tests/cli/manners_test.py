@@ -178,7 +178,7 @@ class Explanations(CliTest):
     def test_advice_names_the_value_of_the_run(self):
         self.run_program("sample", "zigzag", "-o", "zigzag", status=0)
         self.run_program("plan", "zigzag", "-o", "out", "-q", "--sequence-planner", "progressive", "--path-planner", "contact_search", "--path-timeout", "0",
-                         "--set", "sequence_planner.max_depth=1", "--set", "run.path_steps=3000", status=1)
+                         "--set", "sequence_planner.max_depth=1", "--set", "run.path_steps=3000", "--set", "run.force=off", status=1)
         text = self.run_program("explain", "out/plan.json", status=0).stdout
         for words in ("2 parts did not come out", "1 search by contact_search to depth 1", "blocked by: housing at (",
                       "`--set sequence_planner.max_depth=2`, key sequence_planner.max_depth (was 1)", "--path-planner guided"):

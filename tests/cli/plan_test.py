@@ -72,7 +72,8 @@ class Plan(CliTest):
             walls += line + "\n" if word[0] == "v" else "f " + " ".join(str(int(i) + 8) for i in reversed(word[1:])) + "\n"
         self.write("in/box.obj", walls)
         self.write("in/free.obj", box((3.2, -1, -1), (5, 1, 1)))
-        done = self.run_program("plan", "in", "--path-timeout", "0", "--set", "run.path_steps=2000", "--format", "json", status=1)
+        done = self.run_program("plan", "in", "--path-timeout", "0", "--set", "run.path_steps=2000", "--set", "run.force=off",
+                                "--format", "json", status=1)
         result = self.result_of(done)
         self.assertEqual((result["status"], result["removed"], result["left"]), ("partial", 1, 2))
         self.assertGreater(result["unsolved"], 0)

@@ -100,7 +100,7 @@ if(NOT EXISTS "${WORK_DIR}/l_slot/slider.obj")
   message(FATAL_ERROR "the installed program wrote no sample")
 endif()
 # The foreign planner runs: it gives up on every part, which is status 1 and a partial plan.
-execute_process(COMMAND "${dismantle}" plan "${WORK_DIR}/l_slot" -o "${WORK_DIR}/plan" --path-planner consumer.never
+execute_process(COMMAND "${dismantle}" plan "${WORK_DIR}/l_slot" -o "${WORK_DIR}/plan" --path-planner consumer.never --set run.force=off
   RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
 if(NOT status EQUAL 1 OR NOT EXISTS "${WORK_DIR}/plan/plan.json")
   message(FATAL_ERROR "a plan with the foreign planner ended with status ${status}\n${out}\n${err}")

@@ -70,6 +70,21 @@ TEST_F(ConstraintsTest, OtherContradictions) {
   EXPECT_EQ(errors_of("schema: 1\nconstraints: {base: [a], before: [[b, a]]}\n"), "");  // 'a' may well stay
 }
 
+TEST_F(ConstraintsTest, OverlapsAndFlexibleParts) {
+  const RunConfig config =
+      load_text("schema: 1\nconstraints:\n  flexible: [spring]\n  overlap:\n    - {parts: [pin, hub], depth: 0.25}\n");
+  EXPECT_EQ(config.constraints.flexible, std::vector<std::string>{"spring"});
+  EXPECT_EQ(config.constraints.overlap, (std::vector<NamedOverlap>{{"pin", "hub", 0.25}}));
+  EXPECT_THROW(check_constraint_names(config, {"pin", "hub"}, "gearbox"), ConfigError);
+  EXPECT_NO_THROW(check_constraint_names(config, {"pin", "hub", "spring"}, "gearbox"));
+  for (const char* wrong : {"3", "[3]", "[{parts: [a, b]}]", "[{parts: [a, b], depth: -1}]", "[{parts: [a], depth: 1}]",
+                            "[{parts: [a, a], depth: 1}]", "[{parts: [a, b], depth: x}]",
+                            "[{parts: [a, b], depth: 1, more: 2}]", "[{parts: [a, b, c], depth: 1}]"})
+    EXPECT_NE(errors_of(std::string("schema: 1\nconstraints: {overlap: ") + wrong + "}\n").find("run.yaml:2:"),
+              std::string::npos)
+        << wrong;
+}
+
 TEST_F(ConstraintsTest, UnknownNamesComeTogetherWithTheirPlaces) {
   const RunConfig config = load_text(
       "schema: 1\nconstraints:\n  base: [housing]\n  before:\n    - [shafd, housin]\n  ignore: [zzzzzzzzzz]\n",

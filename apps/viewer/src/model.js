@@ -26,6 +26,8 @@ export class Model {
     this.origin = box[0].map((x, k) => (x + box[1][k]) / 2);
     this.offsets = explode(plan.disassembly, groups.splits, parts, this.size, this.origin);
     this.unsolved = new Map(plan.unsolved.map(u => [this.index.get(u.part), u]));
+    const forced = plan.disassembly.filter(s => s.forced).flatMap(s => s.moves.map(m => this.index.get(m.part)));
+    this.forced = new Set(forced);
     this.remaining = new Set(plan.remaining.map(name => this.index.get(name)));
     this.hasColours = plan.assembly.parts.some(p => given(p) !== null);
     this.#findTimes();
@@ -68,7 +70,7 @@ export class Model {
   }
 
   colour(i, scheme) {
-    if (this.unsolved.has(i)) return TROUBLE;
+    if (this.unsolved.has(i) || this.forced.has(i)) return TROUBLE;
     if (scheme === 'given') {
       const own = given(this.parts[i].source);
       if (own !== null) return own;

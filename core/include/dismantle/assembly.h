@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/contact_class.h"
 #include "dismantle/mesh.h"
 #include "dismantle/parameters.h"
 #include "dismantle/pose.h"
@@ -67,6 +68,17 @@ using ImportParams = std::map<std::string, ParamSet>;
 struct InitialOverlap {
   PartId a = 0, b = 0;  ///< a < b
   double depth = 0;
+  std::optional<OverlapPlace> place{};  ///< assembly units; none: not classified
+  /// What the user allows this pair, whatever it overlaps; assembly units. Then `depth` may be 0.
+  std::optional<double> declared{};
+
+  /// How deep the two may be in each other along a path: as deep as when assembled. Not where one lies in the solid of
+  /// the other or where both are the same body, since that depth would let them through each other.
+  double allowed() const {
+    if (declared) return *declared;
+    const bool through = place && (place->contact == ContactClass::inside || place->contact == ContactClass::duplicate);
+    return through ? 0 : depth;
+  }
 };
 
 struct Assembly {
@@ -81,12 +93,17 @@ struct Assembly {
   std::vector<ExcludedPart> excluded;
   std::vector<InitialOverlap> overlaps;  ///< sorted by (a, b); measured on the original triangles
 
-  /// Allowed depth of the pair when assembled, 0 when they do not overlap.
+  /// As InitialOverlap::allowed(), 0 for pairs that do not overlap.
   double initial_overlap(PartId a, PartId b) const {
+    const InitialOverlap* o = overlap_of(a, b);
+    return o == nullptr ? 0 : o->allowed();
+  }
+  /// Null for pairs that neither overlap nor have a depth declared.
+  const InitialOverlap* overlap_of(PartId a, PartId b) const {
     if (a > b) std::swap(a, b);
     for (const auto& o : overlaps)
-      if (o.a == a && o.b == b) return o.depth;
-    return 0;
+      if (o.a == a && o.b == b) return &o;
+    return nullptr;
   }
 };
 

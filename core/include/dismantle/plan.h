@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,6 +23,25 @@ struct PlanMove {
   std::vector<Pose> poses;  ///< >= 2; all moves of a step have the same number
 };
 
+/// What a forced step cuts into: the pair that is worst off above what it overlaps when assembled.
+struct PlanForced {
+  std::string part, other;                       ///< `part` moves
+  double depth = 0;                              ///< deepest along the whole path, input units
+  double assembled = 0;                          ///< what the pair overlaps when assembled, input units
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< where, input units, world
+  std::string reason;                            ///< why no verified path is known
+  std::optional<std::size_t> certificate{};      ///< index into Plan::certificates: proof that there is none
+};
+
+/// A pair of parts that a step moves relative to each other and that overlaps when assembled, by so much that one
+/// should know of it.
+struct PlanStepOverlap {
+  std::string part, other;  ///< `part` moves
+  double assembled = 0;     ///< depth when assembled, input units
+  double allowed = 0;       ///< depth that the step may have by rule (b), without its tolerance; input units
+  double depth = 0;         ///< the deepest along the step, input units, measured
+};
+
 struct PlanStep {
   unsigned step = 0;  ///< from 1
   std::vector<PlanMove> moves;
@@ -38,6 +58,10 @@ struct PlanStep {
   std::vector<unsigned> after;
   /// Disassembly steps: 1 + the largest layer of `after`, or 1. Steps of one layer need not wait for each other.
   unsigned layer = 0;
+  /// Set: no verified motion was found, and the parts are taken out where they cut in least. Such a step is not valid
+  /// by rule (b), and `max_penetration` says nothing.
+  std::optional<PlanForced> forced{};
+  std::vector<PlanStepOverlap> overlaps{};  ///< disassembly steps
 };
 
 /// Where a part touches another.
@@ -81,7 +105,9 @@ struct PlanPart {
 
 struct PlanOverlap {
   std::string a, b;
-  double depth = 0;  ///< assembly units
+  double depth = 0;                     ///< assembly units
+  std::optional<OverlapPlace> place{};  ///< input units; none: the file does not say
+  std::optional<double> declared{};     ///< depth that the user allows this pair; assembly units
 };
 
 struct PlanAssembly {
@@ -97,7 +123,11 @@ struct PlanAssembly {
   std::vector<PlanOverlap> overlaps;
 };
 
-enum class PlanStatus { complete, partial };
+enum class PlanStatus {
+  complete,  ///< every group is down to one part, by verified steps only
+  forced,    ///< every group is down to one part, some steps are forced
+  partial,   ///< some parts are still together
+};
 
 /// What `assembly_steps` are.
 enum class AssemblyStatus {
@@ -120,6 +150,12 @@ struct Plan {
   std::vector<std::string> remaining;
   std::vector<PlanUnsolved> unsolved;
   std::vector<PlanCertificate> certificates;  ///< proofs that parts cannot be separated
+
+  /// Disassembly steps that are forced.
+  std::size_t forced_steps() const {
+    return static_cast<std::size_t>(
+        std::count_if(disassembly.begin(), disassembly.end(), [](const PlanStep& s) { return s.forced.has_value(); }));
+  }
 };
 
 }  // namespace dismantle

@@ -20,6 +20,8 @@ struct Pose {
     const Eigen::Quaterniond i = q.conjugate();
     return {-(i * t), i};
   }
+  /// To the last bit; q and -q differ.
+  bool operator==(const Pose& b) const { return t == b.t && q.coeffs() == b.q.coeffs(); }
   bool is_identity(double tolerance = 0.0) const {
     return t.cwiseAbs().maxCoeff() <= tolerance && q.vec().cwiseAbs().maxCoeff() <= tolerance;
   }

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/motion_words.h"
 #include "dismantle/plan_io/text_columns.h"
 
@@ -99,6 +100,12 @@ class ContentWriter {
         "checked", fmt::format("every motion, with parts that overlap by at most {} {} more than when assembled",
                                figure_text(plan_.verified_max_penetration / a.scale), unit_));
     content_.facts.emplace_back("made by", plan_.generator_name + " " + plan_.generator_version);
+    std::string forced;
+    for (const PlanStep& step : plan_.disassembly)
+      if (step.forced) forced += fmt::format("{}{}", forced.empty() ? "" : ", ", step.step);
+    if (!forced.empty())
+      content_.warnings.push_back(
+          fmt::format("Not verified: in these steps of the plan parts cut into others: {}.", forced));
     if (plan_.status == PlanStatus::partial)
       content_.warnings.push_back(
           fmt::format("The plan is partial: {} are still together with others at its end ({}). What the plan does not "
@@ -174,6 +181,7 @@ class ContentWriter {
       page.facts.emplace_back("of", names_of(chapter.parts));
     for (const PlanStep& s : plan_.disassembly) {
       if (s.step != step.plan_step) continue;
+      if (s.forced) page.warning = fmt::format("Not verified: {}.", forced_text(plan_, *s.forced));
       if (!s.contacts.empty()) page.facts.emplace_back("touches", text::joined(s.contacts));
       page.facts.emplace_back("step of the plan",
                               fmt::format("{}{}", s.step, options_.disassembly ? "" : ", backwards"));

@@ -28,6 +28,7 @@ struct BookPage {
   std::vector<std::pair<std::size_t, std::string>> moving;  ///< item number, "2 x bolt"
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
   std::vector<std::string> motions;                         ///< a line for each mover
+  std::string warning;                                      ///< the step is forced; else empty
   Facts facts;
   const BookStep* step = nullptr;
 };

@@ -21,7 +21,7 @@ p { margin: 6px 0; }
 img { max-width: 100%; height: auto; display: block; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 3px 14px; margin: 10px 0 0; font-size: 14px; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
-.soft { color: var(--soft); } .warning { border-left: 4px solid var(--accent); padding: 4px 12px; background: #fff4ec; }
+.soft { color: var(--soft); } .forced { color: #c00; font-weight: bold; } .warning { border-left: 4px solid var(--accent); padding: 4px 12px; background: #fff4ec; }
 .title { display: grid; grid-template-columns: 1fr 1fr; gap: 24px; align-items: center; }
 .items { display: grid; grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); gap: 14px; }
 .item { border: 1px solid var(--line); border-radius: 6px; padding: 10px; break-inside: avoid; overflow-wrap: anywhere; font-size: 14px; }
@@ -69,8 +69,10 @@ std::string step_page(const BookPage& page, const StepPictures& pictures, bool d
     motions += fmt::format("<p class=\"motion\">{}</p>", escaped_markup(motion));
   out += fmt::format("<div class=\"step\"><div>{}{}</div>\n", img(pictures.apart, "the motion of this step"),
                      caption_of(pictures).empty() ? "" : fmt::format("<p class=\"soft\">{}</p>", caption_of(pictures)));
-  out += fmt::format("<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, page.verb,
-                     what, motions, facts_list(page.facts));
+  out += fmt::format(
+      "<div><div class=\"number\">{}</div><div class=\"do\">{}: {}</div>{}{}", page.number, page.verb, what,
+      motions + (page.warning.empty() ? "" : "<p class=\"forced\">" + escaped_markup(page.warning) + "</p>"),
+      facts_list(page.facts));
   out += fmt::format("<div class=\"after\"><p>{}</p>{}</div></div></div></section>\n", disassembly ? "before" : "after",
                      img(pictures.placed, disassembly ? "before this step" : "after this step"));
   return out;

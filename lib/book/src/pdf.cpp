@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPageWidth = 842, kPageHeight = 595, kPaper = 40;  // points; margin
 constexpr double kTextColour[3] = {0.13, 0.15, 0.19}, kSoftColour[3] = {0.4, 0.44, 0.52},
-                 kAccentColour[3] = {0.76, 0.25, 0.05};
+                 kAccentColour[3] = {0.76, 0.25, 0.05}, kForcedColour[3] = {0.8, 0, 0};
 
 cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
@@ -164,6 +164,7 @@ void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures,
   for (const std::string& motion : page.motions) {
     if (y + 16 > bottom) break;
     y += pdf.text(x, y, column, motion, 12, kAccentColour, true, 64) + 4;
+    if (!page.warning.empty()) y += pdf.text(x, y, column, page.warning, 12, kForcedColour, true, 64) + 4;
   }
   pdf.facts(x, y + 2, column, page.facts, 9.5, bottom);
   pdf.text(x, bottom + 6, column, disassembly ? "before" : "after", 9.5, kSoftColour);

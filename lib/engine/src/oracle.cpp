@@ -57,6 +57,13 @@ std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
   return planner;
 }
 
+bool Oracle::resumes() {
+  std::shared_ptr<PathPlanner> planner = borrow_planner();
+  const bool resumable = planner->traits().resumable;
+  give_back(std::move(planner));
+  return resumable;
+}
+
 void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
   const std::lock_guard lock(planner_mutex_);
   if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));

@@ -11,6 +11,14 @@
 
 namespace dismantle {
 
+static std::optional<OverlapPlace> place_in_input(std::optional<OverlapPlace> place, const Normalization& n) {
+  if (!place) return place;
+  place->at = n.to_input(place->at);
+  place->axis_point = n.to_input(place->axis_point);
+  if (!place->region.empty()) place->region = {n.to_input(place->region.lo), n.to_input(place->region.hi)};
+  return place;
+}
+
 static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   Plan plan;
   plan.generator_version = DISMANTLE_VERSION;
@@ -31,7 +39,8 @@ static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   }
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)
-    a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth});
+    a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth,
+                          place_in_input(o.place, assembly.normalization), o.declared});
   return plan;
 }
 
@@ -213,7 +222,7 @@ std::vector<PartId> PlanBuilder::left() const {
 }
 
 void PlanBuilder::refresh_status() {
-  plan_.status = complete() ? PlanStatus::complete : PlanStatus::partial;
+  plan_.status = !complete() ? PlanStatus::partial : forced_ > 0 ? PlanStatus::forced : PlanStatus::complete;
   plan_.remaining.clear();
   for (std::size_t g = 0; g < groups_.size(); ++g)
     if (g == 0 || groups_[g].size() > 1)
@@ -268,6 +277,10 @@ void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved, const Cont
   }
 }
 
+void PlanBuilder::set_overlaps(std::vector<std::vector<PlanStepOverlap>> overlaps) {
+  for (std::size_t i = 0; i < plan_.disassembly.size(); ++i) plan_.disassembly[i].overlaps = std::move(overlaps.at(i));
+}
+
 void PlanBuilder::set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message) {
   plan_.assembly_steps = std::move(steps);
   plan_.assembly_status = status;
@@ -278,6 +291,7 @@ PlanStep reversed(const PlanStep& step) {
   PlanStep back;
   back.step = step.step;
   back.moves = step.moves;
+  back.forced = step.forced;
   for (auto& move : back.moves) std::reverse(move.poses.begin(), move.poses.end());
   return back;
 }

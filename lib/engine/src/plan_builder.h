@@ -10,6 +10,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/plan.h"
+#include "dismantle/verification/motion_depth.h"
 #include "oracle.h"
 
 namespace dismantle {
@@ -42,6 +43,12 @@ class PlanBuilder {
   void record(const Removal& removal);
 
   const Plan& plan() const { return plan_; }
+  /// Records a step that no oracle has accepted: `parts`, which are together in a group, leave the rest of it along
+  /// `path` (columns as `parts`). `worst`: what was measured along it. @throws std::logic_error as record().
+  void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, double seconds);
+  /// Groups of several parts that are asked to come apart, each with where its parts are.
+  std::vector<std::vector<PlacedPart>> open_groups() const;
+  std::size_t forced() const { return forced_; }
   const std::vector<RecordedStep>& recorded() const { return recorded_; }
   /// Parts whose group still has others: the group that was never left, then groups that came out whole.
   std::vector<PartId> left() const;
@@ -53,8 +60,12 @@ class PlanBuilder {
   /// Sets plan().unsolved, and plan().certificates, each once.
   /// `places` may be empty: then it is not known what a part touches where it came furthest.
   void set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places = {});
+  /// Drops what is unsolved of parts that have left since; certificates stay.
+  void drop_solved();
   /// Sets `after` and `layer` of the disassembly steps; as needed_steps().
   void set_needed(const std::vector<std::vector<std::size_t>>& needed);
+  /// Sets `overlaps` of the disassembly steps, [k] of the k-th.
+  void set_overlaps(std::vector<std::vector<PlanStepOverlap>> overlaps);
   /// Sets plan().assembly_steps in place of the disassembly backwards.
   void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
@@ -76,6 +87,7 @@ class PlanBuilder {
   std::vector<Pose> poses_;                  // by part id
   std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
   std::vector<RecordedStep> recorded_;
+  std::size_t forced_ = 0;
 };
 
 /// The disassembly step run backwards (Algorithm 3 from the disassembled poses).

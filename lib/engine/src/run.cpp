@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 #include <utility>
@@ -12,9 +13,11 @@
 #include "assembler.h"
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "force_steps.h"
 #include "oracle.h"
 #include "plan_builder.h"
 #include "precedence.h"
+#include "step_overlaps.h"
 #include "stopwatch.h"
 
 namespace dismantle {
@@ -122,8 +125,8 @@ SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner,
   return result;
 }
 
-SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, RemovalRecorder& recorder,
-                        RunContext context) {
+SequenceResult plan_one(const Assembly& assembly, PartId part, const RunOptions& options, Oracle& oracle,
+                        RemovalRecorder& recorder, RunContext context) {
   Attempt attempt;
   for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.fixed).push_back({p.id, Pose{}});
   SequenceResult result;
@@ -132,7 +135,18 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, R
     return result;
   }
   context.progress("sequence", 0, 1, assembly.parts[part].name);
-  const AttemptResult& answer = oracle.attempt(attempt, context);
+  // Less deep than where proofs begin, first: what comes out with a few actions needs no proof that it cannot. Searches
+  // that cannot be resumed would do all of their work again.
+  attempt.resume = oracle.resumes();
+  const AttemptResult* found = nullptr;
+  for (unsigned depth = 1; attempt.resume && depth < options.proofs.low_effort_depth; ++depth) {
+    attempt.max_depth = depth;
+    found = &oracle.attempt(attempt, context);
+    if (found->result.outcome() != Outcome::depth_limit) break;
+  }
+  attempt.max_depth = 0;
+  if (found == nullptr || found->result.outcome() == Outcome::depth_limit) found = &oracle.attempt(attempt, context);
+  const AttemptResult& answer = *found;
   result.outcome = answer.result.outcome();
   if (is_success(result.outcome)) {
     result.removals.push_back({{part}, &answer});
@@ -228,6 +242,9 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     for (const auto& entry : options.layout.poses) part_named(assembly, entry.first);
   RunContext own = context;
   own.rng = Rng(options.seed);
+  const bool forces = options.force.when == ForceWhen::last_resort && !only_one;
+  if (const double left = context.deadline.seconds_left(); forces && std::isfinite(left))
+    own.deadline = Deadline::after_seconds((1 - options.force.share) * left);
   if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
 
   RunResult result;
@@ -248,7 +265,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   if (!prepared)
     sequence.outcome = why_stopped(own);
   else if (only_one)
-    sequence = plan_one(assembly, part, oracle, recorder, own);
+    sequence = plan_one(assembly, part, options, oracle, recorder, own);
   else
     sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
 
@@ -268,6 +285,12 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
     prove_left(unsolved, builder.left(), oracle, options.proofs, own);
     builder.set_unsolved(unsolved, places);
+    own.deadline = context.deadline;
+    if (forces && prepared && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
+      ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options)
+          .run(sequence.outcome == Outcome::timeout, own);
+      builder.drop_solved();
+    }
   }
   AssemblyPlan back;
   const bool puts_together =
@@ -285,6 +308,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   parallel_for(
       2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });
   builder.set_needed(needed);
+  builder.set_overlaps(step_overlaps(builder.recorded(), assembly, verifier, options.named_overlap, own));
   for (const auto& [a, b] : part_precedence(builder.recorded(), needed))
     result.precedence.emplace_back(assembly.parts[a].name, assembly.parts[b].name);
   if (puts_together) builder.set_assembly(std::move(back.steps), back.status, std::move(back.message));

@@ -4,10 +4,12 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "dismantle/engine/run.h"
 #include "dismantle/errors.h"
+#include "dismantle/testing/fake_prover.h"
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/verification/check_plan.h"
 
@@ -186,6 +188,30 @@ TEST(Run, APlateNeverLeavesAClosedBox) {
   EXPECT_TRUE(r.plan.disassembly.empty());
   ASSERT_EQ(r.plan.unsolved.size(), 1u);
   EXPECT_EQ(r.plan.unsolved[0].blocked_by, (std::vector<std::string>{"box"}));
+}
+
+/// What comes out with one action needs no proof that it cannot; what does not is asked about all the same.
+TEST(Run, OnePartIsSearchedForBeforeItIsProvedHeld) {
+  for (const auto& [assembly, part, solved] :
+       {std::tuple(fake::tube_with_blocks(1), "block1", true), std::tuple(fake::closed_box(), "plate", false)}) {
+    unsigned asked = 0;
+    PlanningSetup setup = fake::setup([solved = solved](const PathQuery& query, RunContext&) {
+      const Path path = fake::straight(query.scene, {0, 0, 30});
+      if (solved) return fake::shown(query, path);
+      return PathResult::failure(query.budget.max_depth > 0 ? Outcome::depth_limit : Outcome::exhausted);
+    });
+    setup.provers = {
+        fake::prover("counting", {.effort = ProofEffort::low}, [&](const SeparationQuery&, const RunContext&) {
+          ++asked;
+          return std::optional<Certificate>();
+        })};
+    RunOptions options;
+    options.only_part = part;
+    RunContext context;
+    const RunResult r = run(assembly, setup, options, context);
+    EXPECT_EQ(is_success(r.outcome), solved) << part;
+    EXPECT_EQ(asked > 0, !solved) << part;
+  }
 }
 
 TEST(Run, OnePartOnly) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/text_columns.h"
 
 namespace dismantle {
@@ -23,17 +24,28 @@ std::string summary_text(const Plan& plan) {
   double worst = 0;
   for (const auto& step : plan.disassembly) worst = std::max(worst, step.max_penetration);
   std::string out = fmt::format("{}: {}, {}, {}\n", a.source, text::counted(a.parts.size(), "part"),
-                                text::counted(plan.disassembly.size(), "step"),
-                                plan.status == PlanStatus::complete ? "complete" : "partial");
+                                text::counted(plan.disassembly.size(), "step"), std::string(to_string(plan.status)));
   const std::size_t width = text::widest_step(plan);
   const double scale = a.scale > 0 ? a.scale : 1;  // people read input units
-  for (const auto& step : plan.disassembly)
+  std::size_t forced = 0;
+  for (const auto& step : plan.disassembly) {
+    if (step.forced) {
+      ++forced;
+      out += fmt::format("{:>5}  {}  {:8.2f} s  FORCED: {}\n", step.step, text::padded(text::names_of(step), width),
+                         step.seconds, forced_text(plan, *step.forced));
+      continue;
+    }
     out +=
         fmt::format("{:>5}  {}  {:8.2f} s  penetration <= {}\n", step.step, text::padded(text::names_of(step), width),
                     step.seconds, length_text(plan, step.max_penetration / scale));
-  if (!plan.disassembly.empty())
-    out += fmt::format("every step is verified: penetration <= {} of {} allowed\n", length_text(plan, worst / scale),
-                       length_text(plan, plan.verified_max_penetration / scale));
+    out += overlaps_text(plan, step);
+  }
+  if (forced > 0)
+    out += fmt::format("{} forced: no verified path was found, the parts are taken out where they cut in least\n",
+                       text::counted(forced, "step"));
+  if (plan.disassembly.size() > forced)
+    out += fmt::format("every {}step is verified: penetration <= {} of {} allowed\n", forced > 0 ? "other " : "",
+                       length_text(plan, worst / scale), length_text(plan, plan.verified_max_penetration / scale));
   if (plan.assembly_status == AssemblyStatus::complete)
     out += fmt::format("assembly: {} from the layout, verified the same way\n",
                        text::counted(plan.assembly_steps.size(), "step"));

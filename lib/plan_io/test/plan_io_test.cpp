@@ -100,6 +100,20 @@ Plan any_plan(Rng& rng) {
     if (rng.below(2)) c.numbers["none"] = {};
     plan.certificates.push_back(c);
   }
+  for (PlanStep& s : plan.disassembly) {
+    if (n < 2) break;
+    if (rng.below(3) == 0)
+      s.forced = PlanForced{a.parts[0].name,
+                            a.parts[1].name,
+                            rng.uniform(),
+                            rng.uniform(),
+                            {any_number(rng), any_number(rng), any_number(rng)},
+                            "stuck"};
+    if (s.forced && rng.below(2) && !plan.certificates.empty())
+      s.forced->certificate = rng.below(plan.certificates.size());
+    if (rng.below(3) == 0)
+      s.overlaps.push_back({a.parts[1].name, a.parts[0].name, rng.uniform(), rng.uniform(), rng.uniform()});
+  }
   if (!plan.certificates.empty() && !plan.unsolved.empty())
     plan.unsolved[0].certificate = rng.below(plan.certificates.size());
   return plan;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "dismantle/errors.h"
+#include "dismantle/preparation/declared_overlaps.h"
 #include "dismantle/preparation/prepare.h"
 
 namespace dismantle {
@@ -51,7 +52,16 @@ void set_normalization(Assembly& assembly, const Normalization& to) {
     if (part.surface) part.surface = shared ? part.mesh : moved(*part.surface, from, to);
     part.volume *= factor * factor * factor;
   }
-  for (auto& overlap : assembly.overlaps) overlap.depth *= factor;
+  const auto moved_point = [&](const Eigen::Vector3d& p) { return to.to_internal(from.to_input(p)); };
+  for (auto& overlap : assembly.overlaps) {
+    overlap.depth *= factor;
+    if (overlap.declared) *overlap.declared *= factor;
+    if (!overlap.place) continue;
+    OverlapPlace& place = *overlap.place;
+    place.at = moved_point(place.at);
+    place.axis_point = moved_point(place.axis_point);
+    if (!place.region.empty()) place.region = {moved_point(place.region.lo), moved_point(place.region.hi)};
+  }
   assembly.normalization = to;
 }
 
@@ -74,6 +84,8 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
       throw InputError(source,
                        fmt::format("part '{}', which the plan is about, cannot be used: {}", part.name, part.reason));
   set_normalization(assembly, {plan.assembly.scale, plan.assembly.center});
+  for (const PlanOverlap& o : plan.assembly.overlaps)
+    if (o.declared) declare_overlap(assembly, o.a, o.b, *o.declared);
   return assembly;
 }
 

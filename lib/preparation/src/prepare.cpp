@@ -11,6 +11,7 @@
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
 #include "dismantle/preparation/read_input.h"
+#include "dismantle/verification/contact.h"
 #include "dismantle/verification/verifier.h"
 #include "parallel_phase.h"
 #include "repair_part.h"
@@ -245,8 +246,11 @@ class Preparation {
     parallel_phase(
         pairs.size(), context_, "overlaps",
         [&](std::size_t i) {
-          pairs[i].depth =
-              penetration_depth(*parts[pairs[i].a].mesh, Pose{}, *parts[pairs[i].b].mesh, Pose{}, kOverlapTolerance);
+          const DepthBody a(*parts[pairs[i].a].mesh), b(*parts[pairs[i].b].mesh);
+          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, kOverlapTolerance);
+          pairs[i].depth = deepest.depth;
+          if (deepest.depth > kOverlapRecorded)
+            pairs[i].place = classify_overlap(a, b, deepest, kOverlapTolerance).place;
         },
         [&](std::size_t i) { return parts[pairs[i].a].name + " / " + parts[pairs[i].b].name; });
     const InitialOverlap* deepest = nullptr;

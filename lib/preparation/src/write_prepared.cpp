@@ -102,6 +102,14 @@ std::vector<fs::path> write_prepared(const Assembly& assembly, const PrepareRepo
     pair["parts"] = Json::array({assembly.parts[o.a].name, assembly.parts[o.b].name});
     pair["depth"] = o.depth;
     pair["depth_input_units"] = o.depth / assembly.normalization.scale;
+    if (o.place) {
+      const Normalization& n = assembly.normalization;
+      const Eigen::Vector3d at = n.to_input(o.place->at), lo = n.to_input(o.place->region.lo),
+                            hi = n.to_input(o.place->region.hi);
+      pair["class"] = std::string(to_string(o.place->contact));
+      pair["at"] = {at.x(), at.y(), at.z()};
+      pair["region"] = {{lo.x(), lo.y(), lo.z()}, {hi.x(), hi.y(), hi.z()}};
+    }
     json["overlaps"].push_back(std::move(pair));
   }
   json["excluded"] = Json::array();

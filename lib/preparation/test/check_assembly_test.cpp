@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dismantle/errors.h"
+#include "dismantle/samples.h"
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle {
@@ -55,14 +56,15 @@ TEST(CheckAssembly, OverlapOfBoxesIsMeasuredAndPlaced) {
     EXPECT_GE(at.x(), size - depth - 1e-6 * size);
     EXPECT_LE(at.x(), size + 1e-6 * size);
     const bool deep = depth > 0.01 * (2 * size);
-    EXPECT_EQ(overlaps[0].severity, deep ? Severity::error : Severity::warning) << "depth " << depth << " size " << size;
+    EXPECT_EQ(overlaps[0].severity, deep ? Severity::error : Severity::warning)
+        << "depth " << depth << " size " << size;
   }
 }
 
 TEST(CheckAssembly, PartInsideSolidIsEnclosed) {
-  const AssemblyCheck check = checked(
-      {raw_box("block", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12}),
-       raw_box("foot", {0, 0, -5}, {20, 20, 0})});
+  const AssemblyCheck check =
+      checked({raw_box("block", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12}),
+               raw_box("foot", {0, 0, -5}, {20, 20, 0})});
   const auto enclosed = of_kind(check, FindingKind::enclosed);
   ASSERT_EQ(enclosed.size(), 1u);
   EXPECT_EQ(enclosed[0].parts, (std::vector<std::string>{"pin", "block"}));
@@ -75,10 +77,9 @@ TEST(CheckAssembly, DuplicatesAndOpenMeshesAreNamed) {
   open.mesh.triangles.resize(open.mesh.triangles.size() - 5);
   PrepareOptions options;
   options.repair = false;
-  const AssemblyCheck check =
-      checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10}),
-               raw_box("copy of b", {10, 0, 0}, {20, 10, 10}), open},
-              options);
+  const AssemblyCheck check = checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {10, 0, 0}, {20, 10, 10}),
+                                       raw_box("copy of b", {10, 0, 0}, {20, 10, 10}), open},
+                                      options);
   const auto duplicates = of_kind(check, FindingKind::duplicate), unusable = of_kind(check, FindingKind::unusable);
   ASSERT_EQ(duplicates.size(), 1u);
   EXPECT_EQ(duplicates[0].parts.front(), "copy of b");
@@ -91,18 +92,66 @@ TEST(CheckAssembly, PartAwayFromTheOthersIsIsolatedAndOthersAreNot) {
   Rng rng(11);
   for (int trial = 0; trial < 20; ++trial) {
     const double gap = rng.uniform(0.5, 30);
-    const AssemblyCheck check =
-        checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {2, 2, 10}, {8, 8, 20}),
-                 raw_box("far", {10 + gap, 0, 0}, {20 + gap, 10, 10})});
+    const AssemblyCheck check = checked({raw_box("a", {0, 0, 0}, {10, 10, 10}), raw_box("b", {2, 2, 10}, {8, 8, 20}),
+                                         raw_box("far", {10 + gap, 0, 0}, {20 + gap, 10, 10})});
     const auto isolated = of_kind(check, FindingKind::isolated);
     ASSERT_EQ(isolated.size(), 1u) << "gap " << gap;
     EXPECT_EQ(isolated[0].parts.front(), "far");
   }
 }
 
+const CheckedContact* contact_of(const AssemblyCheck& check, const std::string& a, const std::string& b) {
+  for (const CheckedContact& c : check.contacts)
+    if ((c.a == a && c.b == b) || (c.a == b && c.b == a)) return &c;
+  return nullptr;
+}
+
+/// Every sample that overlaps: its contacts have the class and the depth of its truth, in input units, in the check and
+/// in the assembly; what is clean has no overlap.
+TEST(CheckAssembly, ContactsOfSamplesAreThoseOfTheirTruth) {
+  for (const samples::Sample& sample : samples::list()) {
+    const samples::Model model = samples::make_model(sample.name, {{"rotate_seed", std::int64_t{7}}});
+    PrepareOptions options;
+    options.drop_duplicates = false;
+    RunContext context;
+    PrepareReport report;
+    const Assembly assembly = prepare_assembly(model.parts, sample.name, "", options, context, report);
+    const AssemblyCheck check = check_assembly(assembly, report, kTolerance, context);
+    SCOPED_TRACE(sample.name);
+    const double scale = assembly.normalization.scale;
+    std::size_t overlapping = 0;
+    for (const CheckedContact& c : check.contacts)
+      if (c.place.contact != ContactClass::clearance && c.place.contact != ContactClass::kissing) ++overlapping;
+    EXPECT_EQ(overlapping, model.truth.contacts.size());
+    for (const samples::TruthContact& truth : model.truth.contacts) {
+      const CheckedContact* found = contact_of(check, truth.a, truth.b);
+      ASSERT_TRUE(found) << truth.a << " " << truth.b;
+      EXPECT_EQ(to_string(found->place.contact), to_string(truth.contact));
+      EXPECT_NEAR(found->depth, truth.depth, truth.depth_error + 0.01 * truth.depth + 2 * kTolerance / scale);
+      EXPECT_EQ(found->place.axis.has_value(), truth.contact == ContactClass::uniform_interference);
+      const bool reported = std::any_of(check.findings.begin(), check.findings.end(), [&](const Finding& f) {
+        return f.contact == truth.contact &&
+               std::is_permutation(f.parts.begin(), f.parts.end(), std::vector{truth.a, truth.b}.begin());
+      });
+      EXPECT_TRUE(reported);
+    }
+    for (const InitialOverlap& o : assembly.overlaps) {
+      ASSERT_TRUE(o.place);
+      const CheckedContact* found = contact_of(check, assembly.parts[o.a].name, assembly.parts[o.b].name);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->place.contact, o.place->contact);
+      Aabb region = o.place->region;
+      region.inflate(1e-9);
+      EXPECT_TRUE(region.contains(o.place->at));
+    }
+    const auto json = nlohmann::json::parse(findings_json(check));
+    EXPECT_EQ(json["contacts"].size(), check.contacts.size());
+  }
+}
+
 TEST(CheckAssembly, JsonHoldsEveryFinding) {
-  const AssemblyCheck check = checked(
-      {raw_box("block \"x\" </script>", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12})});
+  const AssemblyCheck check =
+      checked({raw_box("block \"x\" </script>", {0, 0, 0}, {20, 20, 20}), raw_box("pin", {8, 8, 8}, {12, 12, 12})});
   const auto json = nlohmann::json::parse(findings_json(check));
   EXPECT_EQ(json["findings"].size(), check.findings.size());
   EXPECT_EQ(json["errors"], check.count(Severity::error));

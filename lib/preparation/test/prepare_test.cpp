@@ -278,7 +278,15 @@ TEST(Prepare, TheNumberOfThreadsDoesNotMatter) {
     EXPECT_EQ(a.parts[i].surface->triangles, b.parts[i].surface->triangles);
   }
   ASSERT_EQ(a.overlaps.size(), b.overlaps.size());
-  for (std::size_t i = 0; i < a.overlaps.size(); ++i) EXPECT_EQ(a.overlaps[i].depth, b.overlaps[i].depth);
+  for (std::size_t i = 0; i < a.overlaps.size(); ++i) {
+    EXPECT_EQ(a.overlaps[i].depth, b.overlaps[i].depth);
+    ASSERT_TRUE(a.overlaps[i].place && b.overlaps[i].place);
+    EXPECT_EQ(a.overlaps[i].place->contact, b.overlaps[i].place->contact);
+    EXPECT_EQ(a.overlaps[i].place->at, b.overlaps[i].place->at);
+    EXPECT_EQ(a.overlaps[i].place->region.lo, b.overlaps[i].place->region.lo);
+    EXPECT_EQ(a.overlaps[i].place->region.hi, b.overlaps[i].place->region.hi);
+    EXPECT_EQ(a.overlaps[i].place->share, b.overlaps[i].place->share);
+  }
   EXPECT_EQ(r1.warnings, r2.warnings);
 }
 

@@ -21,14 +21,15 @@ struct SampleFacts {
   bool solvable = true;
   bool translation_only = true;
   bool one_at_a_time = true;
+  bool clean = true;
 };
 
 template <class Params>
 Maker maker(std::string name, std::string summary, Model (*build)(const Params&), SampleFacts facts = {}) {
   const Schema<Params> schema;
   Maker m;
-  m.sample = {std::move(name), std::move(summary),     schema.specs(),
-              facts.solvable,  facts.translation_only, facts.one_at_a_time};
+  m.sample = {std::move(name), std::move(summary),     schema.specs(),     facts.solvable,
+              facts.clean,     facts.translation_only, facts.one_at_a_time};
   m.make = [schema, build](const ParamSet& values) { return build(schema.bind(values)); };
   return m;
 }
@@ -39,12 +40,18 @@ std::vector<Maker> slot_makers();       // slots.cpp: slots and boxes
 std::vector<Maker> turning_makers();    // turning.cpp: threads and rings
 std::vector<Maker> interlock_makers();  // interlock.cpp
 std::vector<Maker> machine_makers();    // machine.cpp
+std::vector<Maker> pressed_makers();    // pressed.cpp: pins, screws and seals that overlap all around
+std::vector<Maker> flexible_makers();   // flexible.cpp: clips, springs, gears
+std::vector<Maker> doubled_makers();    // doubled.cpp: two solids in one place
 
 /// Adds a part, checked, and returns its name.
 std::string add_part(Model& model, std::string name, Mesh mesh);
 
 /// A straight slide of one part; `out` says that this frees it.
 TruthStep slide(const std::string& part, const Point& way, bool out);
+
+/// The straight motion that slide() makes.
+Screw along(const Point& travel);
 
 /// Adds `clearance` with the doc that all samples share.
 template <class Params>

@@ -127,6 +127,16 @@ Loop rectangle(double half_x, double half_y, double z) {
 
 Loop hexagon(double across_flats, double z) { return circle(across_flats / std::numbers::sqrt3, z, 6); }
 
+Loop tube_section(double bend_radius, double r, double angle, int segments) {
+  Loop loop;
+  const Point outward(std::cos(angle), std::sin(angle), 0);
+  for (int i = 0; i < segments; ++i) {
+    const double a = 2 * std::numbers::pi * i / segments;
+    loop.push_back((bend_radius + r * std::sin(a)) * outward + r * std::cos(a) * Point::UnitZ());
+  }
+  return loop;
+}
+
 double around(double r, int segments) { return r / std::cos(std::numbers::pi / segments); }
 
 Mesh reversed(Mesh mesh) {

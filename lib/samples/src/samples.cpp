@@ -25,7 +25,8 @@ ParamSpec rotate_seed_spec() {
 const std::vector<Maker>& makers() {
   static const std::vector<Maker> all = [] {
     std::vector<Maker> list;
-    for (auto& group : {fit_makers(), slot_makers(), turning_makers(), interlock_makers(), machine_makers()})
+    for (auto& group : {fit_makers(), slot_makers(), turning_makers(), interlock_makers(), machine_makers(),
+                        pressed_makers(), flexible_makers(), doubled_makers()})
       list.insert(list.end(), group.begin(), group.end());
     for (Maker& m : list) m.sample.params.push_back(rotate_seed_spec());
     return list;
@@ -50,6 +51,11 @@ void rotate(Model& model, const Eigen::Quaterniond& q) {
       motion.screw.axis = q * motion.screw.axis;
       motion.screw.point = q * motion.screw.point;
     }
+  for (TruthContact& contact : model.truth.contacts) {
+    if (!contact.apart) continue;
+    contact.apart->axis = q * contact.apart->axis;
+    contact.apart->point = q * contact.apart->point;
+  }
 }
 
 }  // namespace
@@ -96,9 +102,11 @@ std::string add_part(Model& model, std::string name, Mesh mesh) {
   return name;
 }
 
+Screw along(const Point& travel) { return {travel.normalized(), Point::Zero(), 0.0, travel.norm()}; }
+
 TruthStep slide(const std::string& part, const Point& way, bool out) {
   TruthStep step;
-  step.motions.push_back({part, {way.normalized(), Point::Zero(), 0.0, way.norm()}});
+  step.motions.push_back({part, along(way)});
   if (out) step.out = part;
   return step;
 }

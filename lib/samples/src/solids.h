@@ -56,6 +56,9 @@ Loop circle(double r, double z, int segments);
 Loop rectangle(double half_x, double half_y, double z);
 /// Regular hexagon with the given distance between opposite sides.
 Loop hexagon(double across_flats, double z);
+/// Circle of radius r about the point at `angle` (rad) of a circle of radius `bend_radius` around the z axis, square to
+/// it; counter-clockwise about the direction of growing angles.
+Loop tube_section(double bend_radius, double r, double angle, int segments);
 /// Radius of a polygon of that many segments that contains the circle of radius r.
 double around(double r, int segments);
 

@@ -89,17 +89,6 @@ struct RingParams {
   }
 };
 
-/// Circle of radius r about the point at `angle` of the centre line, which runs around the z axis.
-Loop tube_section(double bend_radius, double r, double angle, int segments) {
-  Loop loop;
-  const Point outward(std::cos(angle), std::sin(angle), 0);
-  for (int i = 0; i < segments; ++i) {
-    const double a = 2 * pi * i / segments;
-    loop.push_back((bend_radius + r * std::sin(a)) * outward + r * std::cos(a) * Point::UnitZ());
-  }
-  return loop;
-}
-
 /// Adds sections from `from` to `to` (rad) at most 1.5 degrees apart.
 void tube(Loft& loft, const RingParams& p, double r, double from, double to) {
   const int pieces = static_cast<int>(std::ceil(std::abs(to - from) / (1.5 * pi / 180)));

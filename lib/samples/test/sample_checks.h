@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/pose.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/parameters.h"
+#include "dismantle/pose.h"
 #include "dismantle/run_context.h"
 #include "dismantle/samples.h"
 
@@ -106,6 +106,33 @@ inline std::vector<Probe> probes(const Model& model, Rng& rng, std::size_t point
 /// True when a point of `a` lies inside `b` or within `distance` of its surface, or the other way round.
 inline bool closer_than(const Probe& a, const Pose& pose_a, const Probe& b, const Pose& pose_b, double distance) {
   return detail::reaches(a, pose_a, b, pose_b, distance) || detail::reaches(b, pose_b, a, pose_a, distance);
+}
+
+namespace detail {
+
+/// Deepest of the points of `a` in `b`, 0 when none is inside.
+inline double deepest_point(const Probe& a, const Pose& pose_a, const Probe& b, const Pose& pose_b) {
+  const Pose relative = pose_b.inverse() * pose_a;
+  double deepest = 0;
+  for (const Eigen::Vector3d& p : a.points) {
+    const Eigen::Vector3d x = relative * p;
+    if (b.box.contains(x) && b.bvh->inside(x)) deepest = std::max(deepest, b.bvh->closest(x).distance);
+  }
+  return deepest;
+}
+
+}  // namespace detail
+
+/// Largest distance of a sampled surface point of one of the two, inside the other, from the other's surface, mm.
+inline double sampled_depth(const Probe& a, const Pose& pose_a, const Probe& b, const Pose& pose_b) {
+  return std::max(detail::deepest_point(a, pose_a, b, pose_b), detail::deepest_point(b, pose_b, a, pose_a));
+}
+
+/// What the truth says of the two; null: that they keep the clearance.
+inline const TruthContact* contact_of(const Model& model, const std::string& a, const std::string& b) {
+  for (const TruthContact& c : model.truth.contacts)
+    if ((c.a == a && c.b == b) || (c.a == b && c.b == a)) return &c;
+  return nullptr;
 }
 
 /// First pair of triangles without a common corner that cross each other, as text; empty when there is none.

@@ -20,15 +20,25 @@ bool moves_in(const TruthStep& step, const std::string& part) {
   return std::any_of(step.motions.begin(), step.motions.end(), [&](const auto& m) { return m.part == part; });
 }
 
-/// First pair that comes closer than `distance` while the parts in `present` carry out `step`; empty: none.
-std::string collision(const std::vector<Probe>& parts, const std::set<std::string>& present, const TruthStep& step,
-                      const Poses& from, double distance, double until = 1.0, int instants = 40) {
+/// Room for the rounding of coordinates, mm.
+constexpr double kRounding = 1e-6;
+
+/// First pair that comes closer than `distance`, or overlaps deeper than when assembled, while the parts in `present`
+/// carry out `step`; empty: none.
+std::string collision(const Model& model, const std::vector<Probe>& parts, const std::set<std::string>& present,
+                      const TruthStep& step, const Poses& from, double distance, double until = 1.0,
+                      int instants = 40) {
   for (int k = 0; k <= instants; ++k) {
     Poses at = moved(step, from, until * k / instants);
     for (const auto& a : present)
       for (const auto& b : present) {
         if (!moves_in(step, a) || a == b || (moves_in(step, b) && b < a)) continue;
         const Probe &pa = named(parts, a), &pb = named(parts, b);
+        if (const TruthContact* c = contact_of(model, a, b)) {
+          if (sampled_depth(pa, at[a], pb, at[b]) > c->depth + c->depth_error + kRounding)
+            return a + " deeper in " + b + " at " + std::to_string(until * k / instants);
+          continue;
+        }
         if (closer_than(pa, at[a], pb, at[b], distance))
           return a + " and " + b + " at " + std::to_string(until * k / instants);
       }
@@ -55,7 +65,7 @@ void expect_truth_holds(const Model& model, Rng& rng) {
   for (const auto& name : present) poses[name] = Pose{};
   for (std::size_t s = 0; s < model.truth.steps.size(); ++s) {
     const TruthStep& step = model.truth.steps[s];
-    ASSERT_EQ(collision(parts, present, step, poses, 0.5 * model.clearance, 1.0, instants_for(step)), "")
+    ASSERT_EQ(collision(model, parts, present, step, poses, 0.5 * model.clearance, 1.0, instants_for(step)), "")
         << "step " << s + 1;
     poses = moved(step, poses, 1.0);
     if (step.out.empty()) continue;
@@ -71,6 +81,27 @@ void expect_truth_holds(const Model& model, Rng& rng) {
   }
   if (!model.truth.base.empty()) {
     EXPECT_TRUE(present.contains(model.truth.base));
+  }
+}
+
+/// The stated depths are there, and the motions that separate the pairs never get deeper.
+void expect_contacts_hold(const Model& model, Rng& rng) {
+  const auto parts = probes(model, rng, 1000);
+  for (const TruthContact& c : model.truth.contacts) {
+    SCOPED_TRACE(c.a + " and " + c.b);
+    const double depth = sampled_depth(named(parts, c.a), {}, named(parts, c.b), {});
+    EXPECT_LE(depth, c.depth + c.depth_error + kRounding);
+    EXPECT_GE(depth, 0.5 * c.depth - c.depth_error);
+    if (!c.apart) continue;
+    TruthStep step;
+    step.motions.push_back({c.a, *c.apart});
+    Poses poses;
+    for (const auto& p : model.parts) poses[p.name] = Pose{};
+    EXPECT_EQ(collision(model, parts, {c.a, c.b}, step, poses, 0), "");
+    const Pose end = c.apart->at(1);
+    std::vector<Eigen::Vector3d> mine;
+    for (const auto& v : named(parts, c.a).mesh->vertices) mine.push_back(end * v);
+    EXPECT_TRUE(separate(mine, named(parts, c.b).mesh->vertices).has_value());
   }
 }
 
@@ -92,6 +123,19 @@ TEST_P(EveryTruth, HoldsForRandomParameters) {
   }
 }
 
+TEST_P(EveryTruth, ContactsHold) {
+  Rng rng(24);
+  expect_contacts_hold(make_model(GetParam()), rng);
+  if (find(GetParam())->clean) return;
+  for (int i = 0; i < 4; ++i) {
+    ParamSet drawn;
+    const Model model = random_model(*find(GetParam()), rng, drawn);
+    SCOPED_TRACE(text(drawn));
+    expect_contacts_hold(model, rng);
+    if (HasFailure()) return;
+  }
+}
+
 TEST_P(EveryTruth, PrecedenceIsNecessaryAndKept) {
   const Model model = make_model(GetParam());
   Rng rng(23);
@@ -106,7 +150,7 @@ TEST_P(EveryTruth, PrecedenceIsNecessaryAndKept) {
       if (step.out != after) continue;
       Poses poses;
       for (const auto& p : model.parts) poses[p.name] = Pose{};
-      EXPECT_NE(collision(parts, {before, after}, step, poses, 1e-6), "") << before << " " << after;
+      EXPECT_NE(collision(model, parts, {before, after}, step, poses, 1e-6), "") << before << " " << after;
     }
   }
 }
@@ -149,7 +193,7 @@ void expect_blocked(const Model& model, const std::vector<Probe>& parts, const s
   Poses poses;
   for (const auto& p : model.parts) poses[p.name] = Pose{};
   const TruthStep step = rigid(group, screw);
-  EXPECT_NE(collision(parts, all_names(model), step, poses, 1e-6, 1.0, 16), "")
+  EXPECT_NE(collision(model, parts, all_names(model), step, poses, 1e-6, 1.0, 16), "")
       << group.front() << " slides " << screw.advance << " along " << screw.axis.transpose() << ", turns "
       << screw.angle;
 }
@@ -183,6 +227,23 @@ TEST(Blocked, SlotsNeedTheirFirstMove) {
     const auto parts = probes(model, rng);
     const std::string part = model.truth.steps.front().motions.front().part;
     for (const auto& d : directions()) expect_blocked(model, parts, {part}, {d, Eigen::Vector3d::Zero(), 0, 60});
+  }
+}
+
+/// Parts that bend in reality: no straight pull of the rigid one goes without a deeper overlap.
+TEST(Blocked, ClipsAndSealsDoNotLeaveAsRigidBodies) {
+  for (const auto& [name, part, other] :
+       {std::tuple{"snap_fit", "clip", "plate"}, std::tuple{"o_ring", "ring", "shaft"}}) {
+    const Model model = make_model(name);
+    EXPECT_FALSE(contact_of(model, part, other)->apart);
+    Rng rng(36);
+    const auto parts = probes(model, rng, 1000, 3000);
+    Poses poses;
+    for (const auto& p : model.parts) poses[p.name] = Pose{};
+    for (const auto& d : directions()) {
+      const TruthStep step = rigid({part}, {d, Eigen::Vector3d::Zero(), 0, 30});
+      EXPECT_NE(collision(model, parts, {part, other}, step, poses, 0, 1.0, 60), "") << name << " " << d.transpose();
+    }
   }
 }
 

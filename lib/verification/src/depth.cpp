@@ -7,17 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/verification/verifier.h"
+#include "depth_body.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/solid.h"
-#include "geometry_names.h"
 #include "dismantle/geometry/starts_off.h"
+#include "dismantle/verification/verifier.h"
+#include "geometry_names.h"
 
 namespace dismantle {
-
-struct DepthBody::Impl {
-  std::vector<verify::Solid> solids;
-};
 
 DepthBody::DepthBody(const Mesh& mesh) : impl_(std::make_unique<const Impl>(Impl{verify::split_into_solids(mesh)})) {}
 DepthBody::~DepthBody() = default;

@@ -70,7 +70,7 @@ Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
 double Verifier::Impl::overlap(PartId a, PartId b) const {
   if (a > b) std::swap(a, b);
   for (const auto& o : assembly_overlaps)
-    if (o.a == a && o.b == b) return o.depth;
+    if (o.a == a && o.b == b) return o.allowed();
   return 0;
 }
 

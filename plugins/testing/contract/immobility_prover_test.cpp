@@ -50,7 +50,7 @@ std::size_t triangles_of(const Assembly& assembly) {
 std::vector<Question> separable() {
   std::vector<Question> questions;
   for (const samples::Sample& sample : samples::list()) {
-    if (!sample.solvable) continue;
+    if (!sample.solvable || !sample.clean) continue;
     const auto parts = samples::make(sample.name);
     if (parts.size() > 4) continue;
     PrepareOptions options;

@@ -11,8 +11,8 @@ std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const S
   prepared->placed = build_shapes(assembly, options, context);
   if (context.should_stop()) return prepared;
   for (const InitialOverlap& o : assembly.overlaps)
-    if (o.depth > 0)
-      prepared->overlap[std::minmax(o.a, o.b)] = o.depth + std::min(0.5 * o.depth, prepared->facet_allowance);
+    if (const double depth = o.allowed(); depth > 0)
+      prepared->overlap[std::minmax(o.a, o.b)] = depth + std::min(0.5 * depth, prepared->facet_allowance);
   return prepared;
 }
 

@@ -30,6 +30,10 @@ export function number(x) {
   return String(Number(x.toPrecision(size >= 100 ? Math.floor(Math.log10(size)) + 1 : 3)));
 }
 
+/** What a forced step does, in input units. */
+export const forcedWords = ({pair, depth, assembled, at}) =>
+  `${pair[0]} cuts ${number(depth)} units into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
+
 export function seconds(s) {
   if (s < 0.0995) return `${number(Number((1000 * s).toPrecision(2)))} ms`;
   if (s < 99.5) return `${number(Number(s.toPrecision(2)))} s`;

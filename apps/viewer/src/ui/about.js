@@ -9,7 +9,7 @@ export function makeAbout(app) {
   const total = plan.disassembly.reduce((sum, s) => sum + s.seconds, 0);
   const apart = assembly.parts.length - plan.remaining.length;
   row('assembly', assembly.source);
-  row('parts', plan.status === 'complete' ? `${assembly.parts.length}, all apart` : `${assembly.parts.length}, ${apart} came out, ${plan.remaining.length} still together`);
+  row('parts', plan.status !== 'partial' ? `${assembly.parts.length}, all apart` : `${assembly.parts.length}, ${apart} came out, ${plan.remaining.length} still together`);
   if (assembly.excluded.length > 0) row('left out', assembly.excluded.map(e => `${e.name}: ${e.reason}`).join('; '));
   row('steps', `${plan.disassembly.length}, found in ${seconds(total)}`);
   const layers = Math.max(0, ...plan.disassembly.map(s => s.layer ?? 0));
@@ -26,5 +26,5 @@ export function makeAbout(app) {
   return element('div.pane', {}, element('dl.facts.wide', {}, rows),
     overlaps.length === 0 ? null : element('details', {}, element('summary', {}, `${counted(overlaps.length, 'pair')} overlap when assembled`),
       element('p.note', {}, 'Usual in CAD: allowed as it was, for this pair alone.'),
-      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size`)))));
+      element('ul.plain', {}, overlaps.map(o => element('li', {}, `${o.a} and ${o.b}: ${share(o.depth, plan)} of the size${o.class ? `, ${o.class.replaceAll('_', ' ')}` : ''}`)))));
 }

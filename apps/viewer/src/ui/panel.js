@@ -10,10 +10,11 @@ function summary(plan) {
   const parts = plan.assembly.parts.length, left = plan.remaining.length, out = parts - left;
   const forced = plan.disassembly.filter(s => s.forced).length;
   const complete = plan.status === 'complete';
-  const words = complete ? `All ${parts} parts come apart, in ${counted(plan.disassembly.length, 'step')}`
+  const apart = complete || plan.status === 'forced';
+  const words = apart ? `All ${parts} parts come apart, in ${counted(plan.disassembly.length, 'step')}`
     : `${out} of ${counted(parts, 'part')} ${out === 1 ? 'comes' : 'come'} out, ${left} still together`;
-  return element('div.summary', {}, element(`span.pill.${complete && forced === 0 ? 'good' : complete ? 'warn' : 'bad'}`, {}, complete ? 'Complete' : 'Partial'),
-    element('span', {}, words), forced > 0 ? element('span.pill.bad', {}, `${forced} forced`) : null);
+  return element('div.summary', {}, element(`span.pill.${complete ? 'good' : 'bad'}`, {}, complete ? 'Complete' : apart ? 'Forced' : 'Partial'),
+    element('span', {}, words), forced > 0 ? element('span.pill.bad', {}, `${counted(forced, 'step')} not verified`) : null);
 }
 
 export function makePanel(app) {

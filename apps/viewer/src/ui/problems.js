@@ -1,6 +1,6 @@
 // Parts that did not come out: what was tried, what was in the way and where, how far it got, the proof, and what to do next.
 import {adviceOn} from '../plan/advice.js';
-import {number, outcomeMeaning, outcomeTitle, seconds, share} from '../plan/words.js';
+import {forcedWords, number, outcomeMeaning, outcomeTitle, seconds, share} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
 const TURNED = 0.05;  // degrees, from which a turn is worth saying
@@ -105,7 +105,8 @@ export function makeProblems(app) {
     plan.unsolved.length > 0 ? element('p.note', {}, 'These parts should have come out and did not. The plan holds for all that did.') : null,
     byReason(plan.unsolved).map(group => card(app, group)),
     forced.map(s => element('article.card', {}, element('header', {}, icon('warning'), element('strong', {}, `Step ${s.step} is forced`)),
-      element('p', {}, `${s.moves.map(m => m.part).join(', ')} cannot come out as a rigid body: it is taken out where it cuts in least. This step is not verified.`))),
+      element('p', {}, `${s.moves.map(m => m.part).join(', ')}: no verified path is known. It is taken out where it cuts in least. This step is not verified.`),
+      element('p.bad', {}, forcedWords(s.forced)), s.forced.reason ? element('p.message', {}, s.forced.reason) : null)),
     certificates.map(c => certificate(app, c)),
     silent.length > 0 ? element('article.card', {}, element('header', {}, element('strong', {}, 'Still together')),
       element('p', {}, silent.length > 1 || plan.unsolved.length > 0 ? 'No failed attempt of these is on record:' : 'Not tried:'),

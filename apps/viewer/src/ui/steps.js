@@ -1,5 +1,5 @@
 // The list of steps: what moves, how long finding it took, how deep it cuts in. A click goes there.
-import {number, seconds, share} from '../plan/words.js';
+import {forcedWords, number, seconds, share} from '../plan/words.js';
 import {element, swatch} from './dom.js';
 
 function facts(app, {step}) {
@@ -7,13 +7,15 @@ function facts(app, {step}) {
   const row = (name, value) => rows.push(element('dt', {}, name), element('dd', {}, value));
   if (step.moves.length > 1) row('moves', step.moves.map(m => m.part).join(', '));
   if (step.separates?.some(g => g.length > 1)) row('group', step.separates.filter(g => g.length > 1).map(g => g.join(', ')).join(' | '));
-  if (step.max_penetration !== undefined)
+  if (step.max_penetration !== undefined && !step.forced)
     row('cuts in', `at most ${number(step.max_penetration)} of ${number(plan.verified_max_penetration)} units allowed (${share(step.max_penetration, plan)} of the size)`);
   if (step.clearance !== undefined) row('clearance', `${number(step.clearance)} units`);
   if (step.planner) row('found by', `${step.planner}${step.depth ? `, ${step.depth} action${step.depth === 1 ? '' : 's'}` : ''}, in ${seconds(step.seconds ?? 0)}`);
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
-  if (step.forced) row('forced', JSON.stringify(step.forced));
+  for (const o of step.overlaps ?? [])
+    row('overlap', `${o.pair.join(' and ')}: ${number(o.assembled)} units when assembled, up to ${number(o.depth)} along the way`);
+  if (step.forced) row('forced', forcedWords(step.forced));
   return element('dl.facts', {}, rows);
 }
 

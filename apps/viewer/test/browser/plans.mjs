@@ -15,7 +15,7 @@ function result(folder, name) {
 /** The page and the plan of a sample. */
 export function planSample(folder, sample, ...options) {
   run(folder, [0], 'sample', sample, '-o', `${sample}.parts`, ...options);
-  run(folder, [0, 1], 'plan', `${sample}.parts`, '-o', sample, '--threads', '1', '-q');
+  run(folder, [0, 1], 'plan', `${sample}.parts`, '-o', sample, '--threads', '1', '-q', '--set', 'run.force=off');
   return result(folder, sample);
 }
 
@@ -30,7 +30,7 @@ function box(lo, hi) {
 export function planBoxes(folder, name, names) {
   mkdirSync(join(folder, `${name}.parts`));
   names.forEach((part, i) => writeFileSync(join(folder, `${name}.parts`, `${part}.obj`), box([0, 0, 11 * i], [20 - i, 20, 11 * i + 10])));
-  run(folder, [0, 1], 'plan', `${name}.parts`, '-o', name, '--threads', '1', '-q');
+  run(folder, [0, 1], 'plan', `${name}.parts`, '-o', name, '--threads', '1', '-q', '--set', 'run.force=off');
   return result(folder, name);
 }
 

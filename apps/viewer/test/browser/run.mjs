@@ -202,7 +202,7 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   const pose = [3, -4, 12, Math.cos(0.4), 0, Math.sin(0.4), 0];
   const file = changed(shelf.file, 'forced.html', ({plan}) => {
     const last = plan.disassembly[plan.disassembly.length - 1], stays = plan.remaining[0];
-    last.forced = {pair: [last.moves[0].part, stays], depth: 0.4, at: [0, 0, 0]};
+    last.forced = {pair: [last.moves[0].part, stays], depth: 0.4, assembled: 0, at: [0, 0, 0], reason: 'depth_limit'};
     plan.status = 'partial';
     plan.unsolved.push({part: stays, outcome: 'timeout', blocked_by: [last.moves[0].part], best_pose: pose, message: 'the budget <i>ended</i>'});
     plan.certificates = [{kind: 'ring', parts: [stays, last.moves[0].part], full_tolerance: true, margin: 0.01, numbers: {diameter: [2]}, text: 'it is <b>closed</b>'}];

@@ -103,7 +103,9 @@ void plan_trial(const fs::path& folder) {
   const Clock::time_point begin = Clock::now();
   if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
   Recorder recorder(folder);
-  const RunResult result = run(assembly, setup, run_options_of(config, request.part), context, std::ref(recorder));
+  RunOptions options = run_options_of(config, request.part);
+  options.force.when = ForceWhen::off;  // planners are compared by what they find
+  const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
   write_file(folder / kPlanFile, to_json(result.plan));
   fmt::print(stderr, "{}", reasons_of(result.plan));

@@ -102,11 +102,24 @@ Explanation explain(const Plan& plan, const ExplainSettings& settings, const std
   if (!part.empty() && std::ranges::none_of(plan.assembly.parts, known))
     throw InputError(plan.assembly.source, fmt::format("the plan has no part '{}'", part));
   Explanation out{&plan, steps_of(plan, part), reasons_of(plan, settings, part), {}};
-  if (plan.status == PlanStatus::complete) return out;
+  if (plan.status != PlanStatus::partial) return out;
   for (const std::string& name : plan.remaining)
     if ((part.empty() || name == part) &&
         std::ranges::none_of(plan.unsolved, [&](const PlanUnsolved& u) { return u.part == name; }))
       out.untried.push_back(name);
+  return out;
+}
+
+std::string forced_text(const Plan& plan, const PlanForced& forced) {
+  return fmt::format("{} cuts {} into {} ({} when assembled)", forced.part, length_text(plan, forced.depth),
+                     forced.other, length_text(plan, forced.assembled));
+}
+
+std::string overlaps_text(const Plan& plan, const PlanStep& step) {
+  std::string out;
+  for (const PlanStepOverlap& o : step.overlaps)
+    out += fmt::format("       {} and {} overlap by {} when assembled, by up to {} along the way\n", o.part, o.other,
+                       length_text(plan, o.assembled), length_text(plan, o.depth));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "dismantle/plan_io/explain.h"
+#include "dismantle/plan_io/plan_file.h"
 #include "json/json_text.h"
 
 namespace dismantle {
@@ -55,11 +56,18 @@ std::string explain_json(const Explanation& e) {
     if (s.known) one["after"] = s.after;
     if (s.known) one["waited_for"] = s.waited_for;
     one["contacts"] = s.contacts;
+    if (const auto& forced = plan.disassembly.at(s.step - 1).forced) {
+      one["forced"] = {{"pair", Json::array({forced->part, forced->other})},
+                       {"depth", forced->depth},
+                       {"assembled", forced->assembled},
+                       {"reason", forced->reason}};
+      if (forced->certificate) one["forced"]["certificate"] = *forced->certificate + 1;
+    }
     steps.push_back(std::move(one));
   }
   for (const LeftReason& reason : e.left) left.push_back(reason_json(plan, reason));
   for (const auto& [name, reason] : plan.assembly.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
-  const Json out = {{"status", plan.status == PlanStatus::complete ? "complete" : "partial"},
+  const Json out = {{"status", std::string(to_string(plan.status))},
                     {"unit", plan.assembly.unit.empty() ? "input units" : plan.assembly.unit},
                     {"parts", plan.assembly.parts.size()},
                     {"left", std::move(left)},

@@ -93,6 +93,15 @@ std::string steps_text(const Explanation& e) {
   std::string out = "\nwhy this order:\n";
   for (const StepReason& step : e.steps) {
     out += fmt::format("{:>5}  {}  ", step.step, text::padded(text::joined(step.parts), width));
+    const PlanStep& done = e.plan->disassembly.at(step.step - 1);
+    if (done.forced) {
+      out += fmt::format("FORCED: {}\n", forced_text(*e.plan, *done.forced));
+      if (!done.forced->reason.empty()) out += fmt::format("{:>5}  because: {}\n", "", done.forced->reason);
+      if (done.forced->certificate)
+        out += fmt::format("{:>5}  proof {} of the plan; `dismantle verify` checks it again\n", "",
+                           *done.forced->certificate + 1);
+      continue;
+    }
     if (!step.known)
       out += "the plan does not say what had to come first\n";
     else if (step.after.empty())
@@ -110,11 +119,14 @@ std::string steps_text(const Explanation& e) {
 std::string explain_text(const Explanation& e) {
   const Plan& plan = *e.plan;
   const PlanAssembly& a = plan.assembly;
-  const bool complete = plan.status == PlanStatus::complete;
+  const bool complete = plan.status != PlanStatus::partial;
   std::string out =
       fmt::format("{}: {}, {} done, {}\n", a.source, text::counted(a.parts.size(), "part"),
                   text::counted(plan.disassembly.size(), "step"),
-                  complete ? "every part came out" : text::counted(plan.remaining.size(), "part") + " left");
+                  plan.status == PlanStatus::complete ? "every part came out"
+                  : plan.status == PlanStatus::forced
+                      ? fmt::format("every part came out, in {} by force", text::counted(plan.forced_steps(), "step"))
+                      : text::counted(plan.remaining.size(), "part") + " left");
   for (const auto& [name, reason] : a.excluded) out += fmt::format("left out: {}: {}\n", name, reason);
   for (const LeftReason& reason : e.left) out += reason_text(plan, reason);
   if (!e.untried.empty())

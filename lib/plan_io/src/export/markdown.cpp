@@ -37,10 +37,12 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
   const double size = a.box.empty() ? 1 : std::max(a.box.size().maxCoeff(), 1e-300);
   const Eigen::Vector3d middle = a.box.empty() ? a.center : a.box.center();
 
-  std::string out = fmt::format(
-      "# {}\n\n{}, {}, {}.\n\n", markdown_text(a.source), text::counted(a.parts.size(), "part"),
-      text::counted(plan.disassembly.size(), "step"),
-      plan.status == PlanStatus::complete ? "complete: all parts come apart" : "partial: not all parts come apart");
+  std::string out =
+      fmt::format("# {}\n\n{}, {}, {}.\n\n", markdown_text(a.source), text::counted(a.parts.size(), "part"),
+                  text::counted(plan.disassembly.size(), "step"),
+                  plan.status == PlanStatus::complete ? "complete: all parts come apart"
+                  : plan.status == PlanStatus::forced ? "forced: all parts come apart, some steps cut into other parts"
+                                                      : "partial: not all parts come apart");
   if (!plan.disassembly.empty()) {
     out +=
         "| step | parts | motion | waits for | touches | cuts in at most |\n"
@@ -50,10 +52,11 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
       if (!step.moves.empty())
         motion = motion_words(summarize_motion(step.moves.front().poses, middle, kStraight * size), unit, frame.y_up);
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
-      out +=
-          fmt::format("| {} | {}{} | {} | {} | {} | {:.2g} |\n", step.step, markdown_text(text::names_of(step)), what,
-                      markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
-                      step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)), step.max_penetration);
+      out += fmt::format("| {} | {}{} | {} | {} | {} | {} |\n", step.step, markdown_text(text::names_of(step)), what,
+                         markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",
+                         step.contacts.empty() ? "-" : markdown_text(text::joined(step.contacts)),
+                         step.forced ? "**forced: " + fmt::format("{:.2g}", step.forced->depth * a.scale) + "**"
+                                     : fmt::format("{:.2g}", step.max_penetration));
     }
     out += fmt::format(
         "\nMotions are those of the first part named, at the assembly's middle. Depths are in assembly units, of which "

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
+#include <string>
 
 #include "dismantle/plan_io/animation.h"
 #include "export/dot_text.h"
@@ -18,12 +20,18 @@ std::string to_dot(const Plan& plan, const std::vector<std::pair<std::string, st
       "digraph precedence {\n"
       "  rankdir=LR;\n"
       "  node [shape=box, style=rounded, fontname=\"sans-serif\"];\n";
+  std::set<std::string> forced;
+  for (const PlanStep& step : plan.disassembly)
+    if (step.forced)
+      for (const PlanMove& move : step.moves) forced.insert(move.part);
   for (const PlanPart& part : plan.assembly.parts) {
     const auto step = left_in.find(part.name);
     const bool leaves = step != left_in.end();
     const std::string label = leaves ? fmt::format("{}. {}", step->second, part.name) : part.name;
     out += fmt::format("  {} [label={}{}];\n", dot_quoted(part.name), dot_quoted(label),
-                       leaves ? "" : ", style=\"rounded,filled\"");
+                       forced.contains(part.name) ? ", color=red, fontcolor=red"
+                       : leaves                   ? ""
+                                                  : ", style=\"rounded,filled\"");
   }
   for (const auto& [before, after] : precedence)
     out += fmt::format("  {} -> {};\n", dot_quoted(before), dot_quoted(after));

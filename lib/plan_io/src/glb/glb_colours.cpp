@@ -79,9 +79,19 @@ std::vector<GlbPaint> paint_parts(const Plan& plan, const Assembly& assembly) {
   std::size_t leavers = 0;
   const std::vector<std::size_t> ranks = ranks_of(plan, assembly, leavers);
   const bool own_colours = has_own_colours(assembly);
+  std::set<std::string> forced;
+  for (const PlanStep& step : plan.disassembly)
+    if (step.forced)
+      for (const PlanMove& move : step.moves) forced.insert(move.part);
   std::vector<GlbPaint> out;
   for (std::size_t i = 0; i < assembly.parts.size(); ++i) {
     const Part& part = assembly.parts[i];
+    if (forced.contains(part.name)) {
+      GlbJson red = material("forced", GlbJson::array({0.8, 0.01, 0.01, 1}));
+      red["emissiveFactor"] = {0.3, 0, 0};
+      out.push_back({std::move(red), nullptr});
+      continue;
+    }
     const bool stays = ranks[i] == leavers;
     GlbJson by_order = stays ? GlbJson::array({0.4, 0.4, 0.4, 1}) : colour_of(ranks[i], leavers);
     if (!own_colours) {

@@ -15,7 +15,7 @@ struct GlbPaint {
 };
 
 /// One per part of the assembly: in its own colour where the files tell parts apart by colours, else by the order of
-/// removal, from red to violet; what stays is grey. Parts of one colour of their own have equal materials.
+/// removal, from red to violet; what stays is grey; what is forced out glows red. Parts of one colour of their own have equal materials.
 std::vector<GlbPaint> paint_parts(const Plan& plan, const Assembly& assembly);
 
 }  // namespace dismantle

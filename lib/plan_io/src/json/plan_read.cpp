@@ -13,6 +13,7 @@
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "json/hex_colour.h"
+#include "json/json_place.h"
 #include "json/parse_json.h"
 
 namespace dismantle {
@@ -20,117 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value, and where in which file it stands (a JSON pointer).
-class Place {
- public:
-  Place(const Json& value, const std::string& source, std::string path)
-      : value_(value), source_(source), path_(std::move(path)) {}
-
-  [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(source_, fmt::format("{}: {}", path_.empty() ? "/" : path_, problem));
-  }
-
-  const Json& object(std::initializer_list<const char*> required,
-                     std::initializer_list<const char*> optional = {}) const {
-    if (!value_.is_object()) fail("expected an object");
-    for (const char* key : required)
-      if (!value_.contains(key)) fail(fmt::format("'{}' is missing", key));
-    const auto known = [&](const std::string& key) {
-      const auto same = [&](const char* k) { return key == k; };
-      return std::ranges::any_of(required, same) || std::ranges::any_of(optional, same);
-    };
-    for (const auto& item : value_.items())
-      if (!known(item.key())) fail(fmt::format("unknown key '{}'", item.key()));
-    return value_;
-  }
-  bool has(const char* key) const { return value_.contains(key); }
-  bool is_null() const { return value_.is_null(); }
-  Place at(const std::string& key) const { return {value_.at(key), source_, path_ + "/" + key}; }
-
-  std::vector<Place> items() const {
-    if (!value_.is_array()) fail("expected an array");
-    std::vector<Place> out;
-    out.reserve(value_.size());
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      out.emplace_back(value_[i], source_, fmt::format("{}/{}", path_, i));
-    return out;
-  }
-
-  std::vector<std::pair<std::string, Place>> members() const {
-    if (!value_.is_object()) fail("expected an object");
-    std::vector<std::pair<std::string, Place>> out;
-    for (const auto& item : value_.items()) out.emplace_back(item.key(), at(item.key()));
-    return out;
-  }
-
-  ParamValue parameter() const {
-    if (value_.is_boolean()) return value_.get<bool>();
-    if (value_.is_number_integer()) return value_.get<std::int64_t>();
-    if (value_.is_number()) return value_.get<double>();
-    if (!value_.is_string()) fail("expected a number, a string, true or false");
-    return value_.get<std::string>();
-  }
-
-  std::string text() const {
-    if (!value_.is_string()) fail("expected a string");
-    return value_.get<std::string>();
-  }
-  std::string name() const {
-    std::string s = text();
-    if (s.empty()) fail("expected a name, found an empty string");
-    return s;
-  }
-  double number() const {
-    if (!value_.is_number()) fail("expected a number");
-    const double x = value_.get<double>();
-    if (!std::isfinite(x)) fail("expected a finite number");
-    return x;
-  }
-  double number_from_zero() const {
-    const double x = number();
-    if (x < 0) fail("expected a number >= 0");
-    return x;
-  }
-  double number_within(double least, double most) const {
-    const double x = number();
-    if (x < least || x > most) fail(fmt::format("expected a number between {:g} and {:g}", least, most));
-    return x;
-  }
-  bool truth() const {
-    if (!value_.is_boolean()) fail("expected true or false");
-    return value_.get<bool>();
-  }
-  double positive() const {
-    const double x = number();
-    if (x <= 0) fail("expected a number > 0");
-    return x;
-  }
-  std::uint64_t count(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const {
-    if (!value_.is_number_unsigned()) fail("expected a whole number >= 0");
-    const auto n = value_.get<std::uint64_t>();
-    if (n > limit) fail(fmt::format("expected a whole number <= {}", limit));
-    return n;
-  }
-  unsigned small_count() const { return static_cast<unsigned>(count(std::numeric_limits<unsigned>::max())); }
-
-  template <std::size_t N>
-  std::array<double, N> numbers() const {
-    std::array<double, N> out{};
-    bool right = value_.is_array() && value_.size() == N;
-    for (std::size_t i = 0; right && i < N; ++i) right = value_[i].is_number();
-    if (!right) fail(fmt::format("expected {} numbers", N));
-    for (std::size_t i = 0; i < N; ++i) {
-      out[i] = value_[i].template get<double>();
-      if (!std::isfinite(out[i])) fail("expected finite numbers");
-    }
-    return out;
-  }
-
- private:
-  const Json& value_;
-  const std::string& source_;
-  std::string path_;
-};
+using json_read::Place;
 
 Eigen::Vector3d read_vector(const Place& place) {
   const auto n = place.numbers<3>();
@@ -173,6 +64,36 @@ ImportParams read_import(const Place& place) {
   return out;
 }
 
+Aabb read_box(const Place& place) {
+  const auto corners = place.items();
+  if (corners.size() != 2) place.fail("expected two corners");
+  const Aabb box{read_vector(corners[0]), read_vector(corners[1])};
+  if (box.empty()) place.fail("the first corner is above the second");
+  return box;
+}
+
+/// Files of older versions do not say what kind of overlap it is.
+PlanOverlap read_overlap(const Place& place, const Names& parts) {
+  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis", "declared"});
+  PlanOverlap o{read_part(place.at("a"), parts), read_part(place.at("b"), parts), place.at("depth").number_from_zero()};
+  if (o.a == o.b) place.fail("a part cannot overlap itself");
+  if (place.has("declared")) o.declared = place.at("declared").number_from_zero();
+  const auto says = [&](const char* key) { return place.has(key); };
+  if (std::ranges::none_of(std::array{"class", "at", "region", "share", "axis"}, says)) return o;
+  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis", "declared"});
+  const auto contact = contact_class_from_string(place.at("class").text());
+  if (!contact) place.at("class").fail("expected the class of a contact, as in \"uniform_interference\"");
+  o.place = OverlapPlace{*contact, read_vector(place.at("at")), read_box(place.at("region")),
+                         place.at("share").number_within(0, 1)};
+  if (!place.has("axis")) return o;
+  const Place axis = place.at("axis");
+  axis.object({"point", "direction"});
+  o.place->axis_point = read_vector(axis.at("point"));
+  o.place->axis = read_vector(axis.at("direction"));
+  if (!(std::abs(o.place->axis->norm() - 1) <= 1e-3)) axis.at("direction").fail("expected a vector of length 1");
+  return o;
+}
+
 PlanAssembly read_assembly(const Place& place, Names& parts) {
   place.object({"source", "sha256", "scale", "center", "bbox", "parts", "excluded", "overlaps"},
                {"repair", "unit", "import"});
@@ -181,13 +102,7 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
   a.sha256 = place.at("sha256").text();
   a.scale = place.at("scale").positive();
   a.center = read_vector(place.at("center"));
-  if (const Place box = place.at("bbox"); !box.is_null()) {
-    const auto corners = box.items();
-    if (corners.size() != 2) box.fail("expected two corners");
-    a.box.lo = read_vector(corners[0]);
-    a.box.hi = read_vector(corners[1]);
-    if (a.box.empty()) box.fail("the first corner is above the second");
-  }
+  if (const Place box = place.at("bbox"); !box.is_null()) a.box = read_box(box);
   for (const Place& item : place.at("parts").items()) {
     item.object({"id", "name", "file"}, {"color", "parents"});
     PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
@@ -206,12 +121,7 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     item.object({"name", "reason"});
     a.excluded.emplace_back(item.at("name").text(), item.at("reason").text());
   }
-  for (const Place& item : place.at("overlaps").items()) {
-    item.object({"a", "b", "depth"});
-    PlanOverlap o{read_part(item.at("a"), parts), read_part(item.at("b"), parts), item.at("depth").number_from_zero()};
-    if (o.a == o.b) item.fail("a part cannot overlap itself");
-    a.overlaps.push_back(std::move(o));
-  }
+  for (const Place& item : place.at("overlaps").items()) a.overlaps.push_back(read_overlap(item, parts));
   if (place.has("unit")) a.unit = place.at("unit").name();
   if (place.has("import")) a.import_params = read_import(place.at("import"));
   if (place.has("repair")) {
@@ -250,10 +160,10 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   // Assembly steps are verified as the reverse of the disassembly; other programs need not repeat its figures.
   if (kind == StepKind::disassembly)
     place.object({"step", "moves", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"},
-                 {"after", "layer"});
+                 {"after", "layer", "forced", "overlaps"});
   else
     place.object({"step", "moves"},
-                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts"});
+                 {"transfer", "separates", "max_penetration", "seconds", "planner", "depth", "contacts", "forced"});
   PlanStep s;
   s.step = place.at("step").small_count();
   if (s.step != number) place.at("step").fail(fmt::format("expected {}: steps are numbered in order", number));
@@ -280,6 +190,28 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
       if (s.after.back() == 0 || s.after.back() >= number) item.fail("expected the number of an earlier step");
     }
   if (place.has("layer")) s.layer = place.at("layer").small_count();
+  if (place.has("overlaps"))
+    for (const Place& item : place.at("overlaps").items()) {
+      item.object({"pair", "assembled", "allowed", "depth"});
+      const auto pair = item.at("pair").items();
+      if (pair.size() != 2) item.at("pair").fail("expected two parts");
+      s.overlaps.push_back({read_part(pair[0], parts), read_part(pair[1], parts),
+                            item.at("assembled").number_from_zero(), item.at("allowed").number_from_zero(),
+                            item.at("depth").number_from_zero()});
+    }
+  if (place.has("forced")) {
+    const Place forced = place.at("forced");
+    forced.object({"pair", "depth", "assembled", "at", "reason"}, {"certificate"});
+    const auto pair = forced.at("pair").items();
+    if (pair.size() != 2) forced.at("pair").fail("expected two parts");
+    s.forced = PlanForced{read_part(pair[0], parts),
+                          read_part(pair[1], parts),
+                          forced.at("depth").number_from_zero(),
+                          forced.at("assembled").number_from_zero(),
+                          read_vector(forced.at("at")),
+                          forced.at("reason").text()};
+    if (forced.has("certificate")) s.forced->certificate = forced.at("certificate").count();
+  }
   return s;
 }
 
@@ -365,8 +297,11 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   plan.generator_version = generator.at("version").text();
   plan.assembly = read_assembly(root.at("assembly"), parts);
   const std::string status = root.at("status").text();
-  if (status != "complete" && status != "partial") root.at("status").fail("expected \"complete\" or \"partial\"");
-  plan.status = status == "complete" ? PlanStatus::complete : PlanStatus::partial;
+  if (status != "complete" && status != "forced" && status != "partial")
+    root.at("status").fail("expected \"complete\", \"forced\" or \"partial\"");
+  plan.status = status == "complete" ? PlanStatus::complete
+                : status == "forced" ? PlanStatus::forced
+                                     : PlanStatus::partial;
   plan.seed = root.at("seed").count();
   plan.verified_max_penetration = root.at("verified_max_penetration").positive();
   plan.disassembly = read_steps(root.at("disassembly"), StepKind::disassembly, parts);
@@ -381,6 +316,13 @@ Plan plan_from_json(const std::string& text, const std::string& source) {
   for (std::size_t i = 0; i < plan.unsolved.size(); ++i)
     if (plan.unsolved[i].certificate && *plan.unsolved[i].certificate >= plan.certificates.size())
       root.at("unsolved").items()[i].at("certificate").fail("there is no such certificate");
+  const auto check_forced = [&](const std::vector<PlanStep>& steps, const char* key) {
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      if (steps[i].forced && steps[i].forced->certificate && *steps[i].forced->certificate >= plan.certificates.size())
+        root.at(key).items()[i].at("forced").at("certificate").fail("there is no such certificate");
+  };
+  check_forced(plan.disassembly, "disassembly");
+  check_forced(plan.assembly_steps, "assembly_steps");
   return plan;
 }
 

@@ -50,6 +50,20 @@ Json step_json(const PlanStep& s, bool assembly) {
   if (!assembly) {
     out["after"] = s.after;
     out["layer"] = s.layer;
+    for (const PlanStepOverlap& o : s.overlaps)
+      out["overlaps"].push_back({{"pair", Json::array({o.part, o.other})},
+                                 {"assembled", o.assembled},
+                                 {"allowed", o.allowed},
+                                 {"depth", o.depth}});
+  }
+  if (s.forced) {
+    Json& forced = out["forced"];
+    forced = {{"pair", Json::array({s.forced->part, s.forced->other})},
+              {"depth", s.forced->depth},
+              {"assembled", s.forced->assembled},
+              {"at", vector_json(s.forced->at)},
+              {"reason", s.forced->reason}};
+    if (s.forced->certificate) forced["certificate"] = *s.forced->certificate;
   }
   return out;
 }
@@ -75,6 +89,21 @@ Json import_json(const ImportParams& params) {
   return out;
 }
 
+Json box_json(const Aabb& box) { return Json::array({vector_json(box.lo), vector_json(box.hi)}); }
+
+Json overlap_json(const PlanOverlap& o) {
+  Json out = {{"a", o.a}, {"b", o.b}, {"depth", o.depth}};
+  if (o.declared) out["declared"] = *o.declared;
+  if (!o.place) return out;
+  out["class"] = std::string(to_string(o.place->contact));
+  out["at"] = vector_json(o.place->at);
+  out["region"] = box_json(o.place->region);
+  out["share"] = o.place->share;
+  if (o.place->axis)
+    out["axis"] = {{"point", vector_json(o.place->axis_point)}, {"direction", vector_json(*o.place->axis)}};
+  return out;
+}
+
 Json assembly_json(const PlanAssembly& a) {
   Json parts = Json::array(), excluded = Json::array(), overlaps = Json::array();
   for (const PlanPart& p : a.parts) {
@@ -83,13 +112,13 @@ Json assembly_json(const PlanAssembly& a) {
     if (!p.parents.empty()) parts.back()["parents"] = p.parents;
   }
   for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});
-  for (const PlanOverlap& o : a.overlaps) overlaps.push_back({{"a", o.a}, {"b", o.b}, {"depth", o.depth}});
+  for (const PlanOverlap& o : a.overlaps) overlaps.push_back(overlap_json(o));
   Json out;
   out["source"] = a.source;
   out["sha256"] = a.sha256;
   out["scale"] = a.scale;
   out["center"] = vector_json(a.center);
-  out["bbox"] = a.box.empty() ? Json(nullptr) : Json::array({vector_json(a.box.lo), vector_json(a.box.hi)});
+  out["bbox"] = a.box.empty() ? Json(nullptr) : box_json(a.box);
   out["parts"] = std::move(parts);
   out["excluded"] = std::move(excluded);
   out["overlaps"] = std::move(overlaps);
@@ -121,6 +150,18 @@ Json certificates_json(const std::vector<PlanCertificate>& certificates) {
 }
 
 }  // namespace
+
+std::string_view to_string(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::complete:
+      return "complete";
+    case PlanStatus::forced:
+      return "forced";
+    case PlanStatus::partial:
+      return "partial";
+  }
+  return "partial";
+}
 
 std::string_view to_string(AssemblyStatus status) {
   switch (status) {
@@ -160,7 +201,7 @@ std::string to_json(const Plan& plan) {
   out["version"] = 1;
   out["generator"] = {{"name", plan.generator_name}, {"version", plan.generator_version}};
   out["assembly"] = assembly_json(plan.assembly);
-  out["status"] = plan.status == PlanStatus::complete ? "complete" : "partial";
+  out["status"] = std::string(to_string(plan.status));
   out["seed"] = plan.seed;
   out["verified_max_penetration"] = plan.verified_max_penetration;
   out["disassembly"] = steps_json(plan.disassembly, false);

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/verification/contact.h"
 #include "dismantle/verification/verifier.h"
 #include "parallel_phase.h"
 
@@ -23,96 +24,185 @@ void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
     ++check.parts;
     if (part.kept) ++check.usable;
     if (!part.kept && part.reason.starts_with("duplicate")) {
-      check.findings.push_back({FindingKind::duplicate, Severity::warning, {part.name},
+      check.findings.push_back({FindingKind::duplicate,
+                                Severity::warning,
+                                {part.name},
                                 fmt::format("'{}' is left out: {}", part.name, part.reason),
-                                "remove one of the two from the model, or set assembly.drop_duplicates=false", {}, {}});
+                                "remove one of the two from the model, or set assembly.drop_duplicates=false",
+                                {},
+                                {}});
     } else if (!part.kept) {
-      check.findings.push_back({FindingKind::unusable, Severity::error, {part.name},
+      check.findings.push_back({FindingKind::unusable,
+                                Severity::error,
+                                {part.name},
                                 fmt::format("'{}' cannot be used: {}", part.name, part.reason),
-                                "export it again as a closed solid; without it the plan ignores this part", {}, {}});
+                                "export it again as a closed solid; without it the plan ignores this part",
+                                {},
+                                {}});
     }
     std::string done;
     for (const std::string& action : part.actions) {
       if (action.starts_with("warning: "))
-        check.findings.push_back({FindingKind::suspect, Severity::warning, {part.name},
+        check.findings.push_back({FindingKind::suspect,
+                                  Severity::warning,
+                                  {part.name},
                                   fmt::format("'{}': {}", part.name, action.substr(9)),
-                                  "repair the mesh in the program that made it", {}, {}});
+                                  "repair the mesh in the program that made it",
+                                  {},
+                                  {}});
       else if (!action.starts_with("subdivided"))
         done += (done.empty() ? "" : "; ") + action;
     }
     if (part.kept && !done.empty())
-      check.findings.push_back({FindingKind::repaired, Severity::note, {part.name},
+      check.findings.push_back({FindingKind::repaired,
+                                Severity::note,
+                                {part.name},
                                 fmt::format("'{}' was repaired: {}", part.name, done),
-                                "nothing, if the part still looks right (dismantle prepare writes it)", {}, {}});
+                                "nothing, if the part still looks right (dismantle prepare writes it)",
+                                {},
+                                {}});
   }
 }
 
 class Geometry {
  public:
   Geometry(const Assembly& assembly, double tolerance, const RunContext& context)
-      : assembly_(assembly), tolerance_(tolerance), context_(context), bvhs_(assembly.parts.size()) {
+      : assembly_(assembly),
+        tolerance_(tolerance),
+        context_(context),
+        bvhs_(assembly.parts.size()),
+        bodies_(assembly.parts.size()) {
     Aabb box;
     for (const Part& part : assembly.parts) box.extend(part.mesh->box());
     size_ = box.size().maxCoeff();
     parallel_phase(
         bvhs_.size(), context, "check",
-        [&](std::size_t i) { bvhs_[i] = std::make_unique<TriangleBvh>(*assembly_.parts[i].mesh); },
+        [&](std::size_t i) {
+          bvhs_[i] = std::make_unique<TriangleBvh>(*assembly_.parts[i].mesh);
+          bodies_[i] = std::make_unique<DepthBody>(*assembly_.parts[i].mesh);
+        },
         [&](std::size_t i) { return assembly_.parts[i].name; });
   }
 
   void add_findings(AssemblyCheck& check) const {
-    std::vector<Finding> overlaps(assembly_.overlaps.size());
-    parallel_phase(
-        overlaps.size(), context_, "overlaps", [&](std::size_t i) { overlaps[i] = overlap(assembly_.overlaps[i]); },
-        [&](std::size_t i) { return name(assembly_.overlaps[i].a); });
-    check.findings.insert(check.findings.end(), overlaps.begin(), overlaps.end());
+    add_contacts(check);
     std::vector<char> alone(bvhs_.size(), 0);
     parallel_phase(
         bvhs_.size(), context_, "contacts", [&](std::size_t i) { alone[i] = isolated(static_cast<PartId>(i)); },
         [&](std::size_t i) { return assembly_.parts[i].name; });
     for (PartId id = 0; id < alone.size(); ++id)
       if (alone[id] != 0)
-        check.findings.push_back({FindingKind::isolated, Severity::warning, {name(id)},
+        check.findings.push_back({FindingKind::isolated,
+                                  Severity::warning,
+                                  {name(id)},
                                   fmt::format("'{}' touches no other part", name(id)),
-                                  "check that it is in its assembled position and in the units of the others", {},
+                                  "check that it is in its assembled position and in the units of the others",
+                                  {},
                                   assembly_.normalization.to_input(assembly_.parts[id].mesh->box().center())});
   }
 
  private:
   const std::string& name(PartId id) const { return assembly_.parts[id].name; }
 
-  /// Every vertex of `part` is in the material of `other`.
-  bool lies_inside(PartId part, PartId other) const {
-    const auto& vertices = assembly_.parts[part].mesh->vertices;
-    return std::all_of(vertices.begin(), vertices.end(), [&](const auto& v) { return bvhs_[other]->inside(v); });
+  /// Pairs whose boxes are nearer than what counts as touching; those that overlap were measured before.
+  std::vector<InitialOverlap> near_pairs() const {
+    std::vector<InitialOverlap> pairs;
+    for (PartId a = 0; a < bodies_.size(); ++a) {
+      Aabb around = assembly_.parts[a].mesh->box();
+      around.inflate(kTouching * size_);
+      for (PartId b = a + 1; b < bodies_.size(); ++b)
+        if (around.overlaps(assembly_.parts[b].mesh->box())) pairs.push_back({a, b, 0});
+    }
+    auto known = assembly_.overlaps.begin();  // both are sorted by (a, b)
+    for (InitialOverlap& pair : pairs) {
+      while (known != assembly_.overlaps.end() && std::pair(known->a, known->b) < std::pair(pair.a, pair.b)) ++known;
+      if (known != assembly_.overlaps.end() && known->a == pair.a && known->b == pair.b) pair.depth = known->depth;
+    }
+    return pairs;
   }
 
-  Finding overlap(const InitialOverlap& o) const {
-    const Penetration found = deepest_penetration(DepthBody(*assembly_.parts[o.a].mesh), Pose{},
-                                                  DepthBody(*assembly_.parts[o.b].mesh), Pose{}, tolerance_);
+  void add_contacts(AssemblyCheck& check) const {
+    const std::vector<InitialOverlap> pairs = near_pairs();
+    std::vector<std::optional<PairContact>> found(pairs.size());
+    parallel_phase(
+        pairs.size(), context_, "overlaps", [&](std::size_t i) { found[i] = contact(pairs[i]); },
+        [&](std::size_t i) { return name(pairs[i].a); });
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!found[i]) continue;
+      const PairContact& c = *found[i];
+      check.contacts.push_back(
+          {name(pairs[i].a), name(pairs[i].b), c.depth / assembly_.normalization.scale, in_input(c.place)});
+      const bool overlap = pairs[i].depth > 0;
+      if (overlap || c.place.contact == ContactClass::duplicate)
+        check.findings.push_back(finding(check.contacts.back(), c, overlap));
+    }
+  }
+
+  std::optional<PairContact> contact(const InitialOverlap& pair) const {
+    const DepthBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
+    if (pair.depth > 0)
+      return classify_overlap(a, b, deepest_penetration(a, Pose{}, b, Pose{}, tolerance_), tolerance_);
+    const std::optional<ContactClass> apart = classify_apart(a, b, tolerance_, kTouching * size_);
+    if (!apart) return std::nullopt;
+    PairContact found;
+    found.place.contact = *apart;
+    if (*apart == ContactClass::duplicate) {
+      const Aabb box = assembly_.parts[pair.a].mesh->box();
+      found.place = {*apart, box.center(), box, 1};
+    }
+    return found;
+  }
+
+  OverlapPlace in_input(OverlapPlace place) const {
+    const Normalization& n = assembly_.normalization;
+    place.at = n.to_input(place.at);
+    place.axis_point = n.to_input(place.axis_point);
+    if (!place.region.empty()) place.region = {n.to_input(place.region.lo), n.to_input(place.region.hi)};
+    return place;
+  }
+
+  Finding finding(const CheckedContact& pair, const PairContact& found, bool overlap) const {
     Finding finding;
     finding.kind = FindingKind::overlap;
-    finding.parts = {name(o.a), name(o.b)};
-    finding.depth = found.depth / assembly_.normalization.scale;
-    finding.at = assembly_.normalization.to_input(found.point);
-    for (const auto& [part, other] : {std::pair(o.a, o.b), std::pair(o.b, o.a)})
-      if (lies_inside(part, other)) {
-        finding.kind = FindingKind::enclosed;
-        finding.parts = {name(part), name(other)};
-      }
+    finding.parts = {pair.a, pair.b};
+    if (overlap) finding.depth = pair.depth;
+    finding.at = pair.place.at;
+    finding.contact = pair.place.contact;
     const bool deep = found.depth > kDeepOverlap * size_;
-    finding.severity = deep || finding.kind == FindingKind::enclosed ? Severity::error : Severity::warning;
-    const std::string share = fmt::format("{:.3g} deep ({:.2g} % of the assembly)", *finding.depth,
-                                          100 * found.depth / size_);
-    if (finding.kind == FindingKind::enclosed) {
-      finding.message = fmt::format("'{}' lies inside the solid material of '{}', {}", finding.parts[0],
-                                    finding.parts[1], share);
-      finding.advice = fmt::format("cut a cavity for it into '{}', or leave one of the two out (constraints.ignore)",
-                                   finding.parts[1]);
-    } else {
-      finding.message = fmt::format("'{}' and '{}' overlap, {}", finding.parts[0], finding.parts[1], share);
-      finding.advice = deep ? "correct the model: a plan allows this pair to stay as deep in each other all along"
-                            : "nothing, if this is a press fit or rounding; else correct the model";
+    finding.severity = deep ? Severity::error : Severity::warning;
+    const std::string share =
+        fmt::format("{:.3g} deep ({:.2g} % of the assembly)", pair.depth, 100 * found.depth / size_);
+    const auto overlaps = [&](const char* where) {
+      finding.message = fmt::format("'{}' and '{}' overlap {}, {}", pair.a, pair.b, where, share);
+    };
+    const char* mend = "correct the model: a plan allows this pair to stay as deep in each other all along";
+    switch (*finding.contact) {
+      case ContactClass::duplicate:
+        finding.kind = FindingKind::duplicate;
+        finding.severity = Severity::warning;
+        finding.message = fmt::format("'{}' and '{}' coincide", pair.a, pair.b);
+        finding.advice = "remove one of the two from the model, or set assembly.drop_duplicates=true";
+        break;
+      case ContactClass::inside:
+        finding.kind = FindingKind::enclosed;
+        finding.severity = Severity::error;
+        if (!found.first_inside) std::swap(finding.parts[0], finding.parts[1]);
+        finding.message =
+            fmt::format("'{}' lies inside the solid material of '{}', {}", finding.parts[0], finding.parts[1], share);
+        finding.advice = fmt::format("cut a cavity for it into '{}', or leave one of the two out (constraints.ignore)",
+                                     finding.parts[1]);
+        break;
+      case ContactClass::uniform_interference:
+        overlaps(pair.place.axis ? "all around an axis" : "over a whole face");
+        finding.advice =
+            deep ? mend
+                 : "nothing, if this is a press fit, a seal, or a screw without its thread; else correct the model";
+        break;
+      default:
+        overlaps("in a small region");
+        finding.advice = deep ? mend
+                              : "nothing, if one of them bends there (clip, spring, seal) or this is rounding; else "
+                                "correct the model";
     }
     return finding;
   }
@@ -144,6 +234,7 @@ class Geometry {
   const RunContext& context_;
   double size_ = 0;
   std::vector<std::unique_ptr<TriangleBvh>> bvhs_;
+  std::vector<std::unique_ptr<DepthBody>> bodies_;
 };
 
 void sort_findings(AssemblyCheck& check) {

@@ -1,6 +1,7 @@
 // Findings in words and as JSON.
 #include <fmt/format.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "dismantle/preparation/check_assembly.h"
@@ -39,9 +40,33 @@ std::string_view to_string(Severity severity) {
   return "unknown";
 }
 
+/// How many pairs there are of each class; empty when no two parts are near each other.
+static std::string contacts_text(const AssemblyCheck& check) {
+  std::map<ContactClass, std::size_t> counts;
+  for (const CheckedContact& c : check.contacts) ++counts[c.place.contact];
+  std::string out;
+  for (const auto& [contact, count] : counts)
+    out += fmt::format("{}{} {}", out.empty() ? "contacts: " : ", ", count, to_string(contact));
+  return out.empty() ? out : out + "\n";
+}
+
+static nlohmann::ordered_json vector_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+static nlohmann::ordered_json contact_json(const CheckedContact& c) {
+  nlohmann::ordered_json item = {{"parts", {c.a, c.b}}, {"class", to_string(c.place.contact)}};
+  if (c.depth > 0) item["depth"] = c.depth;
+  if (c.place.region.empty()) return item;
+  item["at"] = vector_of(c.place.at);
+  item["region"] = {vector_of(c.place.region.lo), vector_of(c.place.region.hi)};
+  item["share"] = c.place.share;
+  if (c.place.axis) item["axis"] = {{"point", vector_of(c.place.axis_point)}, {"direction", vector_of(*c.place.axis)}};
+  return item;
+}
+
 std::string findings_text(const AssemblyCheck& check, const std::string& source) {
-  std::string out = fmt::format("{}: {} part{}, {} usable\n", source, check.parts, check.parts == 1 ? "" : "s",
-                                check.usable);
+  std::string out =
+      fmt::format("{}: {} part{}, {} usable\n", source, check.parts, check.parts == 1 ? "" : "s", check.usable);
+  out += contacts_text(check);
   for (const Finding& f : check.findings) {
     out += fmt::format("{}: {}", to_string(f.severity), f.message);
     if (f.at) out += fmt::format(", at ({:.6g}, {:.6g}, {:.6g})", f.at->x(), f.at->y(), f.at->z());
@@ -50,8 +75,8 @@ std::string findings_text(const AssemblyCheck& check, const std::string& source)
   }
   const auto errors = check.count(Severity::error), warnings = check.count(Severity::warning);
   if (errors + warnings == 0) return out + "No problem was found.\n";
-  return out + fmt::format("{} error{}, {} warning{}\n", errors, errors == 1 ? "" : "s", warnings,
-                           warnings == 1 ? "" : "s");
+  return out +
+         fmt::format("{} error{}, {} warning{}\n", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
 }
 
 std::string findings_json(const AssemblyCheck& check) {
@@ -66,11 +91,14 @@ std::string findings_json(const AssemblyCheck& check) {
                                    {"parts", f.parts},
                                    {"message", f.message},
                                    {"advice", f.advice}};
+    if (f.contact) item["class"] = to_string(*f.contact);
     if (f.depth) item["depth"] = *f.depth;
     if (f.at) item["at"] = {f.at->x(), f.at->y(), f.at->z()};
     if (!f.picture.empty()) item["picture"] = f.picture;
     json["findings"].push_back(std::move(item));
   }
+  json["contacts"] = nlohmann::ordered_json::array();
+  for (const CheckedContact& c : check.contacts) json["contacts"].push_back(contact_json(c));
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

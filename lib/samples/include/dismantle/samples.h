@@ -2,19 +2,21 @@
 ///
 /// Lengths are mm, angles rad; the frame is that of the files written. Every part of every sample is
 /// closed, consistently oriented, of positive volume and free of self-crossings, and stands at least
-/// the sample's `clearance` away from every other part.
+/// the sample's `clearance` away from every other part, but for the pairs that its truth says are in contact.
 #pragma once
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "dismantle/contact_class.h"
 #include "dismantle/export.h"
-#include "dismantle/pose.h"
 #include "dismantle/importer.h"
 #include "dismantle/parameters.h"
+#include "dismantle/pose.h"
 
 namespace dismantle::samples {
 
@@ -23,7 +25,8 @@ struct Sample {
   std::string name;     ///< [a-z][a-z0-9_]*
   std::string summary;  ///< one line
   std::vector<ParamSpec> params;
-  bool solvable = true;          ///< false: no part can ever leave
+  bool solvable = true;          ///< false: its parts cannot all be separated by rigid motions
+  bool clean = true;             ///< false: parts overlap when assembled, as in real CAD; see Truth::contacts
   bool translation_only = true;  ///< every part leaves without turning
   bool one_at_a_time = true;     ///< false: some step needs several parts to move at once
 };
@@ -50,17 +53,28 @@ struct TruthStep {
   std::string out;  ///< the part whose hull is apart from all that is left after this step; empty: none yet
 };
 
+/// Two parts that are not clear of each other when assembled.
+struct TruthContact {
+  std::string a, b;
+  ContactClass contact = ContactClass::kissing;
+  double depth = 0;              ///< largest distance of a surface point of one in the other from its surface, mm
+  double depth_error = 0;        ///< how much flat faces in place of round ones change it at most, mm
+  std::optional<Screw> apart{};  ///< a motion of `a` that separates the two and never overlaps deeper; none: no rigid
+                                 ///< motion does, but through the solid
+};
+
 /// One order that takes the sample apart, and what any order must respect in which `base` stays to the end.
 struct Truth {
   std::string base;                                             ///< the part that all others leave; empty: no such part
   std::vector<TruthStep> steps;                                 ///< empty when not solvable
   std::vector<std::pair<std::string, std::string>> precedence;  ///< (before, after), necessary, not transitive
+  std::vector<TruthContact> contacts;                           ///< all other pairs keep the clearance
 };
 
 struct Model {
   std::vector<RawPart> parts;  ///< names are file names without ".obj"
   Truth truth;
-  double clearance = 0;  ///< no two parts are closer than this when assembled, mm
+  double clearance = 0;  ///< no two parts that are not in `truth.contacts` are closer than this when assembled, mm
 };
 
 /// All samples, in a fixed order.

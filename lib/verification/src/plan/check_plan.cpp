@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plan/check_certificates.h"
+#include "plan/depth_statements.h"
 #include "plan/plan_state.h"
 
 namespace dismantle {
@@ -32,12 +33,14 @@ class Checker {
         context_(context),
         prover_of_(prover_of),
         verifier_(assembly, options),
-        state_(assembly) {}
+        state_(assembly),
+        depths_(assembly, verifier_, state_, context_) {}
 
   PlanCheck run() {
     check_names();
     result_.step_penetration.assign(plan_.disassembly.size(), 0);
     passed_.resize(plan_.disassembly.size());
+    places_then_.resize(plan_.disassembly.size());
     const std::size_t total = plan_.disassembly.size() + plan_.assembly_steps.size();
     std::size_t done = 0;
     for (std::size_t i = 0; i < plan_.disassembly.size() && !stopped(); ++i) {
@@ -54,7 +57,7 @@ class Checker {
     if (stopped()) problem("the check was stopped before its end");
     context_.progress("verify", total, total);
     result_.valid = result_.problems.empty();
-    result_.complete = result_.valid && complete;
+    result_.complete = result_.valid && complete && result_.forced == 0;
     for (const double p : result_.step_penetration) result_.max_penetration = std::max(result_.max_penetration, p);
     return std::move(result_);
   }
@@ -109,6 +112,10 @@ class Checker {
     return false;
   }
 
+  void note(const char* what, const std::optional<std::string>& wrong) {
+    if (wrong) problem(what + *wrong);
+  }
+
   void disassembly_step(const PlanStep& step, std::size_t index) {
     if (step.step != index + 1) problem(fmt::format("it is numbered {}, expected {}", step.step, index + 1));
     const auto motion = read(step, "");
@@ -123,7 +130,14 @@ class Checker {
       problem("it moves parts that do not belong together any more");
     } else {
       passed_[index] = without(*group, motion->moving);
-      motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
+      places_then_[index] = state_.place;
+      if (step.forced) {
+        ++result_.forced;
+        note("", depths_.wrong(*step.forced, *motion, placed(passed_[index])));
+      } else {
+        motion_holds(*motion, passed_[index], "", result_.step_penetration[index]);
+      }
+      for (const PlanStepOverlap& o : step.overlaps) note("", depths_.wrong(o, *motion));
     }
     for (std::size_t i = 0; i < motion->moving.size(); ++i) state_.place[motion->moving[i]] = motion->path.back()[i];
     if (group != state_.groups.end()) separate_groups(step, static_cast<std::size_t>(group - state_.groups.begin()));
@@ -185,6 +199,10 @@ class Checker {
 
   void check_end(bool complete) {
     step_ = 0;
+    if (plan_.status == PlanStatus::complete && result_.forced > 0)
+      problem("the plan says that it is complete, but some steps are forced");
+    if (plan_.status == PlanStatus::forced && (!complete || result_.forced == 0))
+      problem("the plan says that it is forced, but no step is, or some groups have several parts left");
     if (plan_.status == PlanStatus::complete && !complete)
       problem("the plan says that it is complete, but some groups have several parts left");
     std::set<std::string> seen;
@@ -275,7 +293,9 @@ class Checker {
   /// `there`: the disassembly step that this one may be the reverse of, if there is one.
   void check_way(const StepMotion& motion, const Group& others, const PlanStep& step, std::size_t there) {
     double bound = 0;
-    if (there >= plan_.disassembly.size() || !is_reverse(there, step)) {
+    const bool reverse = there < plan_.disassembly.size() && is_reverse(there, step);
+    const bool forced = there < plan_.disassembly.size() && plan_.disassembly[there].forced.has_value();
+    if (!reverse && !forced) {
       motion_holds(motion, others, kWhat, bound);
       return;
     }
@@ -284,8 +304,22 @@ class Checker {
     const auto at = motion.path.begin() + static_cast<std::ptrdiff_t>(step.transfer);
     if (step.transfer > 0 && !motion_holds({motion.moving, {motion.path.begin(), at + 1}}, others, kWhat, bound))
       return;
-    const Group unmet = without(others, passed_[there]);
+    const Group unmet = without(without(others, passed_[there]), gone_then(there, others));
     if (!unmet.empty()) motion_holds({motion.moving, {at, motion.path.end()}}, unmet, kWhat, bound);
+    if (!reverse)
+      note(kWhat, depths_.wrong(*plan_.disassembly[there].forced, {motion.moving, {at, motion.path.end()}},
+                                placed(without(others, unmet))));
+  }
+
+  /// Of these, what was out when disassembly step `index` began, and still is where it was then: no obstacle to the
+  /// disassembly, and so not to what is no more than the disassembly backwards.
+  Group gone_then(std::size_t index, const Group& others) const {
+    Group gone;
+    if (plan_.assembly_status != AssemblyStatus::reversed) return gone;
+    for (const PartId id : others)
+      if (!contains(passed_[index], id) && state_.offset(id, state_.place[id], places_then_[index][id]) <= rounding())
+        gone.push_back(id);
+    return gone;
   }
 
   /// True when assembly step `index` is a disassembly step backwards that separated nothing.
@@ -332,9 +366,11 @@ class Checker {
   const ProverOfKind& prover_of_;
   Verifier verifier_;
   PlanState state_;
+  DepthStatements depths_;
   PlanCheck result_;
-  std::vector<StepMotion> motions_;  // of the disassembly steps that could be read
-  std::vector<Group> passed_;        // by disassembly step: what its parts were checked against
+  std::vector<StepMotion> motions_;             // of the disassembly steps that could be read
+  std::vector<Group> passed_;                   // by disassembly step: what its parts were checked against, ...
+  std::vector<std::vector<Pose>> places_then_;  // ... and where all parts were
   unsigned step_ = 0;
 };
 

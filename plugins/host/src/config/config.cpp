@@ -333,6 +333,7 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
   config.run = Schema<RunSettings>().bind(config.sections.at("run"));
   config.proofs = Schema<ProofOptions>().bind(config.sections.at("immobility"));
   config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
+  config.named_overlap = std::get<double>(config.sections.at("verify").at("named_overlap"));
   return config;
 }
 

@@ -3,16 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "config/layers.h"
 #include "dismantle/host/config_bind.h"
 #include "dismantle/host/suggest.h"
+#include "dismantle/preparation/declared_overlaps.h"
 
 namespace dismantle {
 namespace {
+
+std::optional<double> number_of(const ConfigNode& node) {
+  if (!node.is_scalar()) return std::nullopt;
+  double value = 0;
+  const char* end = node.scalar.data() + node.scalar.size();
+  const auto [rest, error] = std::from_chars(node.scalar.data(), end, value);
+  if (error != std::errc{} || rest != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
 
 bool is_name(const ConfigNode& node) { return node.is_scalar() && !node.scalar.empty(); }
 
@@ -45,6 +58,37 @@ class Reader {
       return out;
     }
     for (const auto& item : list.items) out.push_back(names(key, item, 2));
+    return out;
+  }
+
+  /// A list of {parts: [a, b], depth: d}.
+  std::vector<NamedOverlap> overlaps(const std::string& key, const ConfigNode& list) {
+    std::vector<NamedOverlap> out;
+    const std::string expected = fmt::format("constraints.{} must be a list of {{parts: [A, B], depth: D}}", key);
+    if (list.kind != ConfigNode::Kind::sequence) {
+      problems_.push_back(list.mark.error(fmt::format("{}, not {}", expected, list.kind_name())));
+      return out;
+    }
+    for (const ConfigNode& item : list.items) {
+      const ConfigNode *parts = nullptr, *depth = nullptr;
+      bool known = item.is_map();
+      if (known)
+        for (const auto& [name, mark, value] : item.members) {
+          if (name == "parts") parts = &value;
+          if (name == "depth") depth = &value;
+          known = known && (name == "parts" || name == "depth");
+        }
+      const std::optional<double> number = depth == nullptr ? std::nullopt : number_of(*depth);
+      if (!known || parts == nullptr || !number || *number < 0) {
+        problems_.push_back(item.mark.error(expected + " with a depth of 0 or more, in input units"));
+        continue;
+      }
+      const std::vector<std::string> pair = names(key, *parts, 2);
+      if (pair.size() == 2 && pair[0] != pair[1])
+        out.push_back({pair[0], pair[1], *number});
+      else if (!pair.empty())
+        problems_.push_back(item.mark.error(expected + ": two different parts"));
+    }
     return out;
   }
 
@@ -174,7 +218,7 @@ class Contradictions {
 }  // namespace
 
 const std::vector<std::string>& constraint_keys() {
-  static const std::vector<std::string> keys{"base", "together", "before", "target", "ignore"};
+  static const std::vector<std::string> keys{"base", "together", "before", "target", "ignore", "flexible", "overlap"};
   return keys;
 }
 
@@ -193,6 +237,10 @@ NamedConstraints read_constraints(const ConfigNode& section, std::vector<Constra
       out.base = reader.names(key, value, 0);
     } else if (key == "ignore") {
       out.ignore = reader.names(key, value, 0);
+    } else if (key == "flexible") {
+      out.flexible = reader.names(key, value, 0);
+    } else if (key == "overlap") {
+      out.overlap = reader.overlaps(key, value);
     } else if (key == "together") {
       out.together = reader.lists(key, value);
     } else if (key == "before") {
@@ -225,6 +273,12 @@ void check_constraint_names(const RunConfig& config, const std::vector<std::stri
   if (problems.empty()) return;
   sort_by_place(problems);
   throw ConfigError(std::move(problems));
+}
+
+void declare_overlaps(const NamedConstraints& named, Assembly& assembly) {
+  for (const std::string& part : named.flexible) declare_flexible(assembly, part);
+  for (const NamedOverlap& o : named.overlap)
+    declare_overlap(assembly, o.a, o.b, o.depth * assembly.normalization.scale);
 }
 
 Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly) {

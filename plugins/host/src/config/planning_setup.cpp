@@ -28,9 +28,12 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   out.path_steps = static_cast<std::uint64_t>(config.run.path_steps);
   out.only_part = part;
   out.verify = config.verify;
+  out.named_overlap = config.named_overlap;
   out.proofs = config.proofs;
   out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
+  out.force = {config.run.force, config.run.force_share, config.run.force_directions, config.run.force_candidates,
+               config.run.force_retry_depth};
   return out;
 }
 

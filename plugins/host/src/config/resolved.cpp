@@ -34,7 +34,9 @@ class Writer {
   }
 
   void constraints(const NamedConstraints& c) {
-    if (c.base.empty() && c.together.empty() && c.before.empty() && c.target.empty() && c.ignore.empty()) return;
+    if (c.base.empty() && c.together.empty() && c.before.empty() && c.target.empty() && c.ignore.empty() &&
+        c.flexible.empty() && c.overlap.empty())
+      return;
     line("constraints:");
     if (!c.base.empty()) line("  base: " + list(c.base));
     for (const auto& [key, lists] : {std::pair("together", &c.together), std::pair("before", &c.before)}) {
@@ -43,6 +45,10 @@ class Writer {
     }
     if (!c.target.empty()) line("  target: " + quoted(c.target));
     if (!c.ignore.empty()) line("  ignore: " + list(c.ignore));
+    if (!c.flexible.empty()) line("  flexible: " + list(c.flexible));
+    if (!c.overlap.empty()) line("  overlap:");
+    for (const NamedOverlap& o : c.overlap)
+      line(fmt::format("    - {{parts: {}, depth: {}}}", list({o.a, o.b}), to_text(ParamValue{o.depth})));
   }
 
   void values(const std::string& section, const std::vector<ParamSpec>& specs, const ParamSet& params) {

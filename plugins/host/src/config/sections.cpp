@@ -7,6 +7,7 @@ constexpr double kLargestTolerance = 0.5;  // assembly units: a twentieth of the
 
 struct VerifySettings {
   double max_penetration = VerifyOptions{}.max_penetration;
+  double named_overlap = 0.1;
   static void describe(Schema<VerifySettings>& s) {
     s.add(
         "max_penetration", &VerifySettings::max_penetration,
@@ -19,6 +20,11 @@ struct VerifySettings {
              "the "
              "assembly is 10; at more than a twentieth of it parts pass through each other's walls, and that a plan is "
              "valid says nothing."});
+    s.add("named_overlap", &VerifySettings::named_overlap,
+          {.unit = "assembly units",
+           .min = 0,
+           .doc = "Pairs that overlap by more than this when assembled are named in each step of the plan that makes "
+                  "use of it, with the depth along the way."});
   }
 };
 
@@ -38,6 +44,33 @@ void RunSettings::describe(Schema<RunSettings>& s) {
          .min = 0,
          .doc = "Simulated time steps for one attempt; 0 = no limit. Unlike seconds, the same on every machine."});
   s.add("timeout", &RunSettings::timeout, {.unit = "s", .min = 0, .doc = "Time for the whole run; 0 = no limit."});
+  s.add_choice<ForceWhen>(
+      "force", &RunSettings::force,
+      {{"off", ForceWhen::off, "parts that no verified path was found for stay"},
+       {"last_resort", ForceWhen::last_resort,
+        "they are taken out where they cut in least, in steps that are marked as forced and never count as verified"}},
+      "What is done with parts that no verified path was found for. Benchmarks never force.");
+  s.add("force_share", &RunSettings::force_share,
+        {.unit = "1",
+         .min = 0,
+         .max = 0.9,
+         .min_open = true,
+         .doc = "Advanced. Share of run.timeout that is kept for forced steps."});
+  s.add("force_directions", &RunSettings::force_directions,
+        {.unit = "1",
+         .min = 0,
+         .max = 1000,
+         .doc = "Advanced. Directions of a sphere that a forced step may take, beside the axes of the parts' faces."});
+  s.add("force_candidates", &RunSettings::force_candidates,
+        {.unit = "1",
+         .min = 1,
+         .max = 100000,
+         .doc = "Advanced. Motions whose depth is measured for one forced step, the most promising ones."});
+  s.add("force_retry_depth", &RunSettings::force_retry_depth,
+        {.unit = "1",
+         .min = 1,
+         .max = 1000,
+         .doc = "Advanced. Depth of the searches for verified paths of the parts that are left after a forced step."});
   s.add(
       "grace", &RunSettings::grace,
       {.unit = "s",

@@ -128,11 +128,24 @@ std::string json_schema(const Registry& registry) {
   const nlohmann::ordered_json name = {{"type", "string"}};
   const nlohmann::ordered_json names = {{"type", "array"}, {"items", name}};
   const nlohmann::ordered_json lists = {{"type", "array"}, {"items", names}};
-  properties["constraints"] = {
+  const nlohmann::ordered_json overlap = {
       {"type", "object"},
       {"additionalProperties", false},
-      {"description", "What the order has to keep to, by names of parts."},
-      {"properties", {{"base", names}, {"together", lists}, {"before", lists}, {"target", name}, {"ignore", names}}}};
+      {"required", {"parts", "depth"}},
+      {"properties",
+       {{"parts", {{"type", "array"}, {"items", name}, {"minItems", 2}, {"maxItems", 2}}},
+        {"depth", {{"type", "number"}, {"minimum", 0}}}}}};
+  properties["constraints"] = {{"type", "object"},
+                               {"additionalProperties", false},
+                               {"description", "What the order has to keep to, by names of parts."},
+                               {"properties",
+                                {{"base", names},
+                                 {"together", lists},
+                                 {"before", lists},
+                                 {"target", name},
+                                 {"ignore", names},
+                                 {"flexible", names},
+                                 {"overlap", {{"type", "array"}, {"items", overlap}}}}}};
   properties["layout"]["properties"]["poses"] = {
       {"type", "object"},
       {"description",

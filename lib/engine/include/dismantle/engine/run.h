@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/engine/force_options.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
@@ -46,6 +47,10 @@ struct RunOptions {
   std::string only_part;         ///< plan just this part's path, all others fixed
   VerifyOptions verify;
   ProofOptions proofs;
+  ForceOptions force;  ///< not used for `only_part`
+  /// Pairs that overlap by more when assembled, or may by the user, are named in each step that makes use of it;
+  /// assembly units, >= 0.
+  double named_overlap = 0.1;
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;

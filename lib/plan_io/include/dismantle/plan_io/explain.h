@@ -69,6 +69,10 @@ DISMANTLE_API std::string explain_text(const Explanation& explanation);
 /// One JSON object (docs/cli.md).
 DISMANTLE_API std::string explain_json(const Explanation& explanation);
 
+/// What a forced step does: "pin cuts 0.3 mm into hub (0.1 mm when assembled)".
+DISMANTLE_API std::string forced_text(const Plan& plan, const PlanForced& forced);
+/// A line for each overlap that the step makes use of; may be empty.
+DISMANTLE_API std::string overlaps_text(const Plan& plan, const PlanStep& step);
 /// A length of the plan's input with its unit: "0.25 mm", or "0.25 input units" where the files do not say.
 DISMANTLE_API std::string length_text(const Plan& plan, double length);
 

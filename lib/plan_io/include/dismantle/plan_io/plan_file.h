@@ -9,6 +9,7 @@
 
 namespace dismantle {
 
+DISMANTLE_API std::string_view to_string(PlanStatus status);
 DISMANTLE_API std::string_view to_string(AssemblyStatus status);
 /// Same plan, same bytes. Times are the only fields that vary between runs.
 DISMANTLE_API std::string to_json(const Plan& plan);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dismantle/assembly.h"
+#include "dismantle/contact_class.h"
 #include "dismantle/export.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/run_context.h"
@@ -38,12 +39,21 @@ struct Finding {
   std::optional<double> depth;        ///< overlap, input units
   std::optional<Eigen::Vector3d> at;  ///< where, input coordinates
   std::string picture{};              ///< file that shows the place; empty: none
+  std::optional<ContactClass> contact{};  ///< of two parts that overlap
+};
+
+/// How two parts meet when assembled.
+struct CheckedContact {
+  std::string a, b;
+  double depth = 0;    ///< input units; 0: they do not overlap, or coincide
+  OverlapPlace place;  ///< input units; only its class where they do not overlap
 };
 
 struct AssemblyCheck {
   std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
   std::size_t parts = 0;          ///< in the input
   std::size_t usable = 0;
+  std::vector<CheckedContact> contacts;  ///< pairs nearer than 1 % of the assembly's size, in the order of its parts
   std::size_t count(Severity severity) const;
 };
 
@@ -61,7 +71,8 @@ DISMANTLE_API std::string_view to_string(Severity severity);
 /// For a terminal; UTF-8, ends with a line break.
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);
 /// One JSON object: {"parts", "usable", "errors", "warnings", "findings": [{"kind", "severity", "parts", "message",
-/// "advice", "depth", "at", "picture"}]}; the last three only where there is such a thing.
+/// "advice", "class", "depth", "at", "picture"}], "contacts": [{"parts", "class", "depth", "at", "region", "share",
+/// "axis"}]}; in a finding the last four, in a contact the last five only where there is such a thing.
 DISMANTLE_API std::string findings_json(const AssemblyCheck& check);
 
 }  // namespace dismantle

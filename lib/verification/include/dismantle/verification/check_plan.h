@@ -21,8 +21,9 @@ struct PlanProblem {
 };
 
 struct PlanCheck {
-  bool valid = false;     ///< every step is a valid motion that separates what it says, and every certificate holds
-  bool complete = false;  ///< valid, and every group is down to one part
+  bool valid = false;      ///< every step is a valid motion that separates what it says, and every certificate holds
+  bool complete = false;   ///< valid, no step is forced, and every group is down to one part
+  std::size_t forced = 0;  ///< steps that are forced: not valid motions, but what is said of their depth is true
   std::size_t certificates = 0;  ///< that hold
   double max_penetration = 0;    ///< worst certified bound over all steps
   std::vector<double> step_penetration;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/engine/force_options.h"
 #include "dismantle/engine/layout.h"
 #include "dismantle/engine/proof_options.h"
 #include "dismantle/export.h"
@@ -27,8 +28,20 @@ struct RunSettings {
   double path_timeout = 120;    ///< seconds per attempt, 0 = none
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
-  double grace = 30;            ///< seconds that plugins have to stop when they are told to, 0 = wait for ever
+  ForceWhen force = ForceWhen::last_resort;
+  double force_share = 0.35;       ///< of `timeout`, kept for forced steps
+  unsigned force_directions = 26;  ///< as ForceOptions::directions
+  unsigned force_candidates = 24;
+  unsigned force_retry_depth = 3;
+  double grace = 30;  ///< seconds that plugins have to stop when they are told to, 0 = wait for ever
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
+};
+
+/// Two parts that may be in each other by `depth` (input units, >= 0), whatever they overlap when assembled.
+struct NamedOverlap {
+  std::string a, b;
+  double depth = 0;
+  bool operator==(const NamedOverlap&) const = default;
 };
 
 /// What the user asks of the order, by names of parts. See Constraints.
@@ -38,8 +51,13 @@ struct NamedConstraints {
   std::vector<std::vector<std::string>> before;  ///< each in the order in which they are to leave
   std::string target;                            ///< empty: none
   std::vector<std::string> ignore;               ///< parts that are left out of the assembly
+  std::vector<std::string> flexible;             ///< parts that others may cut into: springs, belts, cables, O-rings
+  std::vector<NamedOverlap> overlap;             ///< pairs that may be in each other
   bool operator==(const NamedConstraints&) const = default;
 };
+/// Sets InitialOverlap::declared of the pairs that `overlap` and `flexible` name. @throws InputError as
+/// constraints_of().
+DISMANTLE_API void declare_overlaps(const NamedConstraints& named, Assembly& assembly);
 /// @throws InputError naming every part that is not there.
 DISMANTLE_API Constraints constraints_of(const NamedConstraints& named, const Assembly& assembly);
 
@@ -58,10 +76,11 @@ struct RunConfig {
   PrepareOptions assembly;
   RunSettings run;
   VerifyOptions verify;
+  double named_overlap = 0.1;  ///< as RunOptions::named_overlap
   ProofOptions proofs;
   LayoutOptions layout;
   NamedConstraints constraints;
-  std::vector<ConstraintName> constraint_names;  ///< in reading order
+  std::vector<ConstraintName> constraint_names;            ///< in reading order
   std::map<std::string, ParamSet> importers;               ///< complete, by id; only importers that have parameters
   std::vector<std::filesystem::path> plugin_search_paths;  ///< made relative to the working directory, not to the file
 

@@ -1,0 +1,16 @@
+/// When and how parts that no verified motion was found for are taken out all the same.
+#pragma once
+
+namespace dismantle {
+
+enum class ForceWhen { off, last_resort };
+
+struct ForceOptions {
+  ForceWhen when = ForceWhen::off;
+  double share = 0.35;       ///< of the time of the run, (0, 1): kept for forced steps
+  unsigned directions = 26;  ///< of the sphere, tried beside the axes of the parts' faces
+  unsigned candidates = 24;  ///< motions per forced step whose depth is measured
+  unsigned retry_depth = 3;  ///< >= 1, of the searches for the parts that are left after a forced step
+};
+
+}  // namespace dismantle

@@ -1,0 +1,381 @@
+#include "forced_motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numbers>
+
+#include "dismantle/geometry/ray.h"
+#include "dismantle/geometry/slippage.h"
+#include "dismantle/geometry/solid.h"
+#include "dismantle/geometry/swept_boxes.h"
+
+namespace dismantle {
+
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+constexpr std::size_t kAxes = 6;                                // of one part's faces, those of most area
+constexpr std::size_t kGroupAxes = 16;                          // of all parts of a group
+constexpr double kAlways = std::numeric_limits<double>::max();  // area of an axis that is tried whatever the others are
+constexpr double kSameAxis = 0.9998;                            // cosine: about a degree
+constexpr std::size_t kRays = 24;                               // from each part, spread over its vertices
+constexpr double kClearance = 2;                                // between hulls at the end of the path, in tolerances
+constexpr double kInTheWay = 0.02;       // of the rays: less are taken for a small overlap that can be cut through
+constexpr double kFirmlyInTheWay = 0.3;  // of the rays: parts that block more than this move along
+constexpr double kMostTurns = 100;
+constexpr double kTurnStep = std::numbers::pi / 8;  // between two poses of a screw motion
+constexpr double kPitch = 1e-3;                     // least advance along the axis per radian, in sizes of the part
+
+/// Spread evenly over the sphere (Fibonacci lattice).
+std::vector<Vec3> sphere(unsigned count) {
+  std::vector<Vec3> points;
+  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (unsigned i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(std::max(0.0, 1 - z * z));
+    points.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), z);
+  }
+  return points;
+}
+
+bool has(const Placed& parts, PartId id) {
+  return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
+}
+
+bool lists(const std::vector<PartId>& parts, PartId id) {
+  return std::find(parts.begin(), parts.end(), id) != parts.end();
+}
+
+Placed without(const Placed& group, const Placed& gone) {
+  Placed rest;
+  std::copy_if(group.begin(), group.end(), std::back_inserter(rest),
+               [&](const PlacedPart& p) { return !has(gone, p.part); });
+  return rest;
+}
+
+}  // namespace
+
+std::vector<PartId> ids_of_placed(const Placed& parts) {
+  std::vector<PartId> list;
+  for (const PlacedPart& p : parts) list.push_back(p.part);
+  return list;
+}
+
+ForcedMotions::ForcedMotions(const Assembly& assembly, const Verifier& verifier, const Constraints& constraints,
+                             const ForceOptions& options)
+    : assembly_(assembly),
+      verifier_(verifier),
+      constraints_(constraints),
+      options_(options),
+      meter_(assembly, verifier),
+      axes_(assembly.parts.size()),
+      turns_(assembly.parts.size()) {}
+
+const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
+  std::vector<geometry::FaceAxis>& known = axes_.at(part);
+  if (!known.empty()) return known;
+  const Mesh& mesh = *assembly_.parts.at(part).mesh;
+  std::vector<geometry::FaceAxis> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 area = geometry::area_vector(mesh, t);
+    if (area.norm() > 0) faces.push_back({area.normalized(), 0.5 * area.norm()});
+  }
+  known = geometry::rounded_axes(faces);
+  geometry::sort_by_area(known, kAxes);
+  // A round part need not have a face along its axis.
+  for (const geometry::Twist& t : turns(part)) geometry::add_face(known, {t.angular.normalized(), kAlways}, kSameAxis);
+  return known;
+}
+
+/// Motions of the part's surface along itself that turn: of a round part, and of a thread.
+const std::vector<geometry::Twist>& ForcedMotions::turns(PartId part) {
+  std::optional<std::vector<geometry::Twist>>& known = turns_.at(part);
+  if (known) return *known;
+  known.emplace();
+  const Mesh& mesh = *assembly_.parts.at(part).mesh;
+  for (const geometry::Twist& t : geometry::slippable_motions(mesh, mesh.box().center()))
+    if (!t.angular.isZero()) known->push_back(t);
+  return *known;
+}
+
+/// What leaves in one piece.
+std::vector<Placed> ForcedMotions::units(const Placed& group) const {
+  std::vector<Placed> list;
+  std::vector<PartId> done;
+  for (const PlacedPart& p : group) {
+    if (lists(done, p.part)) continue;
+    std::vector<PartId> unit{p.part};
+    for (std::size_t k = 0; k < unit.size(); ++k)
+      for (const auto& together : constraints_.together)
+        if (lists(together, unit[k]))
+          for (const PartId id : together)
+            if (!lists(unit, id) && has(group, id)) unit.push_back(id);
+    done.insert(done.end(), unit.begin(), unit.end());
+    Placed placed;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(placed),
+                 [&](const PlacedPart& q) { return lists(unit, q.part); });
+    list.push_back(std::move(placed));
+  }
+  return list;
+}
+
+/// May these leave the group now?
+bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
+  if (moving.empty() || moving.size() == group.size()) return false;
+  return std::none_of(moving.begin(), moving.end(), [&](const PlacedPart& p) {
+    return lists(constraints_.base, p.part) ||
+           std::any_of(constraints_.before.begin(), constraints_.before.end(), [&](const auto& rule) {
+             return rule.second == p.part && has(group, rule.first) && !has(moving, rule.first);
+           });
+  });
+}
+
+std::vector<Vec3> ForcedMotions::directions(const Placed& group) {
+  std::vector<geometry::FaceAxis> lines;
+  for (const PlacedPart& p : group)
+    for (const geometry::FaceAxis& a : axes(p.part)) geometry::add_face(lines, {p.pose.q * a.axis, a.area}, kSameAxis);
+  geometry::sort_by_area(lines, kGroupAxes);
+  for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, kSameAxis);
+  std::vector<Vec3> list;
+  for (const geometry::FaceAxis& a : lines) {
+    list.push_back(a.axis.normalized());
+    list.push_back(-a.axis.normalized());
+  }
+  for (const Vec3& d : sphere(options_.directions)) list.push_back(d);
+  return list;
+}
+
+ForcedMotions::Known& ForcedMotions::known(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along) {
+  constexpr double kSteps = 1e6;
+  const std::array<int, 3> rounded{static_cast<int>(std::lround(kSteps * along.x())),
+                                   static_cast<int>(std::lround(kSteps * along.y())),
+                                   static_cast<int>(std::lround(kSteps * along.z()))};
+  const auto [at, is_new] = known_.try_emplace({moving.part, fixed.part, rounded});
+  Known& entry = at->second;
+  if (!is_new && entry.moving == moving.pose && entry.fixed == fixed.pose) return entry;
+  entry = {moving.pose, fixed.pose};
+  send_rays(moving, fixed, along, entry);
+  return entry;
+}
+
+/// Largest of along * x over the hull.
+double ForcedMotions::reach(const PlacedPart& part, const Vec3& along) const {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3& c : verifier_.hull(part.part)) most = std::max(most, along.dot(part.pose * c));
+  return most;
+}
+
+/// Rays along the motion from the one, and against it from the other, that enter the other side, and how long they stay
+/// in it. A surface that is a little inside the other when it starts and slides along does not enter it.
+void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
+                              Known& entry) const {
+  const double skin = verifier_.options().max_penetration + assembly_.initial_overlap(moving.part, fixed.part);
+  const double distance = reach(fixed, along) + reach(moving, -along);
+  if (distance <= skin) return;
+  const Aabb& box = assembly_.parts[moving.part].mesh->box();
+  const geometry::SweptBoxes swept({moving.pose, {moving.pose.t + distance * along, moving.pose.q}}, box);
+  if (!swept.meets(geometry::SweptBoxes({fixed.pose}, assembly_.parts[fixed.part].mesh->box()), 0)) return;
+  const auto send = [&](const PlacedPart& from, const PlacedPart& to, const Vec3& d) {
+    const auto& vertices = assembly_.parts[from.part].mesh->vertices;
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kRays);
+    std::size_t rays = 0, hits = 0;
+    double length = 0;
+    for (std::size_t v = 0; v < vertices.size(); v += stride, ++rays) {
+      const Vec3 x = from.pose * vertices[v];
+      for (const geometry::Solid& solid : verifier_.solids(to.part)) {
+        const Pose back = (to.pose * solid.frame).inverse();
+        const Vec3 start = back * x, local = back.q * d;
+        const auto enters = [&](std::uint32_t t) { return solid.normals[t].dot(local) < 0; };
+        const auto leaves = [&](std::uint32_t t) { return solid.normals[t].dot(local) > 0; };
+        const double in = geometry::first_hit(solid.bvh, start, local, distance, enters);
+        if (!std::isfinite(in)) continue;
+        ++hits;
+        const double out = geometry::first_hit(solid.bvh, start + in * local, local, distance, leaves);
+        if (std::isfinite(out)) length += out;
+        break;
+      }
+    }
+    const double count = static_cast<double>(std::max<std::size_t>(1, rays));
+    entry.blocked = std::max(entry.blocked, static_cast<double>(hits) / count);
+    entry.thickness = std::max(entry.thickness, length / count);
+  };
+  send(moving, fixed, along);
+  send(fixed, moving, -along);
+}
+
+ForcedMotion ForcedMotions::straight(const Placed& moving, const Placed& group, const Vec3& along) {
+  ForcedMotion m{moving, without(group, moving), {along, Vec3::Zero()}, Vec3::Zero(), 0, 0};
+  double front = -std::numeric_limits<double>::infinity(), behind = front;
+  for (const PlacedPart& p : m.fixed) front = std::max(front, reach(p, along));
+  for (const PlacedPart& p : m.moving) behind = std::max(behind, reach(p, -along));
+  m.duration = std::max(0.0, front + behind) + kClearance * verifier_.options().max_penetration;
+  for (const PlacedPart& p : m.moving)
+    for (const PlacedPart& q : m.fixed) m.thickness += known(p, q, along).thickness;
+  return m;
+}
+
+/// The unit alone, with what is in its way, and with what is firmly in its way.
+void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
+                                 const Vec3& along, std::vector<ForcedMotion>& list) {
+  std::vector<Placed> sets{unit};
+  for (const double most : {kInTheWay, kFirmlyInTheWay}) {
+    std::vector<bool> moves(all.size(), false);
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (has(unit, all[k].front().part)) {
+        moves[k] = true;
+        open.push_back(k);
+      }
+    for (std::size_t k = 0; k < open.size(); ++k)
+      for (std::size_t other = 0; other < all.size(); ++other) {
+        if (moves[other]) continue;
+        double share = 0;
+        for (const PlacedPart& p : all[open[k]])
+          for (const PlacedPart& q : all[other]) share = std::max(share, known(p, q, along).blocked);
+        if (share <= most) continue;
+        moves[other] = true;
+        open.push_back(other);
+      }
+    if (open.size() == all.size()) continue;
+    Placed set;
+    std::copy_if(group.begin(), group.end(), std::back_inserter(set), [&](const PlacedPart& p) {
+      return std::any_of(open.begin(), open.end(), [&](std::size_t k) { return has(all[k], p.part); });
+    });
+    sets.push_back(std::move(set));
+  }
+  for (const Placed& set : sets) {
+    if (!allowed(set, group)) continue;
+    const bool listed = std::any_of(list.begin(), list.end(), [&](const ForcedMotion& m) {
+      return m.twist.linear == along && ids_of_placed(m.moving) == ids_of_placed(set);
+    });
+    if (!listed) list.push_back(straight(set, group, along));
+  }
+}
+
+void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list) {
+  if (unit.size() != 1 || !allowed(unit, group)) return;
+  const PlacedPart& part = unit.front();
+  const double size = assembly_.parts[part.part].mesh->box().size().norm();
+  for (const geometry::Twist& screw : turns(part.part)) {
+    const double pitch = std::abs(screw.linear.dot(screw.angular)) / screw.angular.squaredNorm();
+    if (pitch < kPitch * size) continue;
+    for (const double sign : {1.0, -1.0}) {
+      ForcedMotion m;
+      m.moving = unit;
+      m.fixed = without(group, unit);
+      m.center = part.pose * assembly_.parts[part.part].mesh->box().center();
+      m.twist = {sign * (part.pose.q * screw.linear), sign * (part.pose.q * screw.angular)};
+      const Vec3 axis = m.twist.angular.normalized();
+      const double speed = axis.dot(m.twist.linear);
+      const Vec3 along = speed > 0 ? axis : Vec3(-axis);
+      const ForcedMotion out = straight(unit, group, along);
+      m.duration = out.duration / std::abs(speed);
+      m.thickness = out.thickness;
+      if (m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * kMostTurns) list.push_back(std::move(m));
+    }
+  }
+}
+
+std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const RunContext& context) {
+  const std::vector<Placed> all = units(group);
+  std::vector<ForcedMotion> list;
+  for (const Vec3& d : directions(group))
+    for (const Placed& unit : all) {
+      if (!list.empty() && context.should_stop()) return list;
+      add_straight(unit, all, group, d, list);
+    }
+  for (const Placed& unit : all) add_screws(unit, group, list);
+  std::stable_sort(list.begin(), list.end(), [](const ForcedMotion& a, const ForcedMotion& b) {
+    if (a.thickness != b.thickness) return a.thickness < b.thickness;
+    return a.duration * a.twist.linear.norm() < b.duration * b.twist.linear.norm();
+  });
+  return list;
+}
+
+std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const Path& path,
+                                                const MotionDepthOptions& options, const RunContext& context) {
+  return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
+}
+
+/// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
+/// than `enough`; nothing when there is none among those that were tried. Measuring a deep overlap to its end takes
+/// seconds for large parts, and a motion that cuts in deeper than another needs no more than a witness.
+std::optional<MotionDepth> ForcedMotions::sampled_depth(const ForcedMotion& motion, double enough) const {
+  constexpr std::size_t kInstants = 6;
+  const Path all = path(motion);
+  const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
+    const double allowed = assembly_.initial_overlap(of.part, in.part);
+    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / (2 * kRays));
+    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
+      const Pose back = (in.pose * solid.frame).inverse() * of.pose;
+      for (std::size_t v = 0; v < vertices.size(); v += stride) {
+        const Vec3 x = back * vertices[v];
+        if ((x - x.cwiseMax(solid.box.lo).cwiseMin(solid.box.hi)).squaredNorm() > 0) continue;
+        const double depth = -solid.bvh.signed_distance(x);
+        if (depth > allowed + enough)
+          return MotionDepth{of.part, in.part, depth, allowed, of.pose * vertices[v], false};
+      }
+    }
+    return {};
+  };
+  for (std::size_t k = 1; k < kInstants; ++k) {
+    const double at = static_cast<double>(k * (all.size() - 1)) / kInstants;
+    const auto i = static_cast<std::size_t>(at);
+    for (std::size_t m = 0; m < motion.moving.size(); ++m) {
+      const PlacedPart now{motion.moving[m].part,
+                           screw_interpolate(all[i][m], all[i + 1][m], at - static_cast<double>(i))};
+      for (const PlacedPart& other : motion.fixed) {
+        if (auto found = try_points(now, other)) return found;
+        if (auto found = try_points(other, now)) return found;
+      }
+    }
+  }
+  return {};
+}
+
+std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
+                                                const RunContext& context) {
+  if (std::isfinite(options.stop_above))
+    if (auto found = sampled_depth(motion, options.stop_above)) return found;
+  if (!motion.straight()) return depth(motion, path(motion), options, context);
+  std::optional<MotionDepth> worst;
+  const auto take = [&](const std::optional<MotionDepth>& found) {
+    if (found && (!worst || found->excess() > worst->excess())) worst = found;
+  };
+  for (const PlacedPart& p : motion.moving)
+    for (const PlacedPart& q : motion.fixed) {
+      Known& pair = known(p, q, motion.twist.linear);
+      if (pair.resolution > options.absolute) {
+        if (context.should_stop()) return worst;
+        const double distance = reach(q, motion.twist.linear) + reach(p, -motion.twist.linear);
+        if (distance <= 0) continue;
+        const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
+        pair.depth = meter_.deepest({p.part}, {q}, {{p.pose}, {end}}, options, context);
+        const bool to_the_end = !pair.depth || pair.depth->excess() <= options.stop_above;
+        if (to_the_end) pair.resolution = options.absolute;
+      }
+      take(pair.depth);
+      if (worst && worst->excess() > options.stop_above) return worst;
+    }
+  return worst;
+}
+
+Path ForcedMotions::path(const ForcedMotion& motion) const {
+  const double turn = motion.duration * motion.twist.angular.norm();
+  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(turn / kTurnStep)));
+  Path path;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double t = motion.duration * static_cast<double>(k) / static_cast<double>(steps);
+    std::vector<Pose> instant;
+    for (const PlacedPart& p : motion.moving)
+      instant.push_back(k == 0              ? p.pose
+                        : motion.straight() ? Pose{p.pose.t + t * motion.twist.linear, p.pose.q}
+                                            : geometry::moved_along(p.pose, motion.twist, motion.center, t));
+    path.push_back(std::move(instant));
+  }
+  return path;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,51 @@
+#include "step_overlaps.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "dismantle/verification/motion_depth.h"
+
+namespace dismantle {
+
+std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<RecordedStep>& steps,
+                                                        const Assembly& assembly, const Verifier& verifier,
+                                                        double least, const RunContext& context) {
+  constexpr double kShare = 0.05;  // of the depth, by which a figure may be off
+  std::vector<std::vector<PlanStepOverlap>> all(steps.size());
+  std::vector<const InitialOverlap*> deep;
+  for (const InitialOverlap& o : assembly.overlaps)
+    if (std::max(o.depth, o.allowed()) > least) deep.push_back(&o);
+  if (deep.empty()) return all;
+
+  const double scale = assembly.normalization.scale;
+  MotionDepthMeter meter(assembly, verifier);
+  std::vector<Pose> poses(assembly.parts.size());
+  std::vector<std::size_t> group(assembly.parts.size(), 0);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const RecordedStep& step = steps[k];
+    if (context.should_stop()) return all;
+    for (std::size_t i = 0; i < step.parts.size(); ++i) {
+      const PartId part = step.parts[i];
+      Path column;
+      for (const auto& instant : *step.path) column.push_back({instant[i]});
+      for (const InitialOverlap* o : deep) {
+        if (o->a != part && o->b != part) continue;
+        const PartId other = o->a == part ? o->b : o->a;
+        const bool moves_along = std::find(step.parts.begin(), step.parts.end(), other) != step.parts.end();
+        if (moves_along || group[other] != step.from) continue;
+        const auto found = meter.deepest({part}, {{other, poses[other]}}, column,
+                                         {verifier.options().max_penetration, kShare}, context, true);
+        if (!found || found->depth <= 0) continue;
+        all[k].push_back({assembly.parts[part].name, assembly.parts[other].name, o->depth / scale, o->allowed() / scale,
+                          found->depth / scale});
+      }
+    }
+    for (std::size_t i = 0; i < step.parts.size(); ++i) {
+      poses[step.parts[i]] = step.path->back()[i];
+      if (step.leaves(step.parts[i])) group[step.parts[i]] = k + 1;
+    }
+  }
+  return all;
+}
+
+}  // namespace dismantle

@@ -1,0 +1,180 @@
+// Steps that are forced, last of all: when, how deep, and what the plan says of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/testing/run_rig.h"
+#include "dismantle/verification/check_plan.h"
+
+namespace dismantle {
+namespace {
+
+using fake::InTurn;
+
+RunOptions last_resort() {
+  RunOptions options;
+  options.force.when = ForceWhen::last_resort;
+  return options;
+}
+
+RunResult run_in_turn(const Assembly& assembly, const RunOptions& options) {
+  return fake::run_in_turn(assembly, {}, options);
+}
+
+PlanCheck check(const Plan& plan, const Assembly& assembly) {
+  RunContext context;
+  return check_plan(plan, assembly, VerifyOptions{}, context);
+}
+
+TEST(ForcedSteps, OffLeavesWhatIsStuck) {
+  const RunResult r = run_in_turn(fake::closed_box(), {});
+  EXPECT_EQ(r.plan.status, PlanStatus::partial);
+  EXPECT_EQ(r.plan.forced_steps(), 0u);
+}
+
+TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
+  const Assembly assembly = fake::closed_box();
+  const RunResult r = run_in_turn(assembly, last_resort());
+  EXPECT_EQ(r.plan.status, PlanStatus::forced);
+  EXPECT_NE(r.outcome, Outcome::solved);
+  ASSERT_EQ(r.plan.disassembly.size(), 1u);
+  EXPECT_TRUE(r.plan.unsolved.empty());
+  const auto& forced = r.plan.disassembly.front().forced;
+  ASSERT_TRUE(forced);
+  // A plate 0.2 thick through walls 0.1 thick: broadside or edgewise, no way out is less than half the plate deep.
+  EXPECT_NEAR(forced->depth, 0.1, 0.1 * 0.1 + 0.01);
+  EXPECT_EQ(forced->assembled, 0);
+  EXPECT_FALSE(forced->reason.empty());
+  const PlanCheck c = check(r.plan, assembly);
+  EXPECT_TRUE(c.valid) << (c.problems.empty() ? "" : c.problems.front().message);
+  EXPECT_FALSE(c.complete);
+  EXPECT_EQ(c.forced, 1u);
+}
+
+TEST(ForcedSteps, AFalseDepthIsRefused) {
+  const Assembly assembly = fake::closed_box();
+  const Plan plan = run_in_turn(assembly, last_resort()).plan;
+  for (const double factor : {0.0, 0.5, 1.5, 3.0}) {
+    Plan edited = plan;
+    edited.disassembly.front().forced->depth *= factor;
+    EXPECT_FALSE(check(edited, assembly).valid) << factor;
+  }
+  Plan unmarked = plan;
+  unmarked.disassembly.front().forced.reset();
+  EXPECT_FALSE(check(unmarked, assembly).valid);
+  Plan called_complete = plan;
+  called_complete.status = PlanStatus::complete;
+  EXPECT_FALSE(check(called_complete, assembly).valid);
+}
+
+TEST(ForcedSteps, NoneWhereVerifiedOnesDo) {
+  for (const unsigned n : {1u, 3u, 5u}) {
+    const Assembly assembly = fake::tube_with_blocks(n);
+    const RunResult off = run_in_turn(assembly, {}), on = run_in_turn(assembly, last_resort());
+    EXPECT_EQ(on.plan.status, PlanStatus::complete);
+    EXPECT_EQ(fake::text_without_times(off.plan), fake::text_without_times(on.plan));
+  }
+}
+
+/// A closed box of wall `wall` around a plate, `n` blocks in a row beside it, and one more inside a tube.
+Assembly box_and_row(unsigned n) {
+  std::vector<std::pair<std::string, std::vector<fake::Box>>> parts{{"box",
+                                                                     {{{-2, -2, -2}, {2, 2, -1.9}},
+                                                                      {{-2, -2, 1.9}, {2, 2, 2}},
+                                                                      {{-2, -2, -1.9}, {-1.9, 2, 1.9}},
+                                                                      {{1.9, -2, -1.9}, {2, 2, 1.9}},
+                                                                      {{-1.9, -2, -1.9}, {1.9, -1.9, 1.9}},
+                                                                      {{-1.9, 1.9, -1.9}, {1.9, 2, 1.9}}}},
+                                                                    {"plate", {{{-1, -1, -0.1}, {1, 1, 0.1}}}}};
+  for (unsigned k = 0; k < n; ++k)
+    parts.push_back({"block" + std::to_string(k), {{{3.0 + 2.0 * k, 0, 0}, {4.0 + 2.0 * k, 1, 1}}}});
+  return fake::assembly_of(parts);
+}
+
+TEST(ForcedSteps, VerifiedOnesComeFirstAndGoOnAfterwards) {
+  for (const unsigned n : {1u, 4u}) {
+    const Assembly assembly = box_and_row(n);
+    const RunResult r = run_in_turn(assembly, last_resort());
+    EXPECT_EQ(r.plan.status, PlanStatus::forced);
+    EXPECT_EQ(r.plan.forced_steps(), 1u);
+    EXPECT_EQ(r.plan.disassembly.size(), n + 1);
+    EXPECT_TRUE(check(r.plan, assembly).valid);
+  }
+}
+
+TEST(ForcedSteps, ThePlanDoesNotDependOnThreads) {
+  const Assembly assembly = box_and_row(3);
+  RunContext two;
+  two.threads = 2;
+  EXPECT_EQ(fake::text_without_times(fake::run_in_turn(assembly, {}, last_resort()).plan),
+            fake::text_without_times(fake::run_in_turn(assembly, two, last_resort()).plan));
+}
+
+TEST(ForcedSteps, WhatLeftAsAGroupIsTakenApartWhereItStands) {
+  // The group of box and plate leaves first, whole; then the plate is forced out of it, far from where it was.
+  const Assembly assembly = box_and_row(1);
+  const auto steps = [](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
+    if (a.parts.size() < 3) return InTurn().plan(a, oracle, observer, context);
+    Attempt attempt;
+    attempt.moving = {{0, Pose{}}, {1, Pose{}}};
+    attempt.fixed = {{2, Pose{}}};
+    const AttemptResult& answer = oracle.attempt(attempt, context);
+    SequenceResult result;
+    result.outcome = Outcome::exhausted;
+    EXPECT_TRUE(is_success(answer.result.outcome()));
+    result.removals.push_back({{0, 1}, &answer});
+    observer.removed(result.removals.back(), 2);
+    return result;
+  };
+  RunContext context;
+  const RunResult r =
+      run(assembly, fake::setup(fake::push, std::make_shared<fake::Custom>(steps)), last_resort(), context);
+  EXPECT_EQ(r.plan.status, PlanStatus::forced);
+  EXPECT_EQ(r.plan.disassembly.size(), 2u);
+  EXPECT_TRUE(check(r.plan, assembly).valid);
+}
+
+TEST(ForcedSteps, ConstraintsHold) {
+  RunOptions options = last_resort();
+  options.constraints.base = {1};
+  options.constraints.together = {{0, 1}};
+  class Keeps final : public InTurn {
+   public:
+    bool keeps_constraints() const noexcept override { return true; }
+  };
+  RunContext context;
+  const RunResult r = run(fake::closed_box(), fake::setup(fake::push, std::make_shared<Keeps>()), options, context);
+  EXPECT_EQ(r.plan.forced_steps(), 0u);
+}
+
+/// What is behind blocks in a displaced group is asked for and answered in the group's own numbers and frame.
+TEST(ForcedSteps, AfterAForcedStepADisplacedGroupIsPlannedAsAnyOther) {
+  Assembly assembly = box_and_row(2);
+  const auto steps = [&](const Assembly& a, PathOracle& oracle, SequenceObserver& observer, RunContext& context) {
+    if (a.parts.size() < 4) return InTurn().plan(a, oracle, observer, context);
+    Attempt attempt;  // box, plate and the first block leave the second one
+    attempt.moving = {{0, Pose{}}, {1, Pose{}}, {2, Pose{}}};
+    attempt.fixed = {{3, Pose{}}};
+    const AttemptResult& answer = oracle.attempt(attempt, context);
+    SequenceResult result;
+    result.outcome = Outcome::timeout;
+    result.removals.push_back({{0, 1, 2}, &answer});
+    observer.removed(result.removals.back(), 3);
+    return result;
+  };
+  RunContext context;
+  const RunResult r =
+      run(assembly, fake::setup(fake::push, std::make_shared<fake::Custom>(steps)), last_resort(), context);
+  EXPECT_EQ(r.plan.status, PlanStatus::forced);
+  ASSERT_EQ(r.plan.disassembly.size(), 3u);
+  EXPECT_EQ(r.plan.forced_steps(), 1u);
+  EXPECT_TRUE(r.plan.disassembly.back().forced);  // the block leaves by a verified step before
+  const PlanCheck c = check(r.plan, assembly);
+  EXPECT_TRUE(c.valid) << (c.problems.empty() ? "" : c.problems.front().message);
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,103 @@
+// Overlaps in plan.json: what is written is read, and what is wrong is named with its place.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "dismantle/errors.h"
+#include "dismantle/plan_io/plan_file.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle {
+namespace {
+
+Eigen::Vector3d any_point(Rng& rng) { return {rng.normal(), rng.normal(), rng.normal()}; }
+
+Plan plan_with(std::vector<PlanOverlap> overlaps) {
+  Plan plan;
+  plan.generator_version = "0.1.0";
+  plan.assembly.parts = {{0, "peg", "peg.obj"}, {1, "hole", "hole.obj"}};
+  plan.assembly.overlaps = std::move(overlaps);
+  plan.remaining = {"peg", "hole"};
+  return plan;
+}
+
+OverlapPlace any_place(Rng& rng) {
+  OverlapPlace place;
+  place.contact = static_cast<ContactClass>(rng.below(6));
+  place.at = any_point(rng);
+  place.region.extend(place.at);
+  place.region.extend(any_point(rng));
+  place.share = rng.uniform();
+  if (rng.below(2) == 0) {
+    place.axis = any_point(rng).normalized();
+    place.axis_point = any_point(rng);
+  }
+  return place;
+}
+
+TEST(PlanOverlaps, AreReadAsTheyWereWritten) {
+  Rng rng(1);
+  for (int i = 0; i < 200; ++i) {
+    PlanOverlap written{"peg", "hole", rng.uniform()};
+    if (i % 4 != 0) written.place = any_place(rng);
+    const Plan read = plan_from_json(to_json(plan_with({written})), "plan.json");
+    ASSERT_EQ(read.assembly.overlaps.size(), 1u);
+    const PlanOverlap& o = read.assembly.overlaps.front();
+    EXPECT_EQ(o.a, written.a);
+    EXPECT_EQ(o.b, written.b);
+    EXPECT_EQ(o.depth, written.depth);
+    ASSERT_EQ(o.place.has_value(), written.place.has_value());
+    if (!o.place) continue;
+    EXPECT_EQ(o.place->contact, written.place->contact);
+    EXPECT_EQ(o.place->at, written.place->at);
+    EXPECT_EQ(o.place->region.lo, written.place->region.lo);
+    EXPECT_EQ(o.place->region.hi, written.place->region.hi);
+    EXPECT_EQ(o.place->share, written.place->share);
+    EXPECT_EQ(o.place->axis, written.place->axis);
+    EXPECT_EQ(o.place->axis_point, written.place->axis_point);
+  }
+}
+
+TEST(PlanOverlaps, WrongOnesAreNamedWithTheirPlace) {
+  Rng rng(2);
+  PlanOverlap whole{"peg", "hole", 0.1, any_place(rng)};
+  whole.place->axis = Eigen::Vector3d::UnitX();
+  const auto json = nlohmann::ordered_json::parse(to_json(plan_with({whole})));
+  using Json = nlohmann::ordered_json;
+  struct Case {
+    const char *key, *message;
+    Json value;  // null: the key is left out
+  };
+  const std::vector<Case> cases = {
+      {"class", ": 'class' is missing", nullptr},
+      {"class", "/class: expected the class of a contact", "tight"},
+      {"at", ": 'at' is missing", nullptr},
+      {"at", "/at: expected 3 numbers", Json::array({1, 2})},
+      {"region", ": 'region' is missing", nullptr},
+      {"region", "/region: the first corner is above the second", Json::array({{0, 0, 2}, {1, 1, 1}})},
+      {"share", "/share: expected a number between 0 and 1", 1.5},
+      {"axis", "/axis: 'direction' is missing", {{"point", {0, 0, 0}}}},
+      {"axis", "/axis/direction: expected a vector of length 1", {{"point", {0, 0, 0}}, {"direction", {0, 2, 0}}}},
+      {"depth", "/depth: expected a number >= 0", -1},
+      {"b", ": a part cannot overlap itself", "peg"},
+      {"klass", ": unknown key 'klass'", "inside"},
+  };
+  for (const Case& c : cases) {
+    Json changed = json;
+    Json& overlap = changed["assembly"]["overlaps"][0];
+    if (c.value.is_null())
+      overlap.erase(c.key);
+    else
+      overlap[c.key] = c.value;
+    try {
+      plan_from_json(changed.dump(), "plan.json");
+      ADD_FAILURE() << "accepted: " << overlap.dump();
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(std::string("/assembly/overlaps/0") + c.message), std::string::npos)
+          << e.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,198 @@
+#include "dismantle/verification/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "contact/round_axis.h"
+#include "contact/survey.h"
+#include "depth_body.h"
+#include "dismantle/geometry/patch.h"
+#include "dismantle/geometry/sweep.h"
+
+namespace dismantle {
+namespace verify {
+namespace {
+
+using Vec3 = Eigen::Vector3d;
+
+/// What is not deeper than this many tolerances is rounding of coordinates.
+constexpr double kRounding = 2;
+/// Surfaces that coincide are no further from each other than this share of the smaller part's diagonal.
+constexpr double kCoincident = 1e-3;
+/// Surfaces are near within so many depths, or this share of the smaller part's diagonal. An overlap that grows from
+/// nothing to its depth, as a ball's does or a roller's, then covers less than half of what is near.
+constexpr double kNearDepths = 4, kNearSize = 0.02;
+/// A uniform overlap covers at least this share of the near surfaces, has at least this mean depth as a share of the
+/// greatest, and its cells count from that share on.
+constexpr double kUniformShare = 0.5, kUniformMean = 0.5, kDeepCell = 0.5;
+/// Cells are not divided below this share of the depth.
+constexpr double kFinestCell = 0.5;
+
+Aabb common_box(const Aabb& a, const Aabb& b) { return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)}; }
+
+double smaller_diagonal(const Field& a, const Field& b) {
+  return std::min(a.box().size().norm(), b.box().size().norm());
+}
+
+/// Calls f(point, normal) for all corners (without a normal: zero) and middles of triangles, until it says false.
+template <class F>
+bool all_points(const Field& a, const F& f) {
+  for (std::size_t k = 0; k < a.solids().size(); ++k) {
+    const Solid& s = a.solids()[k];
+    const Placement& place = a.to_world()[k];
+    for (const Vec3& v : s.mesh.vertices)
+      if (!f(place * v, Vec3::Zero().eval())) return false;
+    for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t)
+      if (!f(place * ((s.mesh.vertex(t, 0) + s.mesh.vertex(t, 1) + s.mesh.vertex(t, 2)) / 3), place.r * s.normals[t]))
+        return false;
+  }
+  return true;
+}
+
+bool covered(const Field& a, const Field& b, double distance) {
+  return all_points(a, [&](const Vec3& p, const Vec3& normal) {
+    const Field::Seen seen = b.at(p, 2 * distance);
+    return std::abs(seen.depth) <= distance && normal.dot(seen.normal) >= 0;
+  });
+}
+
+bool coincident(const Field& a, const Field& b, double tolerance) {
+  const double distance = std::max(kRounding * tolerance, kCoincident * smaller_diagonal(a, b));
+  const auto apart = [](const Vec3& x, const Vec3& y) { return (x - y).cwiseAbs().maxCoeff(); };
+  if (std::max(apart(a.box().lo, b.box().lo), apart(a.box().hi, b.box().hi)) > distance) return false;
+  return covered(a, b, distance) && covered(b, a, distance);
+}
+
+bool lies_in(const Field& inner, const Field& outer, double tolerance) {
+  Aabb around = outer.box();
+  around.inflate(kRounding * tolerance);
+  if (!around.contains(inner.box().lo) || !around.contains(inner.box().hi)) return false;
+  return all_points(inner, [&](const Vec3& p, const Vec3&) {
+    return outer.at(p, 2 * kRounding * tolerance).depth >= -kRounding * tolerance;
+  });
+}
+
+/// Both surfaces near each other, added up.
+struct Overlap {
+  double near_area = 0, area = 0, depth_area = 0;  ///< of facing cells; depth_area: integral of the depth
+  Aabb region;
+  std::vector<FittedPlace> deep;
+
+  void add(const std::vector<SurfaceCell>& cells, double reach, double depth, double tolerance, double sign) {
+    for (const SurfaceCell& c : cells) {
+      if (c.seen.depth > tolerance)
+        for (const Vec3& p : c.p) region.extend(p);
+      if (!c.faces() || c.seen.depth < -reach) continue;
+      near_area += c.area;
+      if (c.seen.depth <= tolerance) continue;
+      area += c.area;
+      depth_area += c.area * c.seen.depth;
+      if (c.seen.depth >= kDeepCell * depth) deep.push_back({c.middle(), sign * c.normal, c.area});
+    }
+  }
+};
+
+OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
+  const double reach = std::max(kNearDepths * deepest.depth, kNearSize * smaller_diagonal(a, b));
+  const double finest = std::max(kFinestCell * deepest.depth, tolerance);
+  Overlap sum;
+  sum.add(survey(a, b, reach, finest), reach, deepest.depth, tolerance, 1);
+  sum.add(survey(b, a, reach, finest), reach, deepest.depth, tolerance, -1);
+  OverlapPlace place;
+  place.at = deepest.point;
+  // Cells at the border of the overlap reach out of it, and no part of it is outside either box.
+  if (!sum.region.empty()) place.region = common_box(sum.region, common_box(a.box(), b.box()));
+  place.region.extend(deepest.point);
+  place.share = sum.near_area > 0 ? sum.area / sum.near_area : 0;
+  if (const auto axis = round_axis(sum.deep)) {
+    place.axis = axis->direction;
+    place.axis_point = axis->point;
+  }
+  const bool whole = place.share >= kUniformShare && sum.depth_area >= kUniformMean * deepest.depth * sum.area;
+  place.contact = place.axis || whole ? ContactClass::uniform_interference : ContactClass::local_interference;
+  return place;
+}
+
+/// Some triangle of `a` comes within `distance` of `b`.
+bool within(const Field& a, const Field& b, double distance) {
+  for (std::size_t i = 0; i < a.solids().size(); ++i)
+    for (std::size_t k = 0; k < b.solids().size(); ++k) {
+      const Solid &x = a.solids()[i], &y = b.solids()[k];
+      const Placement place(y.frame.inverse() * x.frame);
+      Aabb around = y.box;
+      around.inflate(distance);
+      for (std::uint32_t t = 0; t < x.mesh.triangles.size(); ++t) {
+        const Corners c = placed(place, x.bvh.corners(t));
+        Aabb box;
+        for (const Vec3& p : c) box.extend(p);
+        if (box.overlaps(around) && Sweep(c, c, distance).look(y.bvh) == Sighting::unclear) return true;
+      }
+    }
+  return false;
+}
+
+OverlapPlace place_of_duplicate(const Field& a, const Field& b) {
+  const Aabb common = common_box(a.box(), b.box());
+  return {ContactClass::duplicate, common.center(), common, 1};
+}
+
+PairContact of_overlap(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
+  PairContact found;
+  found.depth = deepest.depth;
+  if (coincident(a, b, tolerance)) {
+    found.place = place_of_duplicate(a, b);
+    return found;
+  }
+  const bool first = lies_in(a, b, tolerance);
+  if (first || lies_in(b, a, tolerance)) {
+    found.place.at = deepest.point;
+    found.place.contact = ContactClass::inside;
+    found.place.region = first ? a.box() : b.box();
+    found.place.share = 1;
+    found.first_inside = first;
+  } else {
+    found.place = place_of(a, b, deepest, tolerance);
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace verify
+
+PairContact classify_overlap(const DepthBody& a, const DepthBody& b, const Penetration& deepest, double tolerance) {
+  if (!(tolerance > 0)) throw std::invalid_argument("classify_overlap: tolerance must be > 0");
+  return verify::of_overlap(verify::Field(a.impl().solids), verify::Field(b.impl().solids), deepest, tolerance);
+}
+
+std::optional<ContactClass> classify_apart(const DepthBody& a, const DepthBody& b, double tolerance, double near) {
+  if (!(tolerance > 0)) throw std::invalid_argument("classify_apart: tolerance must be > 0");
+  const verify::Field x(a.impl().solids), y(b.impl().solids);
+  if (verify::coincident(x, y, tolerance)) return ContactClass::duplicate;
+  if (verify::within(x, y, verify::kRounding * tolerance)) return ContactClass::kissing;
+  if (verify::within(x, y, near)) return ContactClass::clearance;
+  return std::nullopt;
+}
+
+std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody& b, double tolerance, double near) {
+  if (!(tolerance > 0)) throw std::invalid_argument("classify_contact: tolerance must be > 0");
+  const verify::Field x(a.impl().solids), y(b.impl().solids);
+  Aabb around = x.box();
+  around.inflate(near);
+  if (!around.overlaps(y.box())) return std::nullopt;
+  PairContact found;
+  if (verify::coincident(x, y, tolerance)) {  // its depth would take long to bound, and says nothing
+    found.place = verify::place_of_duplicate(x, y);
+    return found;
+  }
+  const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance);
+  if (deepest.depth > verify::kRounding * tolerance) return verify::of_overlap(x, y, deepest, tolerance);
+  const std::optional<ContactClass> apart = classify_apart(a, b, tolerance, near);
+  if (!apart) return std::nullopt;
+  found.depth = deepest.depth;
+  found.place.contact = *apart;
+  return found;
+}
+
+}  // namespace dismantle

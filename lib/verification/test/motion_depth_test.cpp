@@ -1,0 +1,95 @@
+// How deep a motion cuts in: closed forms, and brute force over many poses.
+#include "dismantle/verification/motion_depth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dismantle/testing/shapes.h"
+
+namespace dismantle {
+namespace {
+
+using shapes::shift;
+using shapes::Vec3;
+
+
+MotionDepth deepest(const Assembly& assembly, const std::vector<PlacedPart>& fixed, const Path& path,
+                    MotionDepthOptions options = {}) {
+  const Verifier verifier(assembly, VerifyOptions{});
+  MotionDepthMeter meter(assembly, verifier);
+  const RunContext context;
+  const auto found = meter.deepest({0}, fixed, path, options, context);
+  return found.value_or(MotionDepth{});
+}
+
+TEST(MotionDepth, ACubeThroughAWall) {
+  Rng rng(7);
+  for (int i = 0; i < 12; ++i) {
+    // Either the middle of the wall is deepest in the cube, or the cube in the wall.
+    const double size = rng.uniform(0.2, 1), wall = rng.uniform(0.1, 1.5);
+    const Pose world = shapes::random_pose(rng, 2);
+    const Assembly assembly =
+        shapes::assembly_of({shapes::moved(shapes::box(Vec3::Constant(-size / 2), Vec3::Constant(size / 2)), world),
+                             shapes::moved(shapes::box({1, -3, -3}, {1 + wall, 3, 3}), world)});
+    const Path path{{Pose{}}, {shift(world.q * Vec3(3 + wall, 0, 0))}};
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, path, {.absolute = 0.005, .relative = 0.01});
+    EXPECT_TRUE(found.proved);
+    EXPECT_EQ(found.part, 0U);
+    EXPECT_EQ(found.other, 1U);
+    // The wall's face in the middle of the cube; the cube's face in the middle of the wall.
+    EXPECT_NEAR(found.depth, std::max(size, wall) / 2, 0.005 + 0.01 * found.depth)
+        << "size " << size << ", wall " << wall;
+  }
+}
+
+TEST(MotionDepth, WhatPassesCutsInNowhere) {
+  const Assembly assembly =
+      shapes::assembly_of({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({0, 1.001, 0}, {1, 2, 1})});
+  EXPECT_EQ(deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift({3, 0, 0})}}).depth, 0);
+}
+
+TEST(MotionDepth, TheOverlapWhenAssembledIsNotExcess) {
+  // A peg 0.1 too thick, pulled along its hole: as deep all the way.
+  const Assembly assembly = shapes::assembly_of(
+      {shapes::tube(0, 1.1, -2, 2, 32, 3), shapes::tube(1, 2, -1.5, 1.5, 32, 3)}, {{0, 1, 0.1 * std::cos(M_PI / 32)}});
+  const MotionDepth found = deepest(assembly, {{1, Pose{}}}, {{Pose{}}, {shift({0, 0, 4})}});
+  EXPECT_LT(found.excess(), 0.02);
+}
+
+TEST(MotionDepth, AgreesWithBruteForceOnScrewMotions) {
+  Rng rng(11);
+  for (int i = 0; i < 4; ++i) {
+    const Mesh a = shapes::box(shapes::random_vector(rng, -1, -0.3), shapes::random_vector(rng, 0.3, 1));
+    const Mesh b = i % 2 == 0 ? shapes::sphere({0, 0, 0}, rng.uniform(0.5, 1), 2) : shapes::tube(0.5, 1, -0.5, 0.5, 12);
+    const Assembly assembly = shapes::assembly_of({a, b});
+    const Pose from = shapes::random_pose(rng, 2), middle = shapes::random_pose(rng, 1),
+               to = shapes::random_pose(rng, 2);
+    const Path path{{from}, {middle}, {to}};
+    const MotionDepth found = deepest(assembly, {{1, Pose{}}}, path, {.absolute = 0.01, .relative = 0.02});
+    double brute = 0;
+    const DepthBody body_a(a), body_b(b);
+    constexpr int kPoses = 120;
+    for (int k = 0; k <= kPoses; ++k)
+      for (std::size_t s = 0; s < 2; ++s) {
+        const Pose pose = screw_interpolate(path[s][0], path[s + 1][0], static_cast<double>(k) / kPoses);
+        brute = std::max(brute, penetration_depth(body_a, pose, body_b, Pose{}, 5e-3));
+      }
+    EXPECT_TRUE(found.proved);
+    EXPECT_GE(found.depth, brute - std::max(0.01, 0.02 * brute) - 5e-3) << "trial " << i;
+    EXPECT_LE(found.depth, brute + std::max(0.05, 0.02 * brute)) << "trial " << i;  // brute force misses instants
+  }
+}
+
+TEST(MotionDepth, StopsWhenToldTo) {
+  const Assembly assembly = shapes::assembly_of({shapes::box({0, 0, 0}, {1, 1, 1}), shapes::box({2, 0, 0}, {3, 1, 1})});
+  const Verifier verifier(assembly, VerifyOptions{});
+  MotionDepthMeter meter(assembly, verifier);
+  RunContext context;
+  context.cancel.cancel();
+  EXPECT_FALSE(meter.deepest({0}, {{1, Pose{}}}, {{Pose{}}, {shift({5, 0, 0})}}, {}, context));
+}
+
+}  // namespace
+}  // namespace dismantle

@@ -1,0 +1,61 @@
+"""Assemblies as they come from CAD, whose parts overlap: what comes apart, what is forced, and what the plan says of it."""
+import json
+
+from program import CliTest
+
+# Sample, forced steps, and the class of the contact that decides.
+SAMPLES = [
+    ("pressed_pin", 0, "uniform_interference"),
+    ("spring_between_seats", 0, "local_interference"),
+    ("gear_pair", 0, "local_interference"),
+    ("o_ring", 1, None),
+    ("part_in_solid", 1, "inside"),
+]
+
+
+class Overlap(CliTest):
+    def plan(self, name, *options, status):
+        self.run_program("plan", name, "-o", "out", "--threads", "1", "-q", *options, status=status)
+        return json.loads(self.read("out", "plan.json"))
+
+    def test_samples_end_as_their_truth_says(self):
+        for name, forced, contact in SAMPLES:
+            with self.subTest(name):
+                self.run_program("sample", name, "-o", name, "-q", status=0)
+                plan = self.plan(name, status=1 if forced else 0)
+                self.assertEqual(plan["status"], "forced" if forced else "complete")
+                self.assertEqual(sum("forced" in step for step in plan["disassembly"]), forced)
+                self.assertEqual(plan["remaining"], plan["remaining"][:1])
+                if contact:
+                    self.assertIn(contact, [o.get("class") for o in plan["assembly"]["overlaps"]])
+                verified = self.run_program("verify", "out/plan.json", "--format", "json", "-q", status=1 if forced else 0)
+                self.assertEqual(json.loads(verified.stdout.splitlines()[-1])["status"], plan["status"])
+                off = self.plan(name, "--set", "run.force=off", status=1 if forced else 0)
+                self.assertEqual(off["status"], "partial" if forced else "complete")
+                if not forced:
+                    self.assertEqual([s["moves"] for s in off["disassembly"]], [s["moves"] for s in plan["disassembly"]])
+
+    def test_a_forced_step_names_pair_depth_and_place_everywhere(self):
+        self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
+        done = self.run_program("plan", "in", "-o", "out", "--threads", "1", status=1)
+        self.assertIn("FORCED: ", done.stderr + done.stdout)
+        plan = json.loads(self.read("out", "plan.json"))
+        forced = plan["disassembly"][0]["forced"]
+        self.assertEqual(len(forced["pair"]), 2)
+        self.assertGreater(forced["depth"], 0)
+        self.assertGreater(forced["assembled"], 0)
+        self.assertIn("color=red", self.read("out", "precedence.dot"))
+        self.assertIn("FORCED", self.run_program("explain", "out/plan.json", status=0).stdout)
+        forced["depth"] *= 2  # a false statement is refused
+        self.write("out/plan.json", json.dumps(plan))
+        done = self.run_program("verify", "out/plan.json", status=1)
+        self.assertIn("measured", done.stderr + done.stdout)
+
+    def test_what_the_user_allows_needs_no_force_and_is_named(self):
+        self.run_program("sample", "o_ring", "-o", "in", "-q", status=0)
+        self.write("run.yaml", "schema: 1\nconstraints: {flexible: [ring]}\n")
+        plan = self.plan("in", "-c", "run.yaml", status=0)
+        self.assertEqual(plan["status"], "complete")
+        named = [o for step in plan["disassembly"] for o in step.get("overlaps", [])]
+        self.assertTrue(any("ring" in o["pair"] and o["depth"] > o["assembled"] for o in named), named)
+        self.run_program("verify", "out/plan.json", "-q", status=0)
