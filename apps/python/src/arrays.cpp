@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace dismantle::python {
 namespace {
+
+/// Error of the squared length of a quaternion that was normalised.
+constexpr double kUnitLength = 8 * std::numeric_limits<double>::epsilon();
 
 std::string shape_of(const py::array& array) {
   std::string text;
@@ -31,7 +35,8 @@ Pose read(const double* in, const std::string& what) {
   if (std::abs(pose.q.norm() - 1) > 1e-6)
     throw py::value_error(
         fmt::format("{}: the quaternion (columns 3 to 6: w, x, y, z) has length {:.6g}, not 1", what, pose.q.norm()));
-  pose.q.normalize();
+  // What is of unit length to rounding stays as it is: poses that Python was given come back with the same bits.
+  if (std::abs(pose.q.squaredNorm() - 1) > kUnitLength) pose.q.normalize();
   return pose;
 }
 

@@ -17,6 +17,7 @@
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/samples.h"
 #include "interruptible.h"
+#include "overlap.h"
 
 namespace dismantle::python {
 namespace {
@@ -60,8 +61,10 @@ LoadedAssembly prepared(std::vector<RawPart> parts, const std::string& source, c
       std::make_shared<Assembly>(prepare_assembly(std::move(parts), source, sha256, config.assembly, context, report));
   for (const auto& warning : report.warnings) context.log(LogLevel::warning, warning);
   assembly->import_params = std::move(import_params);
+  declare_overlaps(config.constraints, *assembly);
   assembly->excluded.insert(assembly->excluded.end(), ignored.begin(), ignored.end());
-  return {std::move(assembly), nullptr, config.sections.at("assembly")};
+  return {std::move(assembly), nullptr, config.sections.at("assembly"), config.constraints.flexible,
+          config.constraints.overlap};
 }
 
 LoadedAssembly load(const std::string& path, const std::string& file, const std::vector<std::string>& overrides) {
@@ -278,13 +281,11 @@ void bind_assembly(py::module_& m) {
       .def_property_readonly(
           "overlaps",
           [](const LoadedAssembly& self) {
-            std::vector<std::tuple<std::string, std::string, double>> out;
-            const Assembly& a = *self.assembly;
-            for (const auto& o : a.overlaps)
-              out.emplace_back(a.parts[o.a].name, a.parts[o.b].name, o.depth / a.normalization.scale);
+            std::vector<HeldOverlap> out;
+            for (const auto& o : self.assembly->overlaps) out.push_back(overlap_of(*self.assembly, o));
             return out;
           },
-          "Pairs that penetrate each other when assembled: list of (name, name, depth in input units).")
+          "List of Overlap: pairs that are in each other when assembled, or that the user declared.")
       .def_property_readonly(
           "scale", [](const LoadedAssembly& self) { return self.assembly->normalization.scale; },
           "Assembly units per input unit; > 0.")

@@ -22,9 +22,12 @@ namespace py = pybind11;
 
 void bind_errors(py::module_& m);
 void bind_assembly(py::module_& m);
+void bind_step(py::module_& m);
+void bind_unsolved(py::module_& m);
 void bind_plan(py::module_& m);
 void bind_run(py::module_& m);
 void bind_plugins(py::module_& m);
+void bind_simulator(py::module_& m);
 void bind_world(py::module_& m);
 void bind_path_planner(py::module_& m);
 void bind_sequence_planner(py::module_& m);
@@ -35,6 +38,8 @@ struct LoadedAssembly {
   std::shared_ptr<const Assembly> assembly;
   std::shared_ptr<const std::vector<RawPart>> raw;  ///< of one that was made in Python; null: it was read from files
   ParamSet options;                                 ///< the section `assembly:` that it was prepared with
+  std::vector<std::string> flexible{};              ///< `constraints.flexible` that it was prepared with
+  std::vector<NamedOverlap> declared{};             ///< `constraints.overlap` that it was prepared with
 };
 
 /// The plan that Python holds. `info`: what is known of the run that made it, by name; empty when it was read.

@@ -47,12 +47,13 @@ class QueryView {
   std::shared_ptr<HeldWorld> world(const std::string& space) {
     const PathQuery& q = query();
     const MotionSpace motion = motion_space(space);
-    std::unique_ptr<World> made;
+    // Until close() the query is there.
+    const auto make = [&q, motion] { return q.simulator.world(q.assembly, q.prepared, q.scene, motion); };
+    std::shared_ptr<HeldWorld> held;
     {
       py::gil_scoped_release release;
-      made = q.simulator.world(q.assembly, q.prepared, q.scene, motion);
+      held = std::make_shared<HeldWorld>(assembly_, make, work_);
     }
-    auto held = std::make_shared<HeldWorld>(assembly_, nullptr, std::move(made), work_);
     worlds_.push_back(held);
     return held;
   }

@@ -1,4 +1,4 @@
-// Plan, Step: plan.json as arrays.
+// Plan: plan.json as arrays.
 #include "dismantle/plan.h"
 
 #include <fmt/format.h>
@@ -12,9 +12,11 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
 #include "dismantle/plan_io/write_file.h"
+#include "overlap.h"
 
 namespace dismantle::python {
 namespace {
@@ -29,56 +31,19 @@ HeldPlan read(const std::filesystem::path& file) {
   return {plan_from_json(text.str(), file.string()), {}};
 }
 
-void bind_step(py::module_& m) {
-  py::class_<PlanStep>(m, "Step", "One step of a plan: parts that move simultaneously, pose by pose.")
-      .def_readonly("number", &PlanStep::step, "Number of the step, from 1.")
-      .def_property_readonly(
-          "parts",
-          [](const PlanStep& s) {
-            std::vector<std::string> names;
-            for (const auto& move : s.moves) names.push_back(move.part);
-            return names;
-          },
-          "Names of the parts that move.")
-      .def_property_readonly(
-          "moves",
-          [](const PlanStep& s) {
-            py::dict moves;
-            for (const auto& move : s.moves) moves[py::str(move.part)] = array_of(move.poses);
-            return moves;
-          },
-          "dict: part name to its poses, (N, 7) float64 with columns x, y, z, qw, qx, qy, qz. A pose takes "
-          "the part's points, as they are in the input, to where they are: x' = R(q) x + t; input units. N is "
-          "the same for all parts of the step. Between two poses a part moves by the joining screw motion.")
-      .def_readonly("separates", &PlanStep::separates, "Groups of parts that the step separates: lists of names.")
-      .def_readonly(
-          "max_penetration", &PlanStep::max_penetration,
-          "Certified upper bound of the penetration along the path above the initial overlap; assembly units.")
-      .def_readonly("seconds", &PlanStep::seconds, "Planning time.")
-      .def_readonly("planner", &PlanStep::planner, "Id of the planner that found the path.")
-      .def_readonly("depth", &PlanStep::depth, "Number of actions in the path.")
-      .def_readonly("contacts", &PlanStep::contacts, "Parts touched along the path.")
-      .def_readonly("after", &PlanStep::after, "Numbers of the steps that have to be done before this one.")
-      .def_readonly("layer", &PlanStep::layer, "Steps of one layer need not wait for each other; from 1.")
-      .def("__repr__", [](const PlanStep& s) {
-        std::string names;
-        for (const auto& move : s.moves) names += (names.empty() ? "'" : ", '") + move.part + "'";
-        return fmt::format("<Step {}: {}, {} poses>", s.step, names,
-                           s.moves.empty() ? 0 : s.moves.front().poses.size());
-      });
-  py::class_<PlanUnsolved>(m, "Unsolved", "A part that did not come out, and why.")
-      .def_readonly("part", &PlanUnsolved::part, "Name of the part.")
-      .def_readonly("outcome", &PlanUnsolved::outcome, "Outcome of the last attempt.")
-      .def_readonly("blocked_by", &PlanUnsolved::blocked_by, "Names of the parts that are in its way.")
-      .def_property_readonly(
-          "best_pose", [](const PlanUnsolved& u) { return array_of(u.best_pose); },
-          "(7,): the pose that came furthest; input units.")
-      .def_readonly("message", &PlanUnsolved::message, "Why, for a reader.")
-      .def_readonly("planner", &PlanUnsolved::planner, "Id of the path planner that searched; empty: none did.")
-      .def_readonly("attempts", &PlanUnsolved::attempts, "Number of searches.")
-      .def_readonly("seconds", &PlanUnsolved::seconds, "Time of these searches.")
-      .def("__repr__",
-           [](const PlanUnsolved& u) { return fmt::format("<Unsolved '{}': {}>", u.part, to_string(u.outcome)); });
+const char* word_of(PlanStatus status) {
+  return status == PlanStatus::complete ? "complete" : status == PlanStatus::forced ? "forced" : "partial";
+}
+
+const char* word_of(AssemblyStatus status) {
+  return status == AssemblyStatus::complete ? "complete" : status == AssemblyStatus::partial ? "partial" : "reversed";
+}
+
+std::vector<unsigned> forced_numbers(const Plan& plan) {
+  std::vector<unsigned> numbers;
+  for (const auto& step : plan.disassembly)
+    if (step.forced) numbers.push_back(step.step);
+  return numbers;
 }
 
 }  // namespace
@@ -87,7 +52,9 @@ void bind_plan(py::module_& m) {
   auto outcome = py::enum_<Outcome>(m, "Outcome", "How an attempt ended.");
   for (int k = 0; k <= static_cast<int>(Outcome::crashed); ++k)
     outcome.value(std::string(to_string(static_cast<Outcome>(k))).c_str(), static_cast<Outcome>(k));
+  bind_overlap(m);
   bind_step(m);
+  bind_unsolved(m);
   py::class_<HeldPlan>(m, "Plan", "An order in which the parts come out, with a path for each (docs/plan-format.md).")
       .def_static(
           "read", [](const std::filesystem::path& file) { return read(file); }, py::arg("path"),
@@ -106,6 +73,12 @@ void bind_plan(py::module_& m) {
           [](const HeldPlan& self, const std::filesystem::path& file) { write_file(file, to_json(self.plan)); },
           py::arg("path"), "Writes plan.json; replaces the file as a whole.")
       .def(
+          "explain",
+          [](const HeldPlan& self, const std::string& part) { return explain_text(explain(self.plan, {}, part)); },
+          py::arg("part") = "",
+          "What was tried, where parts are blocked and what can be done about it, in words; of one part, or of all. "
+          "Raises InputError when there is no such part.")
+      .def(
           "summary", [](const HeldPlan& self) { return summary_text(self.plan); }, "What came out, in words.")
       .def_property_readonly(
           "steps", [](const HeldPlan& self) { return self.plan.disassembly; },
@@ -115,7 +88,34 @@ void bind_plan(py::module_& m) {
           "List of Step: how it is put together, from the layout on.")
       .def_property_readonly(
           "complete", [](const HeldPlan& self) { return self.plan.status == PlanStatus::complete; },
-          "True when every group is down to one part.")
+          "True when every group is down to one part, by verified steps alone.")
+      .def_property_readonly(
+          "status", [](const HeldPlan& self) { return word_of(self.plan.status); },
+          "'complete': every group is down to one part, by verified steps alone; 'forced': the same, and some steps "
+          "are "
+          "forced; 'partial': some parts are still together.")
+      .def_property_readonly(
+          "forced", [](const HeldPlan& self) { return forced_numbers(self.plan); },
+          "Numbers of the steps that are forced: not valid motions, see Step.forced.")
+      .def_property_readonly(
+          "assembly_status", [](const HeldPlan& self) { return word_of(self.plan.assembly_status); },
+          "What assembly_steps are. 'complete': from the layout on; 'partial': some parts have no path from the "
+          "layout; "
+          "'reversed': the disassembly backwards, no layout was asked for.")
+      .def_property_readonly(
+          "assembly_message", [](const HeldPlan& self) { return self.plan.assembly_message; },
+          "Why assembly_status is 'partial'; else empty.")
+      .def_property_readonly(
+          "overlaps",
+          [](const HeldPlan& self) {
+            std::vector<HeldOverlap> out;
+            for (const auto& o : self.plan.assembly.overlaps) out.push_back(overlap_of(self.plan.assembly, o));
+            return out;
+          },
+          "List of Overlap: pairs that are in each other when assembled.")
+      .def_property_readonly(
+          "certificates", [](const HeldPlan& self) { return self.plan.certificates; },
+          "List of Certificate: proofs that parts cannot be separated.")
       .def_property_readonly(
           "removed",
           [](const HeldPlan& self) {
@@ -158,8 +158,7 @@ void bind_plan(py::module_& m) {
           "read.")
       .def("__repr__", [](const HeldPlan& self) {
         return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
-                           self.plan.status == PlanStatus::complete ? "complete" : "partial",
-                           self.plan.disassembly.size(), self.plan.assembly.parts.size());
+                           word_of(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());
       });
   m.def(
       "interpolate",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <thread>
@@ -53,19 +54,32 @@ class ProgressCallback {
   CancelToken cancel_;
 };
 
-void check_prepared_alike(const LoadedAssembly& loaded, const RunConfig& config) {
+/// The assembly with what the configuration declares of overlaps. @throws Error when the assembly was prepared for
+/// another configuration.
+std::shared_ptr<const Assembly> assembly_for(const LoadedAssembly& loaded, const RunConfig& config) {
+  const NamedConstraints& named = config.constraints;
+  std::vector<std::string> names;
+  for (const Part& part : loaded.assembly->parts) names.push_back(part.name);
   std::string differ;
+  const auto add = [&](const std::string& what) { differ += (differ.empty() ? "" : ", ") + what; };
   for (const auto& [name, value] : config.sections.at("assembly"))
     if (const auto known = loaded.options.find(name); known == loaded.options.end() || known->second != value)
-      differ += (differ.empty() ? "" : ", ") + name;
-  for (const std::string& name : config.constraints.ignore)
-    for (const Part& part : loaded.assembly->parts)
-      if (part.name == name) differ += (differ.empty() ? "" : ", ") + fmt::format("constraints.ignore ('{}')", name);
+      add("assembly." + name);
+  for (const std::string& name : named.ignore)
+    if (std::find(names.begin(), names.end(), name) != names.end()) add(fmt::format("constraints.ignore ('{}')", name));
+  const bool alike = named.flexible == loaded.flexible && named.overlap == loaded.declared;
+  if (!alike && !(loaded.flexible.empty() && loaded.declared.empty())) add("constraints.flexible, constraints.overlap");
   if (!differ.empty())
     throw Error(
-        fmt::format("the configuration prepares the assembly in another way than the one that was given ({}): give the "
+        fmt::format("the configuration prepares the assembly differently from the one that was given ({}): give the "
                     "same configuration to Assembly.load(), or the path of the input to run()",
                     differ));
+  for (const auto& part : loaded.assembly->excluded) names.push_back(part.name);
+  check_constraint_names(config, names, loaded.assembly->source);
+  if (alike) return loaded.assembly;
+  auto declared = std::make_shared<Assembly>(*loaded.assembly);  // meshes are shared
+  declare_overlaps(named, *declared);
+  return declared;
 }
 
 HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::vector<std::string>& overrides,
@@ -79,16 +93,16 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
       [&] {
         const auto registry = make_registry();
         const RunConfig config = load_config(config_source(file, overrides), *registry);
-        check_prepared_alike(loaded, config);
+        const auto assembly = assembly_for(loaded, config);
         const PlanningSetup setup = planning_setup_of(config, *registry);
         RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
         if (progress) context.on_progress = *progress;
         RunOptions options = run_options_of(config, part);
-        options.constraints = constraints_of(config.constraints, *loaded.assembly);
+        options.constraints = constraints_of(config.constraints, *assembly);
         if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->keeps_constraints())
           throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                                   config.sequence_planner.type));
-        return run(*loaded.assembly, setup, options, context);
+        return run(*assembly, setup, options, context);
       },
       &interrupted);
   if (progress) progress->rethrow();
@@ -148,8 +162,14 @@ PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance
 void bind_run(py::module_& m) {
   py::class_<PlanCheck>(m, "Verification", "What the verifier says of a plan.")
       .def_readonly("valid", &PlanCheck::valid,
-                    "True when every step is a valid motion that separates what it says, and every certificate holds.")
-      .def_readonly("complete", &PlanCheck::complete, "True when valid, and every group is down to one part.")
+                    "True when every step is a valid motion that separates what it says, or a forced one that cuts in "
+                    "as deep as it "
+                    "says, and every certificate holds.")
+      .def_readonly("complete", &PlanCheck::complete,
+                    "True when valid, no step is forced, and every group is down to one part.")
+      .def_readonly(
+          "forced", &PlanCheck::forced,
+          "Number of steps that are forced: not valid motions, but what the plan says of their depth is true.")
       .def_readonly("certificates", &PlanCheck::certificates, "Number of certificates that hold.")
       .def_readonly("max_penetration", &PlanCheck::max_penetration,
                     "Worst certified bound over all steps, above the initial overlap; assembly units.")
@@ -165,9 +185,10 @@ void bind_run(py::module_& m) {
       .def("__bool__", [](const PlanCheck& check) { return check.valid; })
       .def("__repr__", [](const PlanCheck& check) {
         return fmt::format("<Verification: {}, {} problems>",
-                           !check.valid     ? "not valid"
-                           : check.complete ? "valid and complete"
-                                            : "valid, partial",
+                           !check.valid       ? "not valid"
+                           : check.complete   ? "valid and complete"
+                           : check.forced > 0 ? "valid but for forced steps"
+                                              : "valid, partial",
                            check.problems.size());
       });
   m.def("_run", &plan);

@@ -49,7 +49,7 @@ def transformed(pose, points):
 
 
 def test_what_is_read_is_what_was_made(box, tmp_path):
-    box.write(tmp_path / "parts" if False else str(tmp_path / "parts"))
+    box.write(str(tmp_path / "parts"))
     loaded = dismantle.Assembly.load(tmp_path / "parts")
     assert sorted(loaded.names) == sorted(box.names)
     for name in box.names:
@@ -57,10 +57,31 @@ def test_what_is_read_is_what_was_made(box, tmp_path):
 
 
 def test_overlaps_are_told_in_input_units():
-    meshes = {"a": cube([0, 0, 0], [10, 10, 10]), "b": cube([9.5, 0, 0], [20, 10, 10])}
-    (a, b, depth), = dismantle.Assembly.from_meshes(meshes).overlaps
-    assert (a, b) == ("a", "b")
-    assert depth == pytest.approx(0.5, rel=0.1)
+    for shift in (0.0, 100.0):
+        for depth in (0.3, 0.5):
+            meshes = {"a": cube([shift, 0, 0], [shift + 10, 10, 10]), "b": cube([shift + 10 - depth, 2, 2], [shift + 20, 8, 8])}
+            overlap, = dismantle.Assembly.from_meshes(meshes).overlaps
+            assert (overlap.a, overlap.b) == ("a", "b") and overlap.declared is None
+            assert overlap.depth == pytest.approx(depth, rel=1e-6)
+            assert overlap.contact in ("uniform_interference", "local_interference") and 0 <= overlap.share <= 1
+            assert overlap.region.shape == (2, 3) and (overlap.region[0] <= overlap.at + 1e-9).all()
+            assert shift + 10 - depth - 1e-6 <= overlap.at[0] <= shift + 10 + 1e-6
+
+
+def test_samples_of_every_contact_class_are_classified():
+    for sample, known in (("pressed_pin", "uniform_interference"), ("gear_pair", "local_interference"),
+                          ("same_plate_twice", "duplicate"), ("part_in_solid", "inside")):
+        overlaps = dismantle.Assembly.from_sample(sample).overlaps
+        assert known in {o.contact for o in overlaps}, sample
+        if sample == "pressed_pin":
+            point, direction = overlaps[0].axis
+            assert point.shape == (3,) and np.linalg.norm(direction) == pytest.approx(1)
+
+
+def test_what_the_user_declares_of_overlaps():
+    named = {"constraints": {"overlap": [{"parts": ["peg", "block"], "depth": 0.25}]}}
+    overlap, = dismantle.Assembly.from_sample("peg_in_hole", config=named).overlaps
+    assert {overlap.a, overlap.b} == {"peg", "block"} and overlap.declared == pytest.approx(0.25)
 
 
 def test_what_cannot_be_used_is_named(tmp_path):

@@ -59,6 +59,69 @@ def test_poses_are_those_of_the_format(box):
     assert np.allclose(first[0], [0, 0, 0, 1, 0, 0, 0])
 
 
+def test_forced_steps_are_told_and_are_not_valid_motions(program, tmp_path):
+    clip = dismantle.Assembly.from_sample("snap_fit")
+    plan = dismantle.run(clip)
+    assert plan.status == "forced" and not plan.complete and plan.forced
+    for step in plan.steps:
+        assert (step.forced is not None) == (step.number in plan.forced)
+        if step.forced:
+            assert step.forced.part in step.parts and step.forced.other in set(clip.names) - set(step.parts)
+            assert step.forced.depth > step.forced.assembled >= 0 and step.forced.at.shape == (3,) and step.forced.reason
+    check = dismantle.verify(plan, clip)
+    assert check.valid and not check.complete and check.forced == len(plan.forced)
+    assert dismantle.run(clip, set={"run.force": "off"}).status == "partial"
+    # A lie about the depth is found.
+    lie = json.loads(plan.to_json())
+    for step in lie["disassembly"]:
+        if "forced" in step:
+            step["forced"]["depth"] *= 0.5
+    assert not dismantle.verify(dismantle.Plan.from_json(json.dumps(lie)), clip).valid
+    again = dismantle.Plan.from_json(plan.to_json())
+    assert again.forced == plan.forced and again.status == "forced" and "FORCED" in again.summary().upper()
+
+
+def test_overlaps_that_steps_make_use_of_are_named():
+    pin = dismantle.Assembly.from_sample("pressed_pin")
+    plan = dismantle.run(pin, set={"verify.named_overlap": 0.0})
+    assert plan.complete
+    (overlap,), (used,) = plan.overlaps, [o for step in plan.steps for o in step.overlaps]
+    (measured,) = pin.overlaps
+    assert overlap.depth == pytest.approx(measured.depth, rel=1e-9) and overlap.contact == measured.contact
+    assert {used.part, used.other} == {overlap.a, overlap.b}
+    assert used.assembled == pytest.approx(overlap.depth, rel=1e-6)
+    assert used.depth <= used.allowed + 0.01 / plan.scale + 1e-9
+
+
+def test_constraints_on_overlaps_mean_the_same_wherever_they_are_given():
+    """What the user says of a pair counts for an assembly that was loaded without it, too."""
+    forbid = {"constraints": {"overlap": [{"parts": ["pin", "plate"], "depth": 0.0}]}}
+    names = dismantle.Assembly.from_sample("pressed_pin").names
+    forbid["constraints"]["overlap"][0]["parts"] = names
+    plans = [dismantle.run(dismantle.Assembly.from_sample("pressed_pin"), config=forbid),
+             dismantle.run(dismantle.Assembly.from_sample("pressed_pin", config=forbid), config=forbid)]
+    assert without_times(plans[0].to_json()) == without_times(plans[1].to_json())
+    assert plans[0].overlaps[0].declared == 0 and plans[0].status != "complete"
+    with pytest.raises(dismantle.Error, match="constraints.overlap"):
+        dismantle.run(dismantle.Assembly.from_sample("pressed_pin", config=forbid))
+    with pytest.raises(dismantle.ConfigError, match="did you mean"):
+        dismantle.run(dismantle.Assembly.from_sample("pressed_pin"), config={"constraints": {"flexible": [names[0] + "s"]}})
+
+
+def test_a_proof_is_part_of_the_plan(tmp_path):
+    box = dismantle.Assembly.from_sample("closed_box")
+    plan = dismantle.run(box, set={"run.force": "off"})
+    assert not plan.steps and plan.certificates
+    proved = [u for u in plan.unsolved if u.certificate is not None]
+    assert proved and all(u.outcome == dismantle.Outcome.infeasible for u in proved)
+    for u in proved:
+        proof = plan.certificates[u.certificate]
+        assert u.part in proof.parts and proof.text and proof.kind in {p["id"] for p in dismantle.plugins("immobility_prover")}
+    check = dismantle.verify(plan, box)
+    assert check.valid and check.certificates == len(plan.certificates)
+    assert proved[0].part in plan.explain() and proved[0].part in plan.explain(proved[0].part)
+
+
 def test_a_plan_that_was_tampered_with_is_not_valid(box):
     plan = dismantle.run(box)
     tampered = json.loads(plan.to_json())

@@ -4,6 +4,8 @@ import pytest
 import dismantle
 from planners_for_tests import LINES
 
+NO_PROOFS = {"immobility": {"provers": []}}
+
 
 def poses_of(plan):
     return [(s.parts, {k: v.tobytes() for k, v in s.moves.items()}) for s in plan.steps]
@@ -17,25 +19,26 @@ def test_a_planner_in_python_solves_and_is_verified(box, peg, machine):
         assert plan.info["planner_counts"]["state_checks"] > 0
 
 
-def test_same_seed_same_plan_on_any_number_of_threads(machine):
-    config = {**LINES, "path_planner": {"type": "test.lines", "order": "random", "directions": 200}}
+def test_same_seed_same_plan_on_any_number_of_threads(box):
+    config = {**LINES, "path_planner": {"type": "test.lines", "order": "random", "directions": 2000}}
     for seed in (1, 2, 3):
-        plans = [poses_of(dismantle.run(machine, config=config, seed=seed, threads=threads)) for threads in (1, 1, 3)]
-        assert plans[0] == plans[1] == plans[2]
-    assert plans[0] != poses_of(dismantle.run(machine, config=config, seed=4, threads=1))
+        plans = [dismantle.run(box, config=config, seed=seed, threads=threads) for threads in (1, 1, 3)]
+        assert plans[0].steps and all(s.planner == "test.lines" for s in plans[0].steps)
+        assert poses_of(plans[0]) == poses_of(plans[1]) == poses_of(plans[2])
+    assert poses_of(plans[0]) != poses_of(dismantle.run(box, config=config, seed=4, threads=1))
 
 
 def test_a_wrong_path_is_refused(box):
-    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.through_walls"}})
-    assert not plan.steps and not plan.complete
+    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.through_walls"}, "run.force": "off"})
+    assert not plan.steps and not plan.complete and plan.unsolved
     for unsolved in plan.unsolved:
         assert unsolved.outcome == dismantle.Outcome.crashed
         assert "'test.through_walls'" in unsolved.message and "the verifier refuses" in unsolved.message
 
 
 def test_an_exception_names_the_planner_and_the_line(box):
-    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.raises"}})
-    assert not plan.steps
+    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.raises"}, "run.force": "off"})
+    assert not plan.steps and plan.unsolved
     for unsolved in plan.unsolved:
         assert unsolved.outcome == dismantle.Outcome.crashed
         assert "'test.raises'" in unsolved.message and "Traceback" in unsolved.message
@@ -98,7 +101,7 @@ def test_what_is_kept_of_a_query_raises_when_it_is_over(peg):
             kept["counted"] = query.spent
             return dismantle.PathResult.failed(dismantle.Outcome.exhausted, "kept", best_pose=query.start)
 
-    plan = dismantle.run(peg, part="peg", config={"path_planner": {"type": "test.keeps"}, "run": {"path_steps": 5}})
+    plan = dismantle.run(peg, part="peg", config={"path_planner": {"type": "test.keeps"}, "run": {"path_steps": 5}, **NO_PROOFS})
     assert plan.unsolved[0].message == "kept" and plan.unsolved[0].outcome == dismantle.Outcome.exhausted
     assert kept["budget"] == (5, 0) and kept["counted"] == 1
     for use in (lambda: kept["query"].start, lambda: kept["query"].world(), lambda: kept["context"].rng,
@@ -109,7 +112,7 @@ def test_what_is_kept_of_a_query_raises_when_it_is_over(peg):
 
 
 def test_a_budget_is_kept_to(peg):
-    config = {**LINES, "run": {"path_steps": 7}}
+    config = {**LINES, "run": {"path_steps": 7}, **NO_PROOFS}
     plan = dismantle.run(peg, part="peg", config=config)
     assert not plan.complete and plan.unsolved[0].outcome == dismantle.Outcome.timeout
     assert plan.info["planner_counts"]["state_checks"] <= 7
@@ -137,11 +140,12 @@ def test_a_sequence_planner_in_python(box, peg, machine):
             assert dismantle.verify(plan, assembly).complete
 
 
-def test_a_sequence_planner_that_raises_keeps_its_steps(box):
-    config = {"sequence_planner": {"type": "test.stops_in_the_middle"}, "path_planner": {"type": "test.lines"}}
+def test_a_sequence_planner_that_raises_keeps_its_steps(box, caplog):
+    config = {"sequence_planner": {"type": "test.stops_in_the_middle"}, "path_planner": {"type": "test.lines"}, "run.force": "off"}
     plan = dismantle.run(box, config=config)
     assert len(plan.steps) == 1 and plan.info["outcome"] == dismantle.Outcome.crashed
-    assert any("enough" in u.message for u in plan.unsolved)
+    assert dismantle.verify(plan, box).valid
+    assert any("'test.stops_in_the_middle' raised" in r.message and "ValueError: enough" in r.message for r in caplog.records)
 
 
 def test_the_oracle(box):
@@ -169,9 +173,9 @@ def test_the_oracle(box):
             seen["left"] = list(oracle.left)
             seen["tolerance"] = oracle.tolerance
             seen["oracle"] = oracle
-            return [oracle.attempt(part, max_depth=1) for part in oracle.left if not part == assembly["box"].id][:0]
+            return [blocked]
 
-    plan = dismantle.run(box, config={"sequence_planner": {"type": "test.asks"}, "path_planner": {"type": "test.lines"}})
+    plan = dismantle.run(box, config={"sequence_planner": {"type": "test.asks"}, "path_planner": {"type": "test.lines"}, "run.force": "off"})
     assert seen["path"].shape[1:] == (1, 7) and seen["again"] and seen["proposed"] and not seen["refused"]
     assert seen["blocked"][0] is False
     assert box["lid"].id not in seen["left"] and len(seen["left"]) == len(box) - 1
