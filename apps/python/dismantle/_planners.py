@@ -54,7 +54,8 @@ class SequencePlanner:
 
     def plan(self, assembly, oracle, context):
         """Asks the Oracle and books removals with oracle.remove(answer). Returns None, or the unsuccessful answers that say
-        why parts are left. What it raises ends the run; the steps that were booked stay."""
+        why parts are left. What it raises ends the search; the steps that were booked stay. After a forced step (run.force) it is
+        called again with an assembly of those parts that are left."""
         raise NotImplementedError(f"{type(self).__name__} has no plan(assembly, oracle, context)")
 
 

@@ -30,7 +30,7 @@ for _function, _name in ((_load, "load"), (_from_meshes, "from_meshes"), (_from_
 
 def run(assembly, config=None, set=None, seed=None, threads=None, timeout=None, path_timeout=None, part="", on_progress=None,
         should_stop=None):
-    """Takes an assembly apart and returns the Plan; every step in it has been verified.
+    """Takes an assembly apart and returns the Plan. Every step in it has been verified, but those that are marked as forced.
 
     assembly: an Assembly, or the path of an input.
     config: path of a YAML file, or a dict with the keys of one (docs/configuration.md).

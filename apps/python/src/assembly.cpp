@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <limits>
@@ -59,7 +60,6 @@ LoadedAssembly prepared(std::vector<RawPart> parts, const std::string& source, c
   PrepareReport report;
   auto assembly =
       std::make_shared<Assembly>(prepare_assembly(std::move(parts), source, sha256, config.assembly, context, report));
-  for (const auto& warning : report.warnings) context.log(LogLevel::warning, warning);
   assembly->import_params = std::move(import_params);
   declare_overlaps(config.constraints, *assembly);
   assembly->excluded.insert(assembly->excluded.end(), ignored.begin(), ignored.end());
@@ -148,7 +148,7 @@ LoadedAssembly from_sample(const std::string& name, const py::dict& values, cons
   return from_parts(samples::make(name, params), "<sample " + name + ">", file, overrides);
 }
 
-void write_parts(const LoadedAssembly& self, const std::string& folder) {
+void write_parts(const LoadedAssembly& self, const std::filesystem::path& folder) {
   std::vector<RawPart> parts;
   for (const Part& part : self.assembly->parts) {
     RawPart& raw = parts.emplace_back();

@@ -54,6 +54,8 @@ def test_an_assembly_that_was_prepared_in_another_way_is_refused(box):
 def test_one_part_and_constraints(machine):
     plan = dismantle.run(machine, part="pin_2")
     assert plan.removed == ["pin_2"] and len(plan.steps) == 1
+    with pytest.raises(dismantle.InputError, match="has no part 'pin2'"):
+        dismantle.run(machine, part="pin2")
     order = dismantle.run(machine, config={"constraints": {"before": [["washer_3_2", "pin_2"]]}}).removed
     assert order.index("washer_3_2") < order.index("pin_2")
     with pytest.raises(dismantle.Error, match="keep"):

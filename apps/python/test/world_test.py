@@ -106,13 +106,14 @@ def test_a_part_is_moved_clear_of_what_it_cuts_into(peg):
 def test_a_contact_sample_is_kept_over_resets(peg):
     """A point of the peg's axis lies in no surface: contact is seen there only when it was told to be watched."""
     world = dismantle.Simulator().world(peg, "peg")
-    point = np.array([0.0, 0.0, peg["peg"].internal_vertices[:, 2].mean()])
-    wall = [[world.radius(), 0, 0, 1, 0, 0, 0]]
-    known = len(world.contacts(wall))
-    world.add_contact_sample("peg", "block", point)
-    more = len(world.contacts(wall))
+    vertices, block = peg["peg"].internal_vertices, peg["block"].internal_vertices
+    axis = np.array([0.0, 0.0, np.mean([block[:, 2].min(), block[:, 2].max()])])
+    in_the_wall = [[(vertices[:, 0].max() + block[:, 0].max()) / 2, 0, 0, 1, 0, 0, 0]]
+    known = len(world.contacts(in_the_wall))
+    world.add_contact_sample("peg", "block", axis)
+    assert len(world.contacts(in_the_wall)) == known + 1
     world.reset()
-    assert len(world.contacts(wall)) == more == known + 1
+    assert len(world.contacts(in_the_wall)) == known + 1
     with pytest.raises(ValueError, match="point"):
         world.add_contact_sample("peg", "block", [0, 0])
 
