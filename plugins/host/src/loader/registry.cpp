@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <stdexcept>
 
 #include "dismantle/host/suggest.h"
@@ -35,7 +36,30 @@ std::string with_article(PluginKind kind) {
   return fmt::format("{} {}", name.front() == 'i' ? "an" : "a", name);
 }
 
+/// Types that no file brings, by id.
+struct ProgramTypes {
+  std::mutex mutex;
+  std::map<std::string, LoadedPlugin> by_id;
+};
+
+/// Never destroyed: types may hold objects of an interpreter that is gone when the process ends.
+ProgramTypes& program_types() {
+  static auto* types = new ProgramTypes;
+  return *types;
+}
+
 }  // namespace
+
+void add_program_type(PluginFile file, PluginType type) {
+  std::string text;
+  for (const auto& problem : problems_of_types({type}, false)) text += (text.empty() ? "" : "; ") + problem;
+  if (!text.empty()) throw PluginError(file.path.string(), text);
+  file.types = {type.id};
+  const std::string id = type.id;
+  ProgramTypes& types = program_types();
+  const std::lock_guard lock(types.mutex);
+  types.by_id[id] = {std::move(file), {std::move(type)}};
+}
 
 std::string_view to_string(PluginKind kind) {
   switch (kind) {
@@ -63,6 +87,11 @@ fs::path built_in_plugin_folder() {
 }
 
 Registry::Registry() : Registry(built_in_plugin_folder()) {
+  {
+    ProgramTypes& types = program_types();
+    const std::lock_guard lock(types.mutex);
+    for (const auto& [id, plugin] : types.by_id) accept(plugin);
+  }
   const char* paths = std::getenv("DISMANTLE_PLUGIN_PATH");
   std::string_view rest = paths != nullptr ? paths : "";
   while (!rest.empty()) {
@@ -159,7 +188,10 @@ const PluginFile& Registry::load_canonical(const fs::path& file) {
     std::error_code error;
     if (known.path == file || fs::equivalent(known.path, file, error)) return known;
   }
-  LoadedPlugin plugin = load_plugin(file, !built_in_folder_.empty() && file.parent_path() == built_in_folder_);
+  return accept(load_plugin(file, !built_in_folder_.empty() && file.parent_path() == built_in_folder_));
+}
+
+const PluginFile& Registry::accept(LoadedPlugin plugin) {
   files_.push_back(std::move(plugin.file));
   const PluginFile& added = files_.back();
   for (auto& type : plugin.types) {

@@ -54,12 +54,20 @@ DISMANTLE_API std::filesystem::path preset_folder(const std::filesystem::path& b
 DISMANTLE_API std::string sha256_of_file(const std::filesystem::path& file);
 
 struct PresetFile;
+struct LoadedPlugin;
+
+/// A type that the program brings itself, not a plugin file: what a language binding registers. Every Registry that the
+/// default constructor makes from now on has it; one of the same id replaces the earlier one. `file`: where its source is,
+/// and what is said of the plugin in descriptions. May be called from any thread.
+/// @throws PluginError with everything that is wrong with the type (its id must carry a dot).
+DISMANTLE_API void add_program_type(PluginFile file, PluginType type);
 
 /// What there is to choose from. Libraries stay loaded to the end of the process. After the last
 /// scan() or load(), const functions may be called from several threads.
 class DISMANTLE_API Registry {
  public:
-  /// Searches the built-in folder, then the folders of `$DISMANTLE_PLUGIN_PATH` (colon separated).
+  /// Has the types of add_program_type(); searches the built-in folder, then the folders of `$DISMANTLE_PLUGIN_PATH`
+  /// (colon separated).
   Registry();
   /// Searches `built_in_folder` alone (nothing when empty). Ids of types found elsewhere must carry a dot.
   explicit Registry(const std::filesystem::path& built_in_folder);
@@ -109,6 +117,7 @@ class DISMANTLE_API Registry {
   };
   std::shared_ptr<void> create_object(PluginKind kind, const std::string& id, const ParamSet& given) const;
   const PluginFile& load_canonical(const std::filesystem::path& file);
+  const PluginFile& accept(LoadedPlugin plugin);
   void try_load(const std::filesystem::path& file);
   void read_presets_of(const std::filesystem::path& search_path);
   void resolve_presets();

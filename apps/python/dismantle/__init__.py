@@ -1,0 +1,25 @@
+"""Assembly planning by disassembly: load assemblies, plan with any plugin, verify, simulate, write planners.
+
+    import dismantle
+    plan = dismantle.run("gearbox/")
+    for step in plan.steps:
+        print(step.number, step.parts, {part: poses.shape for part, poses in step.moves.items()})
+
+Poses are rows of seven numbers: x, y, z, qw, qx, qy, qz. Plans are in the units of the input; simulators and planners use
+assembly units, in which the largest edge of the assembly is 10 (see Assembly).
+"""
+from ._core import (Answer, Assembly, Capabilities, Certificate, Contacts, Forced, Oracle, Outcome, Overlap, Part, PathCheck, PathQuery,
+                    PathResult, Plan, RunContext, Simulator, Step, StepOverlap, StepReport, Unsolved, Verification, World, __version__,
+                    interpolate, load_plugin, plugin_problems, samples)
+from ._bench import bench, read_results
+from ._errors import ConfigError, Diagnostic, Error, InputError, PluginError
+from ._planners import Parameter, PathPlanner, SequencePlanner, path_planner, sequence_planner
+from ._run import describe, plugins, resolved_config, run, verify
+
+__all__ = [
+    "Answer", "Assembly", "Capabilities", "Certificate", "ConfigError", "Contacts", "Diagnostic", "Error", "Forced", "InputError",
+    "Oracle", "Outcome", "Overlap", "Parameter", "Part", "PathCheck", "PathPlanner", "PathQuery", "PathResult", "Plan", "PluginError",
+    "RunContext", "SequencePlanner", "Simulator", "Step", "StepOverlap", "StepReport", "Unsolved", "Verification", "World", "bench",
+    "describe", "interpolate", "load_plugin", "path_planner", "plugin_problems", "plugins", "read_results", "resolved_config", "run",
+    "samples", "sequence_planner", "verify",
+]

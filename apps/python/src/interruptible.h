@@ -1,0 +1,65 @@
+/// Long work for Python: runs on a thread of its own without the interpreter's lock, while the calling thread serves
+/// signals (Ctrl-C) and asks a callback whether to stop.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <future>
+#include <optional>
+
+#include "dismantle/run_context.h"
+
+namespace dismantle::python {
+
+namespace py = pybind11;
+
+/// What happens after the first Ctrl-C when the work has ended.
+enum class OnInterrupt {
+  raise,         ///< KeyboardInterrupt
+  keep_results,  ///< the partial results are returned; a second Ctrl-C raises
+};
+
+/// Called with the interpreter's lock; returns what `work` returns and throws what it throws, or what a signal handler
+/// or `should_stop` (None, or a callable without arguments) raised. `work` must end soon when `cancel` is set.
+template <class Work>
+auto run_interruptible(const CancelToken& cancel, const py::object& should_stop, OnInterrupt on_interrupt, Work work,
+                       bool* interrupted = nullptr) {
+  constexpr auto kPeriod = std::chrono::milliseconds(20);
+  auto result = std::async(std::launch::async, std::move(work));
+  std::optional<py::error_already_set> raised;
+  int interrupts = 0;
+  while (true) {
+    {
+      py::gil_scoped_release release;
+      if (result.wait_for(kPeriod) == std::future_status::ready) break;
+    }
+    if (PyErr_CheckSignals() != 0) {
+      raised.emplace();
+      cancel.cancel();
+      const bool first = interrupts++ == 0;
+      if (first && on_interrupt == OnInterrupt::keep_results && raised->matches(PyExc_KeyboardInterrupt)) {
+        raised.reset();
+        if (interrupted != nullptr) *interrupted = true;
+      }
+    }
+    if (!raised && !cancel.cancelled() && !should_stop.is_none()) {
+      try {
+        if (py::cast<bool>(py::bool_(should_stop()))) cancel.cancel();
+      } catch (py::error_already_set& error) {
+        raised.emplace(error);
+        cancel.cancel();
+      }
+    }
+  }
+  if (raised) {
+    try {
+      result.get();
+    } catch (const std::exception&) {  // it was told to stop; what made it stop is said instead
+    }
+    throw py::error_already_set(*raised);
+  }
+  return result.get();
+}
+
+}  // namespace dismantle::python

@@ -1,0 +1,203 @@
+// run() and verify(): the main job with the interpreter's lock released.
+#include "dismantle/engine/run.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "bindings.h"
+#include "dismantle/errors.h"
+#include "dismantle/executor.h"
+#include "dismantle/host/planning_setup.h"
+#include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/preparation/read_input.h"
+#include "dismantle/verification/check_plan.h"
+#include "held.h"
+#include "interruptible.h"
+
+namespace dismantle::python {
+namespace {
+
+/// A callback of the run. When it raises, the run is cancelled and the exception is raised at its end.
+class ProgressCallback {
+ public:
+  ProgressCallback(py::object function, CancelToken cancel)
+      : function_(hold(std::move(function))),
+        raised_(std::make_shared<std::optional<py::error_already_set>>()),
+        cancel_(std::move(cancel)) {}
+
+  void operator()(const ProgressEvent& event) const {
+    py::gil_scoped_acquire lock;
+    if (*raised_) return;
+    try {
+      (*function_)(py::str(event.phase.data(), event.phase.size()), event.done, event.total,
+                   py::str(event.detail.data(), event.detail.size()));
+    } catch (py::error_already_set& error) {
+      raised_->emplace(error);
+      cancel_.cancel();
+    }
+  }
+  void rethrow() const {
+    if (!*raised_) return;
+    py::error_already_set error = **raised_;
+    raised_->reset();
+    throw py::error_already_set(error);
+  }
+
+ private:
+  Held function_;
+  std::shared_ptr<std::optional<py::error_already_set>> raised_;
+  CancelToken cancel_;
+};
+
+/// The assembly with what the configuration declares of overlaps. @throws Error when the assembly was prepared for
+/// another configuration.
+std::shared_ptr<const Assembly> assembly_for(const LoadedAssembly& loaded, const RunConfig& config) {
+  const NamedConstraints& named = config.constraints;
+  std::vector<std::string> names;
+  for (const Part& part : loaded.assembly->parts) names.push_back(part.name);
+  std::string differ;
+  const auto add = [&](const std::string& what) { differ += (differ.empty() ? "" : ", ") + what; };
+  for (const auto& [name, value] : config.sections.at("assembly"))
+    if (const auto known = loaded.options.find(name); known == loaded.options.end() || known->second != value)
+      add("assembly." + name);
+  for (const std::string& name : named.ignore)
+    if (std::find(names.begin(), names.end(), name) != names.end()) add(fmt::format("constraints.ignore ('{}')", name));
+  const bool alike = named.flexible == loaded.flexible && named.overlap == loaded.declared;
+  if (!alike && !(loaded.flexible.empty() && loaded.declared.empty())) add("constraints.flexible, constraints.overlap");
+  if (!differ.empty())
+    throw Error(
+        fmt::format("the configuration prepares the assembly differently from the one that was given ({}): give the "
+                    "same configuration to Assembly.load(), or the path of the input to run()",
+                    differ));
+  for (const auto& part : loaded.assembly->excluded) names.push_back(part.name);
+  check_constraint_names(config, names, loaded.assembly->source);
+  if (alike) return loaded.assembly;
+  auto declared = std::make_shared<Assembly>(*loaded.assembly);  // meshes are shared
+  declare_overlaps(named, *declared);
+  return declared;
+}
+
+HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::vector<std::string>& overrides,
+              const std::string& part, const py::object& on_progress, const py::object& should_stop) {
+  const CancelToken cancel;
+  std::optional<ProgressCallback> progress;
+  if (!on_progress.is_none()) progress.emplace(on_progress, cancel);
+  bool interrupted = false;
+  const RunResult result = run_interruptible(
+      cancel, should_stop, OnInterrupt::keep_results,
+      [&] {
+        const auto registry = make_registry();
+        const RunConfig config = load_config(config_source(file, overrides), *registry);
+        const auto assembly = assembly_for(loaded, config);
+        const PlanningSetup setup = planning_setup_of(config, *registry);
+        RunContext context = make_context(cancel, config.run.threads, config.run.timeout);
+        if (progress) context.on_progress = *progress;
+        RunOptions options = run_options_of(config, part);
+        options.constraints = constraints_of(config.constraints, *assembly);
+        if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->keeps_constraints())
+          throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
+                                  config.sequence_planner.type));
+        return run(*assembly, setup, options, context);
+      },
+      &interrupted);
+  if (progress) progress->rethrow();
+  HeldPlan held{result.plan, {}};
+  const auto set = [&](const char* name, auto value) { held.info[name] = py::cast(value); };
+  set("outcome", result.outcome);
+  set("interrupted", interrupted || cancel.cancelled());
+  set("attempts", result.counts.attempts);
+  set("memoised", result.counts.memoised);
+  set("proposed", result.counts.proposed);
+  set("refused", result.counts.refused);
+  set("planner_counts", result.planner_counts);
+  set("sequence_counts", result.sequence_counts);
+  set("precedence", result.precedence);
+  set("prepare_seconds", result.prepare_seconds);
+  set("plan_seconds", result.plan_seconds);
+  set("proof_seconds", result.proof_seconds);
+  return held;
+}
+
+/// `given`: None, a path, or an Assembly.
+PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance) {
+  if (!(tolerance > 0)) throw py::value_error("tolerance: expected a number > 0, assembly units");
+  std::string path = held.plan.assembly.source;
+  std::shared_ptr<const std::vector<RawPart>> raw;
+  std::string sha256;
+  if (py::isinstance<LoadedAssembly>(given)) {
+    const auto& loaded = py::cast<const LoadedAssembly&>(given);
+    path = loaded.assembly->source;
+    raw = loaded.raw;
+    sha256 = loaded.assembly->sha256;
+  } else if (!given.is_none()) {
+    path = py::cast<std::string>(py::module_::import("os").attr("fspath")(given));
+  }
+  if (raw == nullptr && path.starts_with('<'))
+    throw Error("the plan is for an assembly that was made in Python: give it as second argument");
+  const CancelToken cancel;
+  return run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
+    const auto registry = make_registry();
+    RunContext context = make_context(cancel);
+    ReadOptions read;
+    read.max_triangles = std::numeric_limits<std::int64_t>::max();
+    InputParts input = raw != nullptr
+                           ? InputParts{*raw, sha256, {}}
+                           : read_input(path, importers_of(*registry, held.plan.assembly.import_params), read, context);
+    const Assembly assembly = assembly_of_plan(held.plan, std::move(input), path, context);
+    const ProverOfKind prover_of = [&](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+      if (registry->lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
+      return registry->create<ImmobilityProver>(kind);
+    };
+    return check_plan(held.plan, assembly, {tolerance}, context, prover_of);
+  });
+}
+
+}  // namespace
+
+void bind_run(py::module_& m) {
+  py::class_<PlanCheck>(m, "Verification", "What the verifier says of a plan.")
+      .def_readonly("valid", &PlanCheck::valid,
+                    "True when every step is a valid motion that separates what it says, or a forced one that cuts in "
+                    "as deep as it "
+                    "says, and every certificate holds.")
+      .def_readonly("complete", &PlanCheck::complete,
+                    "True when valid, no step is forced, and every group is down to one part.")
+      .def_readonly(
+          "forced", &PlanCheck::forced,
+          "Number of steps that are forced: not valid motions, but what the plan says of their depth is true.")
+      .def_readonly("certificates", &PlanCheck::certificates, "Number of certificates that hold.")
+      .def_readonly("max_penetration", &PlanCheck::max_penetration,
+                    "Worst certified bound over all steps, above the initial overlap; assembly units.")
+      .def_readonly("step_penetration", &PlanCheck::step_penetration, "The bound of each step.")
+      .def_property_readonly(
+          "problems",
+          [](const PlanCheck& check) {
+            std::vector<std::pair<unsigned, std::string>> out;
+            for (const auto& p : check.problems) out.emplace_back(p.step, p.message);
+            return out;
+          },
+          "What is wrong: list of (number of the step, message); step 0 = the plan as a whole.")
+      .def("__bool__", [](const PlanCheck& check) { return check.valid; })
+      .def("__repr__", [](const PlanCheck& check) {
+        return fmt::format("<Verification: {}, {} problems>",
+                           !check.valid       ? "not valid"
+                           : check.complete   ? "valid and complete"
+                           : check.forced > 0 ? "valid but for forced steps"
+                                              : "valid, partial",
+                           check.problems.size());
+      });
+  m.def("_run", &plan);
+  m.def("_verify", &verify);
+  m.def("_resolved", [](const std::string& file, const std::vector<std::string>& overrides, const std::string& folder) {
+    py::gil_scoped_release release;
+    const auto registry = make_registry();
+    return resolved_yaml(load_config(config_source(file, overrides), *registry), *registry, folder);
+  });
+}
+
+}  // namespace dismantle::python

@@ -1,0 +1,324 @@
+// Sequence planners that are written in Python.
+#include "dismantle/sequence_planner.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "dismantle/errors.h"
+#include "python_type.h"
+#include "run_view.h"
+
+namespace dismantle::python {
+namespace {
+
+/// An answer of the oracle, while the run lasts.
+struct Answer {
+  const AttemptResult* result = nullptr;
+  std::shared_ptr<bool> open;
+  const AttemptResult& get() const {
+    if (!*open) throw Error("this answer belongs to a run that is over");
+    return *result;
+  }
+};
+
+std::vector<PartId> ids_of(const std::vector<PlacedPart>& parts) {
+  std::vector<PartId> ids;
+  for (const auto& p : parts) ids.push_back(p.part);
+  return ids;
+}
+
+/// Oracle, observer and bookkeeping of one call of plan().
+class SequenceView {
+ public:
+  SequenceView(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer, RunContext& context)
+      : assembly_(&assembly),
+        oracle_(&oracle),
+        observer_(&observer),
+        context_(&context),
+        open_(std::make_shared<bool>(true)) {
+    for (PartId id = 0; id < assembly.parts.size(); ++id) left_.push_back(id);
+    groups_.push_back(left_);
+  }
+  void close() { *open_ = false; }
+  PathOracle& oracle() const {
+    check_open();
+    return *oracle_;
+  }
+  const std::vector<PartId>& left() const { return left_; }
+  const std::vector<std::vector<PartId>>& groups() const { return groups_; }
+  const std::vector<Removal>& removals() const { return removals_; }
+  const Assembly& assembly() const { return *assembly_; }
+  RunContext& context() const { return *context_; }
+
+  Attempt question(const py::object& moving, const py::object& fixed, unsigned max_depth, const py::object& any_of,
+                   bool resume) const {
+    Attempt attempt;
+    attempt.max_depth = max_depth;
+    attempt.resume = resume;
+    attempt.moving = placed(moving, "moving");
+    if (fixed.is_none()) {
+      for (const PartId id : group_of(attempt.moving.front().part))
+        if (std::none_of(attempt.moving.begin(), attempt.moving.end(),
+                         [id](const PlacedPart& p) { return p.part == id; }))
+          attempt.fixed.push_back({id, pose_of_part(id)});
+    } else {
+      attempt.fixed = placed(fixed, "fixed");
+    }
+    attempt.goal.any_of = part_ids(*assembly_, any_of);
+    return attempt;
+  }
+
+  Answer attempt(const py::object& moving, const py::object& fixed, unsigned max_depth, const py::object& any_of,
+                 bool resume) {
+    PathOracle& asked = oracle();
+    const Attempt question = this->question(moving, fixed, max_depth, any_of, resume);
+    const AttemptResult* result = nullptr;
+    {
+      py::gil_scoped_release release;
+      result = &asked.attempt(question, *context_);
+    }
+    return {result, open_};
+  }
+
+  Answer propose(const py::object& moving, const Array& path, const py::object& fixed, bool placement) {
+    PathOracle& asked = oracle();
+    Attempt question = this->question(moving, fixed, 0, py::tuple(), false);
+    if (!std::is_sorted(question.moving.begin(), question.moving.end(),
+                        [](const auto& a, const auto& b) { return a.part < b.part; }))
+      throw py::value_error("moving: parts in ascending order of their numbers, as the columns of the path");
+    question.goal.placement = placement;
+    const Path given = path_of(path, question.moving.size(), "path");
+    const AttemptResult* result = nullptr;
+    {
+      py::gil_scoped_release release;
+      result = &asked.propose(question, given, *context_);
+    }
+    return {result, open_};
+  }
+
+  void prefetch(const py::object& moves, unsigned max_depth) {
+    PathOracle& asked = oracle();
+    std::vector<Attempt> attempts;
+    for (const py::handle moving : py::cast<py::iterable>(moves))
+      attempts.push_back(
+          question(py::reinterpret_borrow<py::object>(moving), py::none(), max_depth, py::tuple(), false));
+    py::gil_scoped_release release;
+    asked.prefetch(attempts, *context_);
+  }
+
+  py::object prove(const py::object& parts) {
+    PathOracle& asked = oracle();
+    SeparationQuestion question;
+    question.parts = part_ids(*assembly_, parts);
+    const Certificate* proof = nullptr;
+    {
+      py::gil_scoped_release release;
+      proof = asked.prove(question, *context_);
+    }
+    return proof == nullptr ? py::object(py::none()) : py::str(proof->text);
+  }
+
+  /// Books a success.
+  void remove(const Answer& answer) {
+    check_open();
+    const AttemptResult& result = answer.get();
+    if (!is_success(result.result.outcome()))
+      throw py::value_error(fmt::format("remove() takes an answer that is a success, this one is '{}'",
+                                        to_string(result.result.outcome())));
+    const std::vector<PartId> moved = ids_of(result.attempt.moving);
+    const std::vector<PartId> out = result.out ? std::vector<PartId>{*result.out} : moved;
+    if (!result.attempt.goal.placement) {
+      const auto is_out = [&](PartId id) { return std::find(out.begin(), out.end(), id) != out.end(); };
+      std::erase_if(left_, is_out);
+      for (auto& group : groups_) std::erase_if(group, is_out);
+      groups_.push_back(out);
+      std::erase_if(groups_, [](const auto& group) { return group.empty(); });
+    }
+    if (result.result.path()) {
+      const auto& last = result.result.path()->poses().back();
+      for (std::size_t i = 0; i < moved.size(); ++i) poses_[moved[i]] = last[i];
+    }
+    removals_.push_back({moved, &result});
+    py::gil_scoped_release release;
+    observer_->removed(removals_.back(), left_.size());
+    context_->progress("sequence", assembly_->parts.size() - left_.size(), assembly_->parts.size() - 1);
+  }
+
+  void check_open() const {
+    if (!*open_) throw Error("this oracle belongs to a run that is over");
+  }
+
+ private:
+  const std::vector<PartId>& group_of(PartId part) const {
+    return *std::find_if(groups_.begin(), groups_.end(),
+                         [part](const auto& g) { return std::find(g.begin(), g.end(), part) != g.end(); });
+  }
+  Pose pose_of_part(PartId id) const {
+    const auto known = poses_.find(id);
+    return known == poses_.end() ? Pose{} : known->second;
+  }
+  /// Parts by name or number, where they have been moved to.
+  std::vector<PlacedPart> placed(const py::object& parts, const char* what) const {
+    std::vector<PlacedPart> out;
+    for (const PartId id : part_ids(*assembly_, parts)) out.push_back({id, pose_of_part(id)});
+    if (out.empty() && std::string_view(what) == "moving") throw py::value_error("moving: name at least one part");
+    return out;
+  }
+
+  const Assembly* assembly_;
+  PathOracle* oracle_;
+  SequenceObserver* observer_;
+  RunContext* context_;
+  std::shared_ptr<bool> open_;
+  std::vector<PartId> left_;                 // never removed
+  std::vector<std::vector<PartId>> groups_;  // parts that are still together
+  std::map<PartId, Pose> poses_;
+  std::vector<Removal> removals_;
+};
+
+/// `returned`: None, or answers about parts that are left.
+SequenceResult result_of(const py::object& returned, const SequenceView& view) {
+  SequenceResult result;
+  result.removals = view.removals();
+  result.remaining = view.left();
+  const RunContext& context = view.context();
+  if (!returned.is_none())
+    for (const py::handle item : py::cast<py::iterable>(returned)) {
+      if (!py::isinstance<Answer>(item))
+        throw py::type_error("plan() has to return None, or a sequence of answers of the oracle");
+      const AttemptResult& answer = py::cast<Answer>(item).get();
+      if (is_success(answer.result.outcome())) continue;
+      for (const PlacedPart& p : answer.attempt.moving)
+        if (std::find(result.remaining.begin(), result.remaining.end(), p.part) != result.remaining.end())
+          result.unsolved.push_back({p.part, answer.result.outcome(), answer.result.blocked_by,
+                                     answer.attempt.moving.size() == 1 ? answer.result.best_pose : std::vector<Pose>{},
+                                     answer.result.message, answer.certificate});
+    }
+  const bool together =
+      std::any_of(view.groups().begin(), view.groups().end(), [](const auto& g) { return g.size() > 1; });
+  if (!together) {
+    result.outcome = Outcome::solved;
+    result.unsolved.clear();
+  } else if (context.should_stop()) {
+    result.outcome = context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
+  } else {
+    const bool crashed = std::any_of(result.unsolved.begin(), result.unsolved.end(),
+                                     [](const Unsolved& u) { return u.outcome == Outcome::crashed; });
+    result.outcome = crashed ? Outcome::crashed : Outcome::exhausted;
+  }
+  return result;
+}
+
+class PythonSequencePlanner final : public SequencePlanner {
+ public:
+  PythonSequencePlanner(PythonType type, Held object) : type_(std::move(type)), object_(std::move(object)) {}
+
+  SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
+                      RunContext& context) override {
+    py::gil_scoped_acquire lock;
+    const LoadedAssembly loaded{std::make_shared<const Assembly>(assembly), nullptr, {}};
+    const auto view = std::make_shared<SequenceView>(*loaded.assembly, oracle, observer, context);
+    const auto run = std::make_shared<RunView>(context);
+    SequenceResult result;
+    std::string problem;
+    try {
+      result = result_of(object_->attr("plan")(loaded, view, run), *view);
+    } catch (py::error_already_set& error) {
+      problem = traceback_of(error);
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+    view->close();
+    run->close();
+    if (!problem.empty()) throw std::runtime_error(fmt::format("'{}' raised: {}", type_.id, problem));
+    return result;
+  }
+
+ private:
+  PythonType type_;
+  Held object_;
+};
+
+}  // namespace
+
+void bind_sequence_planner(py::module_& m) {
+  py::class_<Answer>(m, "Answer",
+                     "An answer of the oracle. True in a condition when the parts can leave. Assembly units.")
+      .def("__bool__", [](const Answer& a) { return is_success(a.get().result.outcome()); })
+      .def_property_readonly(
+          "outcome", [](const Answer& a) { return a.get().result.outcome(); }, "Outcome.")
+      .def_property_readonly(
+          "moving", [](const Answer& a) { return ids_of(a.get().attempt.moving); },
+          "Numbers of the parts that move, ascending: columns of the path.")
+      .def_property_readonly(
+          "path",
+          [](const Answer& a) -> py::object {
+            const auto& path = a.get().result.path();
+            if (!path) return py::none();
+            return array_of_path(path->poses(), a.get().attempt.moving.size());
+          },
+          "(K, M, 7): the verified path; None when there is none.")
+      .def_property_readonly(
+          "blocked_by", [](const Answer& a) { return a.get().result.blocked_by; },
+          "Numbers of the parts that are in the way, most often touched first.")
+      .def_property_readonly(
+          "message", [](const Answer& a) { return a.get().result.message; }, "Failed: why.")
+      .def_property_readonly(
+          "seconds", [](const Answer& a) { return a.get().seconds; }, "Planning time.")
+      .def_property_readonly(
+          "max_penetration", [](const Answer& a) { return a.get().max_penetration; },
+          "Certified bound over the path, above the initial overlap.")
+      .def_property_readonly(
+          "proof",
+          [](const Answer& a) -> py::object {
+            const Certificate* proof = a.get().certificate;
+            return proof == nullptr ? py::object(py::none()) : py::str(proof->text);
+          },
+          "Why it is proved that the parts cannot leave, in words; None: it is not proved.");
+  py::class_<SequenceView, std::shared_ptr<SequenceView>>(
+      m, "Oracle",
+      "All that a sequence planner sees of geometry: can these parts leave while those stay? It remembers answers, and "
+      "every "
+      "path in them is verified. Parts are given by name or number. Valid until plan() returns.")
+      .def_property_readonly("left", &SequenceView::left, "Numbers of the parts that were not removed yet, ascending.")
+      .def_property_readonly("groups", &SequenceView::groups,
+                             "Lists of numbers of parts that are still together; at first one with all parts.")
+      .def("attempt", &SequenceView::attempt, py::arg("moving"), py::arg("fixed") = py::none(),
+           py::arg("max_depth") = 0, py::arg("any_of") = py::tuple(), py::arg("resume") = false,
+           "Can `moving` leave as one group, while `fixed` (None: all others of their group) stay where they are? "
+           "Returns an Answer. "
+           "max_depth: effort, 0 = no limit. any_of: the moving parts move independently until one of these is out. "
+           "resume: the "
+           "search may resume an earlier one.")
+      .def("propose", &SequenceView::propose, py::arg("moving"), py::arg("path"), py::arg("fixed") = py::none(),
+           py::arg("placement") = false,
+           "Checks a path (K, M, 7) that the caller has found, in place of a search; returns an Answer. placement: the "
+           "parts are "
+           "moved and stay in their group.")
+      .def("prefetch", &SequenceView::prefetch, py::arg("moves"), py::arg("max_depth") = 0,
+           "Hint: attempts with these groups of moving parts will probably be asked for, in this order, all others of "
+           "their "
+           "group being fixed. Answers never depend on it.")
+      .def("prove", &SequenceView::prove, py::arg("parts"),
+           "Is it proved that these parts, as assembled, cannot be separated? The proof in words, or None.")
+      .def("remove", &SequenceView::remove, py::arg("answer"),
+           "Books the removal of an answer that is a success: a step of the plan. Do it as soon as it is decided, so "
+           "that an "
+           "interruption loses nothing.")
+      .def_property_readonly(
+          "tolerance", [](const SequenceView& v) { return v.oracle().tolerance(); },
+          "Penetration above the initial overlap that the verifier tolerates; assembly units.");
+  m.def("_register_sequence_planner", [](const py::object& declared) {
+    register_python_type(
+        PluginKind::sequence_planner, declared, [](const PythonType& type, Held object) -> std::shared_ptr<void> {
+          return std::shared_ptr<SequencePlanner>(std::make_shared<PythonSequencePlanner>(type, std::move(object)));
+        });
+  });
+}
+
+}  // namespace dismantle::python

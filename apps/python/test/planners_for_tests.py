@@ -1,0 +1,82 @@
+"""Planners that the tests register."""
+import numpy as np
+
+import dismantle
+
+
+@dismantle.path_planner("test.lines", [dismantle.Parameter("directions", 60, "Directions that are tried.", min=6),
+                                       dismantle.Parameter("step", 0.05, "Distance of checks.", unit="radii", min=0, max=1, min_open=True),
+                                       dismantle.Parameter("order", "axes_first", "Which ones first.", choices={
+                                           "axes_first": "the axes", "random": "random ones"})], needs=["distance"])
+class Lines(dismantle.PathPlanner):
+    """Straight lines."""
+
+    def __init__(self, directions, step, order):
+        self.directions, self.step, self.order = directions, step, order
+
+    def plan(self, query, context):
+        world = query.world("translation")
+        for n in range(self.directions):
+            axis = n < 6 and self.order == "axes_first"
+            direction = np.eye(3)[n // 2] * (1 - 2 * (n % 2)) if axis else context.rng.normal(size=3)
+            poses = query.start.copy()
+            while not query.should_stop():
+                poses[:, :3] += self.step * world.radius() * direction / np.linalg.norm(direction)
+                if world.penetration(poses) > 0.5 * query.tolerance:
+                    break
+                if world.separated(poses):
+                    check = query.check(np.stack([query.start, poses]))
+                    if check:
+                        return check
+                    break
+        return None
+
+
+@dismantle.path_planner("test.through_walls")
+class ThroughWalls(dismantle.PathPlanner):
+    """Claims a path without asking."""
+
+    def plan(self, query, context):
+        end = query.start.copy()
+        end[:, 0] += 30
+        return np.stack([query.start, end])
+
+
+@dismantle.path_planner("test.raises")
+class Raises(dismantle.PathPlanner):
+    """Raises."""
+
+    def plan(self, query, context):
+        return {}["the key that is missing"]
+
+
+@dismantle.sequence_planner("test.greedy")
+class Greedy(dismantle.SequencePlanner):
+    """Whatever leaves first."""
+
+    def plan(self, assembly, oracle, context):
+        while len(oracle.left) > 1 and not context.should_stop():
+            failed = []
+            for part in oracle.left:
+                answer = oracle.attempt(part, max_depth=3)
+                if answer:
+                    oracle.remove(answer)
+                    break
+                failed.append(answer)
+            else:
+                return failed
+
+
+@dismantle.sequence_planner("test.stops_in_the_middle")
+class StopsInTheMiddle(dismantle.SequencePlanner):
+    """Raises after the first removal."""
+
+    def plan(self, assembly, oracle, context):
+        for part in oracle.left:
+            answer = oracle.attempt(part, max_depth=3)
+            if answer:
+                oracle.remove(answer)
+                raise ValueError("enough")
+
+
+LINES = {"path_planner": {"type": "test.lines"}, "sequence_planner": {"type": "progressive"}}

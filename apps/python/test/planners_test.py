@@ -1,0 +1,217 @@
+import numpy as np
+import pytest
+
+import dismantle
+from planners_for_tests import LINES
+from shapes import loose_blocks
+
+NO_PROOFS = {"immobility": {"provers": []}}
+
+
+def poses_of(plan):
+    return [(s.parts, {k: v.tobytes() for k, v in s.moves.items()}) for s in plan.steps]
+
+
+def test_a_planner_in_python_solves_and_is_verified(box, peg, machine):
+    for assembly in (box, peg, machine):
+        plan = dismantle.run(assembly, config=LINES)
+        assert plan.complete and all(s.planner == "test.lines" for s in plan.steps)
+        assert dismantle.verify(plan, assembly).complete
+        assert plan.info["planner_counts"]["state_checks"] > 0
+
+
+def test_same_seed_same_plan_on_any_number_of_threads():
+    blocks = dismantle.Assembly.from_meshes(loose_blocks())
+    config = {**LINES, "path_planner": {"type": "test.lines", "order": "random"}}
+    plans = []
+    for seed in (1, 2, 3):
+        alike = [dismantle.run(blocks, config=config, seed=seed, threads=threads) for threads in (1, 1, 3)]
+        assert all(p.complete and len(p.steps) == 3 and p.steps[0].planner == "test.lines" for p in alike)
+        assert poses_of(alike[0]) == poses_of(alike[1]) == poses_of(alike[2])
+        plans.append(poses_of(alike[0]))
+    assert plans[0] != plans[1] != plans[2] != plans[0]
+
+
+def test_a_wrong_path_is_refused(box):
+    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.through_walls"}, "run.force": "off"})
+    assert not plan.steps and not plan.complete and plan.unsolved
+    for unsolved in plan.unsolved:
+        assert unsolved.outcome == dismantle.Outcome.crashed
+        assert "'test.through_walls'" in unsolved.message and "the verifier refuses" in unsolved.message
+
+
+def test_an_exception_names_the_planner_and_the_line(box):
+    plan = dismantle.run(box, config={**LINES, "path_planner": {"type": "test.raises"}, "run.force": "off"})
+    assert not plan.steps and plan.unsolved
+    for unsolved in plan.unsolved:
+        assert unsolved.outcome == dismantle.Outcome.crashed
+        assert "'test.raises'" in unsolved.message and "Traceback" in unsolved.message
+        assert "KeyError: 'the key that is missing'" in unsolved.message and "planners_for_tests.py" in unsolved.message
+
+
+def test_parameters_are_checked_like_those_of_every_plugin(box, tmp_path):
+    file = tmp_path / "config.yaml"
+    file.write_text("schema: 1\npath_planner:\n  type: test.lines\n  directions: 2\n  stepp: 1\n  order: best\n")
+    with pytest.raises(dismantle.ConfigError) as error:
+        dismantle.run(box, config=file)
+    assert {d.line for d in error.value.diagnostics} == {4, 5, 6}
+    assert "did you mean 'step'" in str(error.value)
+    file.write_text("schema: 1\npath_planner: {type: portfolio, of: [{type: test.lines, step: 0.1}]}\nsequence_planner: {type: progressive}\n")
+    assert dismantle.run(box, config=file).complete
+
+
+def test_declarations_are_checked():
+    def declare(id, parameters=(), **options):
+        @dismantle.path_planner(id, parameters, **options)
+        class Planner(dismantle.PathPlanner):
+            """Nothing."""
+
+            def __init__(self, **parameters):
+                pass
+
+    with pytest.raises(dismantle.PluginError, match="dot"):
+        declare("lines")
+    with pytest.raises(dismantle.PluginError, match="test.upper.*|bad id"):
+        declare("test.Upper")
+    with pytest.raises(dismantle.PluginError, match="out of range|must"):
+        declare("test.range", [dismantle.Parameter("n", 1, "A number.", min=6)])
+    with pytest.raises(ValueError, match="'friction' is not a capability"):
+        declare("test.needs", needs=["friction"])
+    with pytest.raises(TypeError, match="bool, int, float or str"):
+        declare("test.list", [dismantle.Parameter("n", [], "A list.")])
+    with pytest.raises(TypeError, match="derived"):
+        dismantle.path_planner("test.plain")(int)
+    with pytest.raises(TypeError, match="does not take"):
+
+        @dismantle.path_planner("test.signature", [dismantle.Parameter("n", 1, "A number.")])
+        class NoParameters(dismantle.PathPlanner):
+            """Nothing."""
+
+    registered = {p["id"] for p in dismantle.plugins()}
+    assert not registered & {"test.range", "test.needs", "test.list", "test.plain", "test.signature", "lines"}
+
+
+def test_what_is_kept_of_a_query_raises_when_it_is_over(peg):
+    kept = {}
+
+    @dismantle.path_planner("test.keeps", needs=["distance"])
+    class Keeps(dismantle.PathPlanner):
+        """Keeps what it is given."""
+
+        def plan(self, query, context):
+            kept.update(query=query, context=context, world=query.world(), assembly=query.assembly)
+            kept["budget"] = (query.max_steps, query.spent)
+            kept["world"].penetration()
+            kept["counted"] = query.spent
+            return dismantle.PathResult.failed(dismantle.Outcome.exhausted, "kept", best_pose=query.start)
+
+    plan = dismantle.run(peg, part="peg", config={"path_planner": {"type": "test.keeps"}, "run": {"path_steps": 5}, **NO_PROOFS})
+    assert plan.unsolved[0].message == "kept" and plan.unsolved[0].outcome == dismantle.Outcome.exhausted
+    assert kept["budget"] == (5, 0) and kept["counted"] == 1
+    for use in (lambda: kept["query"].start, lambda: kept["query"].world(), lambda: kept["context"].rng,
+                lambda: kept["context"].should_stop(), lambda: kept["world"].penetration(), lambda: kept["world"].reset()):
+        with pytest.raises(dismantle.Error, match="over"):
+            use()
+    assert kept["assembly"].names == peg.names
+
+
+def test_a_budget_is_kept_to(peg):
+    config = {**LINES, "run": {"path_steps": 7}, **NO_PROOFS}
+    plan = dismantle.run(peg, part="peg", config=config)
+    assert not plan.complete and plan.unsolved[0].outcome == dismantle.Outcome.timeout
+    assert plan.info["planner_counts"]["state_checks"] <= 7
+
+
+def test_a_simulator_that_lacks_what_is_needed(peg):
+    @dismantle.path_planner("test.dynamics", needs=["dynamics", "contacts"])
+    class Dynamics(dismantle.PathPlanner):
+        """Never asked."""
+
+        def plan(self, query, context):
+            raise AssertionError("the simulator cannot do what is needed")
+
+    # fcl checks states and has no dynamics: the configuration says so before anything is planned.
+    with pytest.raises(dismantle.ConfigError, match="dynamics"):
+        dismantle.run(peg, config={"path_planner": {"type": "test.dynamics"}, "simulator": {"type": "fcl"}})
+
+
+def test_a_sequence_planner_in_python(box, peg, machine):
+    for assembly in (box, peg, machine):
+        for path_planner in ("test.lines", "bfs"):
+            config = {"sequence_planner": {"type": "test.greedy"}, "path_planner": {"type": path_planner}}
+            plan = dismantle.run(assembly, config=config, threads=2)
+            assert plan.complete and plan.info["outcome"] == dismantle.Outcome.solved
+            assert dismantle.verify(plan, assembly).complete
+
+
+def test_a_sequence_planner_that_raises_keeps_its_steps(box, caplog):
+    config = {"sequence_planner": {"type": "test.stops_in_the_middle"}, "path_planner": {"type": "test.lines"}, "run.force": "off"}
+    plan = dismantle.run(box, config=config)
+    assert len(plan.steps) == 1 and plan.info["outcome"] == dismantle.Outcome.crashed
+    assert dismantle.verify(plan, box).valid
+    assert any("'test.stops_in_the_middle' raised" in r.message and "ValueError: enough" in r.message for r in caplog.records)
+
+
+def test_the_oracle(box):
+    seen = {}
+
+    @dismantle.sequence_planner("test.asks")
+    class Asks(dismantle.SequencePlanner):
+        """Tries the oracle."""
+
+        def plan(self, assembly, oracle, context):
+            lid = assembly["lid"].id
+            answer = oracle.attempt("lid", max_depth=3)
+            seen["path"] = answer.path
+            seen["again"] = np.array_equal(oracle.attempt(lid, max_depth=3).path, answer.path)
+            blocked = oracle.attempt("plate_1", max_depth=1)
+            seen["blocked"] = (bool(blocked), blocked.outcome)
+            with pytest.raises(ValueError, match="success"):
+                oracle.remove(blocked)
+            proposed = oracle.propose("lid", answer.path)
+            seen["proposed"] = bool(proposed)
+            wrong = answer.path.copy()
+            wrong[:, :, :3] = -wrong[:, :, :3]
+            seen["refused"] = bool(oracle.propose("lid", wrong))
+            oracle.remove(proposed)
+            seen["left"] = list(oracle.left)
+            seen["tolerance"] = oracle.tolerance
+            seen["oracle"] = oracle
+            return [blocked]
+
+    plan = dismantle.run(box, config={"sequence_planner": {"type": "test.asks"}, "path_planner": {"type": "test.lines"}, "run.force": "off"})
+    assert seen["path"].shape[1:] == (1, 7) and seen["again"] and seen["proposed"] and not seen["refused"]
+    assert seen["blocked"][0] is False
+    assert box["lid"].id not in seen["left"] and len(seen["left"]) == len(box) - 1
+    assert seen["tolerance"] == 0.01
+    assert [s.parts for s in plan.steps] == [["lid"]] and not plan.complete
+    with pytest.raises(dismantle.Error, match="over"):
+        seen["oracle"].attempt("lid")
+
+
+def test_groups_that_leave_together_have_to_be_taken_apart(machine):
+    @dismantle.sequence_planner("test.groups")
+    class Groups(dismantle.SequencePlanner):
+        """Two washers leave as one group; then each group is taken apart."""
+
+        def plan(self, assembly, oracle, context):
+            answer = oracle.attempt(["washer_1_3", "washer_1_4"], max_depth=3)
+            if answer:
+                oracle.remove(answer)
+            while not context.should_stop():
+                groups = [g for g in oracle.groups if len(g) > 1]
+                if not groups:
+                    return None
+                failed = []
+                for part in groups[-1]:
+                    answer = oracle.attempt(part, max_depth=3)
+                    if answer:
+                        oracle.remove(answer)
+                        break
+                    failed.append(answer)
+                else:
+                    return failed
+
+    plan = dismantle.run(machine, config={"sequence_planner": {"type": "test.groups"}, "path_planner": {"type": "test.lines"}})
+    assert sorted(plan.steps[0].parts) == ["washer_1_3", "washer_1_4"] and len(plan.steps) == len(machine) - 1
+    assert plan.complete and dismantle.verify(plan, machine).complete
