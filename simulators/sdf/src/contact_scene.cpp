@@ -1,6 +1,7 @@
 #include "dismantle/sdf/contact_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace dismantle::sdf {
@@ -17,6 +18,8 @@ constexpr double kOnEdge = 2e-4;
 constexpr double kEnoughCertain = 0.6;
 /// Distances that are linear over less than this are not worth remembering.
 constexpr double kLeastFlat = 5e-4;
+/// Of anchors, which are kept in single precision, for coordinates of up to some tens.
+constexpr double kAnchorRounding = 1e-5;
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
   const Eigen::Vector3d center = pose * local.center();
@@ -120,6 +123,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   if (!set.ready) {
     set.wake.assign(points.points.blocks.size(), -1.0);
     set.point_wake.assign(points.points.points.size(), -1.0);
+    set.anchor.assign(points.points.points.size(), {});
     set.hint.assign(points.points.points.size() * solids, kNoTriangle);
     set.linear.assign(points.points.points.size() * solids, 0);
     if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
@@ -206,16 +210,40 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     double slack = lower > 0 ? lower + pair.everywhere - margin : -1.0;
     if (slack <= 0) {
       slack = kReach;
+      std::array<Eigen::Vector3d, ContactPoints::kBlockSize> at;
+      std::array<std::uint32_t, ContactPoints::kBlockSize> awake, hints;
+      std::size_t count = 0;
       for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
         if (set.point_wake[i] > odometer) {
           slack = std::min(slack, set.point_wake[i] - odometer);
           continue;
         }
-        const Eigen::Vector3d p = rotation * points.points.points[i] + shift;
+        at[count] = rotation * points.points.points[i] + shift;
+        // The odometer counts the way of the point that went furthest; this one may have stayed far enough away.
+        if (const Anchor& anchor = set.anchor[i]; anchor.distance > 0) {
+          const double way = (at[count] - anchor.point.cast<double>()).norm();
+          const double beyond = anchor.distance - way + pair.everywhere - margin - kAnchorRounding;
+          if (beyond > 0) {
+            set.point_wake[i] = odometer + beyond;
+            slack = std::min(slack, beyond);
+            continue;
+          }
+        }
+        hints[count] = set.hint[i * solids];
+        awake[count++] = i;
+      }
+      if (model_ == DistanceModel::exact && solids == 1)
+        target.solids.front().surface->prefetch({at.data(), count}, {hints.data(), count});
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::uint32_t i = awake[n];
+        const Eigen::Vector3d& p = at[n];
         const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
         const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed);
         const double beyond = touch.distance + allowed - margin;
         set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
+        // Interpolated distances may change faster than the way.
+        if (model_ == DistanceModel::exact)
+          set.anchor[i] = {p.cast<float>(), beyond > 0 ? static_cast<float>(touch.distance) : 0.0F};
         slack = std::min(slack, beyond);
         if (touch.distance + allowed < margin) emit(p, touch, allowed);
       }

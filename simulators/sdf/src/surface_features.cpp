@@ -130,35 +130,42 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
   if (!list.usable) return 0;
   const double off = (p - list.center).norm();
   double certain = std::min(reach, list.reach - off);
-  for (const Candidate& candidate : list.candidates) {
-    if (certain <= 0) return 0;
-    if (candidate.from_center - off >= certain) break;
-    if (candidate.squared_distance(p) >= certain * certain) continue;
-    const Plane& plane = planes_[face_of_[triangle_[candidate.slot]]];
+  const auto meet = [&](std::uint32_t slot) {
+    const Plane& plane = planes_[face_of_[triangle_[slot]]];
     const double gap = plane.normal.dot(p) - plane.offset;
-    if (gap < -kBehind || gap >= certain) continue;
+    if (gap < -kBehind || gap >= certain) return;
     // What lies behind all fronts is out of reach.
-    const Corner& k = corners_[candidate.slot];
+    const Corner& k = corners_[slot];
     bool in_reach = false;
     for (int i = 0; i < front_count && !in_reach; ++i) {
       const double here = fronts[i].gap + fronts[i].normal.dot(k.a - p);
       const double highest = here + std::max({0.0, fronts[i].normal.dot(k.ab), fronts[i].normal.dot(k.ac)});
       in_reach = highest > kSticksOut;
     }
-    if (!in_reach) continue;
+    if (!in_reach) return;
     bool known = false;
     for (int i = 0; i < count && !known; ++i)
       known = (out[i].normal - plane.normal).squaredNorm() < 1e-8 && std::abs(out[i].gap - std::max(gap, 0.0)) < 1e-6;
-    if (known) continue;
+    if (known) return;
     const Closest c = closest(p, k.a, k.ab, k.ac);
-    if (c.squared >= certain * certain) continue;
+    if (c.squared >= certain * certain) return;
     const double distance = std::sqrt(c.squared);
     // Where the surface goes on, only a little bent.
-    if (plane.normal.dot(fronts[0].normal) > kSmooth && gap < kBeside * distance) continue;
+    if (plane.normal.dot(fronts[0].normal) > kSmooth && gap < kBeside * distance) return;
     if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > kFacing * distance))
       out[count++] = {plane.normal, std::max(gap, 0.0)};
     else
       certain = distance;
+  };
+  const Eigen::Vector3f at = p.cast<float>();
+  for (const CandidateGroup& group : list.groups()) {
+    if (certain <= 0) return 0;
+    if (group.from_center[0] - off >= certain) break;
+    const CandidateGroup::Floats squared = group.squared_distances(at);
+    for (int i = 0; i < CandidateGroup::kSize; ++i) {
+      if (squared[i] >= certain * certain) continue;
+      meet(group.slot[i]);
+    }
   }
   return certain;
 }

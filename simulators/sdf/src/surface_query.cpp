@@ -20,10 +20,15 @@ constexpr double kCell = 0.05, kLeastCell = 0.01, kCellsPerEdge = 24;
 constexpr double kNearSurface = 0.12;
 /// More candidates than this are better looked for in the tree. Few of a long list are looked at: it is sorted.
 constexpr std::size_t kMostCandidates = 256;
+/// Room that a list has before it has to grow.
+constexpr std::size_t kLikely = 64;
 /// Rounding of distances and of their storage as float, for coordinates of up to some tens.
 constexpr double kRounding = 1e-5;
 /// Nobody stays linear for longer than this.
 constexpr double kMostFlat = 0.1;
+
+/// What a squared distance from a box has to exceed for the triangle to be further away than the root of `squared`.
+float filter_of(double squared) { return static_cast<float>(squared * (1 + 2 * CandidateGroup::kRelative)); }
 
 }  // namespace
 
@@ -40,10 +45,15 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
   triangle_ = ids;
   slot_.resize(n);
   corners_.resize(n);
+  boxes_.resize(n);
   for (std::uint32_t s = 0; s < n; ++s) {
     slot_[ids[s]] = s;
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
+    for (int k = 0; k < 3; ++k) {
+      boxes_[s].lo[k] = below(std::min({a[k], b[k], c[k]}) - kRounding);
+      boxes_[s].hi[k] = above(std::max({a[k], b[k], c[k]}) + kRounding);
+    }
   }
   find_faces(solid);
   find_convex_features(solid);
@@ -56,17 +66,19 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
 
 /// The triangle closest to a point of the cell is no further from the centre than the centre's own closest triangle
 /// and twice the half diagonal.
-CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
-  CandidateList list;
+CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
+  CandidateDraft list;
   list.center = center;
   const Sample closest_to_center = sample(center);
   const double reach = std::abs(closest_to_center.value) + 2 * cells_->half_diagonal() + kRounding;
   list.reach = reach - kRounding;
-  std::vector<std::uint32_t> todo{0};
-  while (!todo.empty()) {
-    const std::uint32_t id = todo.back();
+  list.candidates.reserve(kLikely);
+  std::array<std::uint32_t, 64> todo;  // the tree is balanced: no deeper than the bits of a number
+  std::size_t left = 0;
+  todo[left++] = 0;
+  while (left > 0) {
+    const std::uint32_t id = todo[--left];
     const Node& n = nodes_[id];
-    todo.pop_back();
     double outside = 0;
     for (int k = 0; k < 3; ++k) {
       const double d = std::max({n.lo[k] - center[k], center[k] - n.hi[k], 0.0});
@@ -74,8 +86,8 @@ CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
     }
     if (outside > reach * reach) continue;
     if (n.count == 0) {
-      todo.push_back(n.first);
-      todo.push_back(id + 1);
+      todo[left++] = n.first;
+      todo[left++] = id + 1;
       continue;
     }
     for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
@@ -87,14 +99,7 @@ CandidateList SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
         list.usable = false;
         return list;
       }
-      Candidate candidate{static_cast<float>(d - kRounding), s, {}, {}};
-      const Corner& c = corners_[s];
-      for (int k = 0; k < 3; ++k) {
-        const double b = c.a[k] + c.ab[k], e = c.a[k] + c.ac[k];
-        candidate.lo[k] = below(std::min({c.a[k], b, e}));
-        candidate.hi[k] = above(std::max({c.a[k], b, e}));
-      }
-      list.candidates.push_back(candidate);
+      list.candidates.push_back({static_cast<float>(d - kRounding), s, boxes_[s]});
     }
   }
   std::sort(list.candidates.begin(), list.candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -166,17 +171,32 @@ double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample,
   const double distance = std::abs(sample.value), off = (p - list.center).norm();
   const auto alone = [&](double other) { return 0.5 * (other - distance) - from_edge; };
   double radius = std::min(kMostFlat, alone(list.reach - off));
-  for (const Candidate& candidate : list.candidates) {
+  const Eigen::Vector3f at = p.cast<float>();
+  for (const CandidateGroup& group : list.groups()) {
     if (radius <= 0) return 0;
-    if (alone(candidate.from_center - off) >= radius) break;
-    if (candidate.slot == slot) continue;
-    const double limit = distance + 2 * (radius + from_edge);
-    if (candidate.squared_distance(p) >= limit * limit) continue;
-    const Corner& k = corners_[candidate.slot];
-    if (face_of_[triangle_[candidate.slot]] == face_of_[sample.triangle]) continue;
-    radius = std::min(radius, alone(std::sqrt(closest(p, k.a, k.ab, k.ac).squared)));
+    if (alone(group.from_center[0] - off) >= radius) break;
+    const CandidateGroup::Floats squared = group.squared_distances(at);
+    for (int i = 0; i < CandidateGroup::kSize; ++i) {
+      const double limit = distance + 2 * (radius + from_edge);
+      if (squared[i] > filter_of(limit * limit)) continue;
+      const std::uint32_t other = group.slot[i];
+      if (other == slot || face_of_[triangle_[other]] == face_of_[sample.triangle]) continue;
+      const Corner& k = corners_[other];
+      radius = std::min(radius, alone(std::sqrt(closest(p, k.a, k.ab, k.ac).squared)));
+      if (radius <= 0) return 0;
+    }
   }
   return std::max(radius, 0.0);
+}
+
+void SurfaceQuery::prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints) const {
+  if (!cells_) return;
+  std::array<const CandidateCells::Place*, kMostPrefetched> places;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    places[i] = cells_->prefetch_place(points[i]);
+    if (hints[i] < slot_.size()) __builtin_prefetch(&corners_[slot_[hints[i]]]);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) CandidateCells::prefetch_list(places[i]);
 }
 
 Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint,
@@ -197,15 +217,21 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
     const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
     if (list.usable) {
       const double off = (p - list.center).norm();
-      for (const Candidate& candidate : list.candidates) {
-        const double least = candidate.from_center - off;
+      const Eigen::Vector3f at = p.cast<float>();
+      for (const CandidateGroup& group : list.groups()) {
+        const double least = group.from_center[0] - off;
         if (least > 0 && least * least > best) break;
-        if (candidate.squared_distance(p) > best) continue;
-        const Corner& k = corners_[candidate.slot];
-        const Closest c = closest(p, k.a, k.ab, k.ac);
-        if (c.squared < best || (c.squared == best && candidate.slot < best_slot)) {
-          best = c.squared;
-          best_slot = candidate.slot;
+        const CandidateGroup::Floats squared = group.squared_distances(at);
+        if ((squared > filter_of(best)).all()) continue;
+        for (int i = 0; i < CandidateGroup::kSize; ++i) {
+          if (squared[i] > filter_of(best)) continue;
+          const std::uint32_t slot = group.slot[i];
+          const Corner& k = corners_[slot];
+          const Closest c = closest(p, k.a, k.ab, k.ac);
+          if (c.squared < best || (c.squared == best && slot < best_slot)) {
+            best = c.squared;
+            best_slot = slot;
+          }
         }
       }
       Sample s = signed_sample(p, best_slot);

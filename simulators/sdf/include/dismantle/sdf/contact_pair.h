@@ -38,11 +38,18 @@ struct LinearDistance {
   std::uint32_t triangle = kNoTriangle;
 };
 
+/// Where the distance of a point was last measured. It has changed by no more than the way from there.
+struct Anchor {
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< frame of the surface
+  float distance = 0;                               ///< <= 0: not known
+};
+
 /// Points of one member against the solids of another.
 struct DirectedContacts {
   bool ready = false;
   std::vector<double> wake;            ///< per block: odometer reading at which it may matter
   std::vector<double> point_wake;      ///< per point: likewise
+  std::vector<Anchor> anchor;          ///< per point
   std::vector<std::uint32_t> hint;     ///< per point and solid: last closest triangle
   std::vector<std::uint32_t> linear;   ///< per point and solid: 1 + place in `known`; 0 = nowhere
   std::vector<LinearDistance> known;   ///< distances that need not be asked for as long as the point stays near

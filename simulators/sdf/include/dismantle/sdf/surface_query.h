@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "dismantle/sdf/candidate_cells.h"
@@ -69,6 +70,11 @@ class SurfaceQuery {
     return plane.normal.dot(p) - plane.offset;
   }
 
+  /// Brings what sample() will ask for at these points into the cache, for all of them at a time: a query waits for
+  /// memory more than it computes. Answers do not depend on it.
+  void prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints) const;
+  static constexpr std::size_t kMostPrefetched = 16;  ///< points in one call
+
   std::size_t triangle_count() const { return corners_.size(); }
 
  private:
@@ -88,13 +94,14 @@ class SurfaceQuery {
   void find_faces(const Solid& solid);
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes);
-  CandidateList candidates_of(const Eigen::Vector3d& center) const;
+  CandidateDraft candidates_of(const Eigen::Vector3d& center) const;
   Sample signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const;
   double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list, double from_edge) const;
 
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;          // by slot: leaves are contiguous
+  std::vector<CandidateBox> boxes_;      // by slot
   std::vector<std::uint32_t> triangle_;  // slot -> triangle
   std::vector<std::uint32_t> slot_;      // triangle -> slot
   std::vector<Triangle> indices_;        // by triangle
