@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "assembly_steps.h"
+#include "dismantle/computed_once.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
@@ -243,10 +246,14 @@ class Preparation {
       for (PartId b = a + 1; b < boxes.size(); ++b)
         if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
     const auto& parts = assembly_.parts;
+    std::vector<ComputedOnce<DepthBody>> bodies(parts.size());  // a part that meets many others is made ready once
+    const auto body = [&](PartId part) -> const DepthBody& {
+      return *bodies[part].get(context_, [&] { return std::optional<DepthBody>(std::in_place, *parts[part].mesh); });
+    };
     parallel_phase(
         pairs.size(), context_, "overlaps",
         [&](std::size_t i) {
-          const DepthBody a(*parts[pairs[i].a].mesh), b(*parts[pairs[i].b].mesh);
+          const DepthBody &a = body(pairs[i].a), &b = body(pairs[i].b);
           const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, kOverlapTolerance);
           pairs[i].depth = deepest.depth;
           if (deepest.depth > kOverlapRecorded)

@@ -4,17 +4,19 @@
 #include <cmath>
 #include <queue>
 
-#include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/immobility/geometry_names.h"
 
 namespace dismantle::immobility {
 namespace {
 
+constexpr double kRounding = 1e-9;  // relative
+
 struct Cube {
   Eigen::Vector3d center;
   double half = 0;
-  double bound = 0;  ///< no point of it is deeper
+  double in_a = 0, in_b = 0;  ///< depth of its centre
+  double bound = 0;           ///< no point of it is deeper
   bool operator<(const Cube& other) const { return bound < other.bound; }
 };
 
@@ -22,6 +24,26 @@ Aabb world_box(const Solid& s, const Pose& pose) {
   Aabb box;
   for (const auto& v : s.mesh.vertices) box.extend(pose * v);
   return box;
+}
+
+/// A point of the frame of a solid, and how deep it is below its surface (< 0: outside).
+struct Known {
+  Eigen::Vector3d at;
+  double depth = 0;
+};
+
+/// Depth of `p`, if it is more than `least`. It is no deeper than below the sides of the box, and than the surface is
+/// far away, whichever side it is on: that tells most. On which side it is costs as much again: it is the side of
+/// `near` where the balls about both that the surface keeps clear of reach each other.
+std::optional<double> depth_above(double least, const Eigen::Vector3d& p, const Solid& solid,
+                                  std::optional<Known>& near) {
+  if (!((p - solid.box.lo).cwiseMin(solid.box.hi - p).minCoeff() > least)) return std::nullopt;
+  const double distance = solid.bvh.closest(p).distance;
+  if (distance <= least) return std::nullopt;
+  const bool same_side = near && (p - near->at).norm() < (1 - kRounding) * (std::abs(near->depth) + distance);
+  const bool inside = same_side ? near->depth > 0 : solid.bvh.inside(p);
+  near = {p, inside ? distance : -distance};
+  return near->depth > least ? std::optional(near->depth) : std::nullopt;
 }
 
 }  // namespace
@@ -36,17 +58,18 @@ std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, c
   const Placement to_a(pose_a.inverse()), to_b(pose_b.inverse());
   std::priority_queue<Cube> open;
   std::optional<DeepPoint> found;
+  std::optional<Known> near_a, near_b;  // the points that were looked at last
   const auto look = [&](const Eigen::Vector3d& center, double half) {
     const double reach = std::sqrt(3.0) * half;
-    const double in_a = escape_at(to_a * center, a).depth;
-    if (in_a + reach <= limit) return;
-    const double in_b = escape_at(to_b * center, b).depth;
-    if (in_b + reach <= 0) return;
-    if (in_a > limit && in_b > 0) {
-      found = DeepPoint{center, in_a};
+    const auto in_a = depth_above(limit - reach, to_a * center, a, near_a);
+    if (!in_a) return;
+    const auto in_b = depth_above(-reach, to_b * center, b, near_b);
+    if (!in_b) return;
+    if (*in_a > limit && *in_b > 0) {
+      found = DeepPoint{center, *in_a};
       return;
     }
-    open.push({center, half, std::min(in_a, in_b + limit) + reach});
+    open.push({center, half, *in_a, *in_b, std::min(*in_a, *in_b + limit) + reach});
   };
   // Cubes of the shortest edge of the common box, so that none is much longer than wide.
   const double half = 0.5 * std::max(box.size().minCoeff(), 0.05 * box.size().maxCoeff());
@@ -58,6 +81,8 @@ std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, c
   for (std::uint64_t cubes = 0; !found && !open.empty() && cubes < most_cubes; ++cubes) {
     const Cube cube = open.top();
     open.pop();
+    near_a = {to_a * cube.center, cube.in_a};
+    near_b = {to_b * cube.center, cube.in_b};
     for (int k = 0; k < 8 && !found; ++k)
       look(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
            0.5 * cube.half);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -29,18 +30,30 @@ std::size_t chunks(std::size_t count) { return (count + kChunk - 1) / kChunk; }
 
 /// To where it is deeper, as far as that goes: a ball that touches a flat facet beside its middle is smaller than the
 /// one that fits in. No step leads out of the solid: it is shorter than the distance from the surface.
+/// A step is refused as soon as one triangle is known to be too close, mostly the one that refused the step before;
+/// and no triangle is looked at that is further away than one of those.
 Vec3 deeper(const Solid& bar, Vec3 p) {
+  constexpr double kRounding = 1e-9;  // relative
+  const auto distance_to = [&](std::uint32_t triangle, const Vec3& from) {
+    const auto& c = bar.bvh.corners(triangle);
+    return (closest_on_triangle(from, c[0], c[1], c[2]) - from).norm();
+  };
   ClosestPoint at = bar.bvh.closest(p);
+  std::uint32_t refused = at.triangle;
   double step = 0.3 * at.distance;
   for (int k = 0; k < 40 && step > 0.01 * at.distance; ++k) {
     const Vec3 next = p + step * (p - at.point).normalized();
-    const ClosestPoint there = bar.bvh.closest(next);
-    if (there.distance > at.distance) {
-      p = next;
-      at = there;
-    } else {
-      step *= 0.5;
+    const double bound = std::min(distance_to(refused, next), distance_to(at.triangle, next));
+    if (bound > at.distance) {
+      const ClosestPoint there = bar.bvh.closest(next, bound * (1 + kRounding));
+      if (there.distance > at.distance) {
+        p = next;
+        at = there;
+        continue;
+      }
+      refused = there.triangle;
     }
+    step *= 0.5;
   }
   return p;
 }
