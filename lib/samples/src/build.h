@@ -38,6 +38,7 @@ Maker maker(std::string name, std::string summary, Model (*build)(const Params&)
 std::vector<Maker> fit_makers();        // fits.cpp: pegs, sleeves, washers
 std::vector<Maker> slot_makers();       // slots.cpp: slots and boxes
 std::vector<Maker> turning_makers();    // turning.cpp: threads and rings
+std::vector<Maker> leg_makers();        // legs.cpp: furniture with threaded legs
 std::vector<Maker> interlock_makers();  // interlock.cpp
 std::vector<Maker> machine_makers();    // machine.cpp
 std::vector<Maker> pressed_makers();    // pressed.cpp: pins, screws and seals that overlap all around

@@ -166,6 +166,7 @@ TEST(Samples, RefuseWhatTheyDoNotKnow) {
   EXPECT_THROW(make("l_slot", {{"length", -3.0}}), std::invalid_argument);
   EXPECT_THROW(make("l_slot", {{"length", std::string("long")}}), std::invalid_argument);
   EXPECT_THROW(make("bolt_and_nut", {{"diameter", 6.0}, {"pitch", 3.0}}), std::invalid_argument);
+  EXPECT_THROW(make("threaded_legs", {{"diameter", 8.0}}), std::invalid_argument);  // its pitch is half of that
   EXPECT_THROW(make("machine", {{"parts", std::int64_t{1}}}), std::invalid_argument);
 }
 

@@ -203,7 +203,8 @@ TEST(Blocked, StraightPullsDoNotFreeWhatMustTurn) {
     std::string sample, part;
     double way;
   };
-  for (const Case& c : {Case{"bolt_and_nut", "nut", 2.0}, Case{"ring_on_curved_tube", "ring", 20.0}}) {
+  for (const Case& c : {Case{"bolt_and_nut", "nut", 2.0}, Case{"ring_on_curved_tube", "ring", 20.0},
+                        Case{"threaded_legs", "leg_1", 4.0}}) {
     const Model model = make_model(c.sample);
     Rng rng(32);
     const auto parts = probes(model, rng, 1000, 2000);
