@@ -177,7 +177,8 @@ ComputedAttempt AttemptRunner::check_proposal(const Attempt& attempt, const Path
 }
 
 PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed,
-                               RunContext& context, const Checker& checker) const {
+                               RunContext& context, const Checker& checker, const std::vector<SearchPause>& pauses,
+                               AttemptResult& answer) const {
   const PathPlannerTraits traits = planner.traits();
   const std::string missing = lacking(traits.needs, attempt.moving.size());
   if (!missing.empty()) return PathResult::failure(Outcome::unsupported, missing);
@@ -194,11 +195,26 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
                         checker,
                         attempt.goal,
                         resumed != nullptr ? resumed->result.state.get() : nullptr};
-  return plan_path(planner, query, context);
+  const std::unique_ptr<PathSearch> search = planner.start(query, context);
+  std::uint64_t spent = 0;
+  for (const SearchPause& pause : pauses) {
+    if (search->run({.max_steps = pause.steps - spent}) != SearchStatus::paused) return search->result();
+    spent = pause.steps;
+    const Clock::time_point begin = Clock::now();
+    answer.certificate = pause.proof();
+    answer.proof_seconds += seconds_since(begin);
+    if (answer.certificate != nullptr) {
+      PathResult result = search->result();
+      result.fail(Outcome::infeasible, answer.certificate->text);
+      return result;
+    }
+  }
+  return run_to_end(*search);
 }
 
 ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
-                                   const AttemptResult* resumed, const RunContext& context) const {
+                                   const AttemptResult* resumed, const std::vector<SearchPause>& pauses,
+                                   const RunContext& context) const {
   const Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   AttemptResult& answer = computed.answer;
@@ -213,7 +229,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
     if (attempt.fixed.empty() && attempt.goal.any_of.empty()) {
       result.start_is_goal();  // nothing left to be apart from
     } else {
-      result = plan(planner, attempt, resumed, own, checker);
+      result = plan(planner, attempt, resumed, own, checker, pauses, answer);
     }
     if (result.outcome() == Outcome::start_is_goal) {
       if (std::optional<VerifiedPath> rest = checker.rest()) {
@@ -266,7 +282,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   if (is_success(result.outcome()) || result.outcome() == Outcome::crashed || computed.interrupted)
     result.state = nullptr;
   drop_nonsense(result, attempt);
-  answer.seconds = seconds_since(begin);
+  answer.seconds = seconds_since(begin) - answer.proof_seconds;
   return computed;
 }
 

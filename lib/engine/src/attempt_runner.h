@@ -1,8 +1,11 @@
 /// One attempt, from question to verified answer. The only place where a path planner is called.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "attempt_key.h"
 #include "dismantle/engine/run.h"
@@ -10,6 +13,12 @@
 #include "path_normalizer.h"
 
 namespace dismantle {
+
+/// When a search has spent so many steps and state checks, in all: a proof that would settle it. Null: it goes on.
+struct SearchPause {
+  std::uint64_t steps = 0;  ///< > 0, more than those of the pause before
+  std::function<const Certificate*()> proof;
+};
 
 struct ComputedAttempt {
   AttemptResult answer;
@@ -24,10 +33,11 @@ class AttemptRunner {
                 const RunOptions& options, const Verifier& verifier, const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
-  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. Throws nothing:
-  /// what a plugin throws becomes Outcome::crashed.
+  /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. A proof of
+  /// `pauses` ends the search, and is in the answer; its time is not the search's. Throws nothing: what a plugin throws
+  /// becomes Outcome::crashed.
   ComputedAttempt run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key, const AttemptResult* resumed,
-                      const RunContext& context) const;
+                      const std::vector<SearchPause>& pauses, const RunContext& context) const;
 
   /// Verifies a way in place of a search. `attempt` and the columns of `way` in the same order.
   ComputedAttempt check_proposal(const Attempt& attempt, const Path& way, const RunContext& context) const;
@@ -37,7 +47,7 @@ class AttemptRunner {
  private:
   class Checker;
   PathResult plan(PathPlanner& planner, const Attempt& attempt, const AttemptResult* resumed, RunContext& context,
-                  const Checker& checker) const;
+                  const Checker& checker, const std::vector<SearchPause>& pauses, AttemptResult& answer) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;

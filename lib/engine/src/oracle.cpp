@@ -57,33 +57,25 @@ std::shared_ptr<PathPlanner> Oracle::borrow_planner() {
   return planner;
 }
 
-bool Oracle::resumes() {
-  std::shared_ptr<PathPlanner> planner = borrow_planner();
-  const bool resumable = planner->traits().resumable;
-  give_back(std::move(planner));
-  return resumable;
-}
-
 void Oracle::give_back(std::shared_ptr<PathPlanner> planner) {
   const std::lock_guard lock(planner_mutex_);
   if (planner != concurrent_planner_) unused_planners_.push_back(std::move(planner));
 }
 
-/// A search, unless it is proved before that it finds nothing; where it found nothing, perhaps a proof after it. Time
-/// limits of the attempt begin with the search.
+/// A search, unless it is known before that it finds nothing; with proofs while it goes on, and where it found nothing
+/// perhaps one after it. Time limits of the attempt begin with the search.
 ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, const RunContext& context) {
   const Attempt& attempt = question.attempt;
-  Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
-  computed.answer.certificate = proofs_.before(attempt, context);
-  double proof_seconds = seconds_since(begin);
+  computed.answer.certificate = proofs_.before(attempt);
   if (computed.answer.certificate != nullptr) {
     computed.answer.result = infeasible_by(*computed.answer.certificate, attempt);
   } else {
-    computed = runner_.run(planner, attempt, question.key, question.resumed, context);
-    begin = Clock::now();
-    if (!computed.interrupted) computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
-    proof_seconds += seconds_since(begin);
+    computed = runner_.run(planner, attempt, question.key, question.resumed, proofs_.during(attempt, context), context);
+    const Clock::time_point begin = Clock::now();
+    if (!computed.interrupted && computed.answer.certificate == nullptr)
+      computed.answer.certificate = proofs_.after(attempt, computed.answer.result, context);
+    computed.answer.proof_seconds += seconds_since(begin);
     if (const Certificate* found = computed.answer.certificate; found != nullptr && found->full_tolerance) {
       PathResult& result = computed.answer.result;
       result.fail(Outcome::infeasible, found->text);
@@ -95,7 +87,6 @@ ComputedAttempt Oracle::run(PathPlanner& planner, const Question& question, cons
         !is_success(computed.answer.result.outcome()))
       computed.interrupted = true;
   }
-  computed.answer.proof_seconds = proof_seconds;
   return computed;
 }
 

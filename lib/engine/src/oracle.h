@@ -55,8 +55,6 @@ class Oracle final : public PathOracle {
   /// themselves.
   SearchEffort effort_on(PartId part) const;
   const std::string& planner_id() const { return runner_.planner_id(); }
-  /// PathPlannerTraits::resumable.
-  bool resumes();
   /// What proves that parts are left for good.
   ProofSchedule& proofs() { return proofs_; }
   /// As ProofSchedule::seconds.
@@ -98,8 +96,8 @@ class Oracle final : public PathOracle {
   std::map<SceneDigest, std::vector<const AttemptResult*>> unsuccessful_;  ///< by digest_of_moving, in order of asking
   std::map<std::string, double> planner_counts_;
   std::atomic<std::uint64_t> planned_{0}, memoised_{0}, proposed_{0}, refused_{0};
-  std::mutex planner_mutex_;  ///< the factory need not be safe to call from several threads
-  std::shared_ptr<PathPlanner> concurrent_planner_;             ///< serves all attempts; null where planners do not
+  std::mutex planner_mutex_;                         ///< the factory need not be safe to call from several threads
+  std::shared_ptr<PathPlanner> concurrent_planner_;  ///< serves all attempts; null where planners do not
   std::vector<std::shared_ptr<PathPlanner>> unused_planners_;   ///< each serves one attempt at a time
   SpeculativeCache<AttemptKey, LoggedAttempt> computed_ahead_;  ///< last: its tasks use all of the above
 };

@@ -3,18 +3,25 @@
 namespace dismantle {
 
 void ProofOptions::describe(Schema<ProofOptions>& s) {
-  s.add("low_effort_depth", &ProofOptions::low_effort_depth,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Advanced. Cheap proofs are tried before searches of at least this depth, and before searches without "
-                "a limit: "
-                "such a search takes longer than the proof."});
+  s.add(
+      "low_effort_depth", &ProofOptions::low_effort_depth,
+      {.unit = "1",
+       .min = 1,
+       .doc =
+           "Advanced. Cheap proofs are tried for searches of at least this depth, and for searches without a limit."});
   s.add("medium_effort_depth", &ProofOptions::medium_effort_depth,
         {.unit = "1",
          .min = 1,
-         .doc = "Advanced. Expensive proofs about one part against one other are tried after an unsuccessful search of "
-                "at least "
-                "this depth."});
+         .doc = "Advanced. Expensive proofs about one part against one other are tried for searches of at least this "
+                "depth, and for searches without a limit."});
+  s.add("low_effort_steps", &ProofOptions::low_effort_steps,
+        {.unit = "1",
+         .min = 1,
+         .max = 1e12,
+         .doc = "Advanced. Steps and state checks that a search spends before cheap proofs are tried: about what they "
+                "cost. A search that ends before has them tried where it found nothing."});
+  s.add("medium_effort_steps", &ProofOptions::medium_effort_steps,
+        {.unit = "1", .min = 1, .max = 1e12, .doc = "Advanced. The same for expensive proofs."});
   s.add("reduced_tolerance", &ProofOptions::reduced_tolerance,
         {.unit = "1",
          .min = 0.05,

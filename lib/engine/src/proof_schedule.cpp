@@ -23,6 +23,8 @@ bool has_part(const std::vector<PlacedPart>& group, PartId part) {
 
 bool as_deep(const Attempt& attempt, unsigned depth) { return attempt.max_depth == 0 || attempt.max_depth >= depth; }
 
+bool is_pair(const Attempt& attempt) { return attempt.moving.size() == 1 && attempt.fixed.size() == 1; }
+
 bool found_nothing(Outcome o) { return o == Outcome::depth_limit || o == Outcome::exhausted || o == Outcome::timeout; }
 
 }  // namespace
@@ -71,6 +73,7 @@ std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& q
   Answer answer;
   for (const Prover& prover : provers_) {
     if (!asks(prover, effort, depends_on_poses, query.moving.size() + query.fixed.size())) continue;
+    const Clock::time_point began = Clock::now();
     try {
       answer = prover.named.prover->prove(query, context);
     } catch (const std::exception& e) {
@@ -81,6 +84,11 @@ std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& q
       context.log(LogLevel::error,
                   fmt::format("immobility prover '{}' threw something that is not a std::exception", prover.named.id));
     }
+    context.log(
+        LogLevel::debug,
+        fmt::format("proof by '{}' about '{}' and {} more: {}, {:.4f} s", prover.named.id,
+                    assembly_.parts[query.moving.front().part].name, query.moving.size() + query.fixed.size() - 1,
+                    answer ? "proved" : "not proved", std::chrono::duration<double>(Clock::now() - began).count()));
     if (!answer) continue;
     answer->kind = prover.named.id;
     answer->margin = query.margin();
@@ -147,13 +155,32 @@ const Certificate* ProofSchedule::locked(const Attempt& attempt) const {
   return lock == locks_.end() ? nullptr : *lock;
 }
 
-const Certificate* ProofSchedule::before(const Attempt& attempt, const RunContext& context) {
-  if (provers_.empty() || attempt.goal.placement) return nullptr;
-  if (const Certificate* lock = locked(attempt)) return lock;
-  if (!attempt.goal.any_of.empty() || attempt.fixed.empty() || !as_deep(attempt, options_.low_effort_depth))
-    return nullptr;
+const Certificate* ProofSchedule::before(const Attempt& attempt) const {
+  return provers_.empty() || attempt.goal.placement ? nullptr : locked(attempt);
+}
+
+bool ProofSchedule::is_provable(const Attempt& attempt, unsigned depth) const {
+  return !provers_.empty() && attempt.goal.any_of.empty() && !attempt.goal.placement && !attempt.fixed.empty() &&
+         as_deep(attempt, depth);
+}
+
+std::vector<SearchPause> ProofSchedule::during(const Attempt& attempt, const RunContext& context) {
+  std::vector<SearchPause> pauses;
+  if (is_provable(attempt, options_.low_effort_depth))
+    pauses.push_back({static_cast<std::uint64_t>(options_.low_effort_steps),
+                      [this, &attempt, &context] { return prove_low(attempt, context); }});
+  if (is_pair(attempt) && is_provable(attempt, options_.medium_effort_depth) &&
+      options_.medium_effort_steps > options_.low_effort_steps)
+    pauses.push_back({static_cast<std::uint64_t>(options_.medium_effort_steps), [this, &attempt, &context] {
+                        return prove_pair(attempt.moving.front().part, attempt.fixed.front().part, ProofEffort::medium,
+                                          context);
+                      }});
+  return pauses;
+}
+
+const Certificate* ProofSchedule::prove_low(const Attempt& attempt, const RunContext& context) {
   if (const Certificate* found = prove_placed(attempt, context)) return found;
-  if (attempt.moving.size() != 1 || attempt.fixed.size() != 1) return nullptr;
+  if (!is_pair(attempt)) return nullptr;
   return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
 }
 
@@ -170,12 +197,12 @@ const Certificate* ProofSchedule::prove_reduced(PartId a, PartId b, const RunCon
   return prove({{a, b}, ProofEffort::high, options_.reduced_tolerance}, context);
 }
 
-/// Only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at the end, for
-/// most of such parts leave once others have left.
+/// Expensive ones only about pairs: how one of many parts is held is asked when the sequence planner asks for it, or at
+/// the end, for most of such parts leave once others have left.
 const Certificate* ProofSchedule::after(const Attempt& attempt, const PathResult& result, const RunContext& context) {
-  if (provers_.empty() || !found_nothing(result.outcome()) || !attempt.goal.any_of.empty() || attempt.goal.placement ||
-      attempt.moving.size() != 1 || attempt.fixed.size() != 1 || !as_deep(attempt, options_.medium_effort_depth))
-    return nullptr;
+  if (!found_nothing(result.outcome()) || !is_provable(attempt, options_.low_effort_depth)) return nullptr;
+  if (const Certificate* found = prove_low(attempt, context)) return found;
+  if (!is_pair(attempt) || !is_provable(attempt, options_.medium_effort_depth)) return nullptr;
   const PartId a = attempt.moving.front().part, b = attempt.fixed.front().part;
   if (const Certificate* found = prove_pair(a, b, ProofEffort::medium, context)) return found;
   // A pair that comes apart costs a proof of high effort most of all; a deeper search may still find how.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "attempt_key.h"
+#include "attempt_runner.h"
 #include "dismantle/computed_once.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/immobility_prover.h"
@@ -21,10 +22,12 @@ namespace dismantle {
 /// Asks provers and remembers what they say. An answer depends on nothing but the question, so it does not matter which
 /// thread finds it, and when. Safe to use from several threads. Certificates live as long as the schedule.
 ///
+/// A proof comes when the search that it may spare has cost about as much as it will, or has found nothing: most
+/// searches find a way before.
 /// - Trivial: when the schedule is made, about all pairs that overlap when assembled.
-/// - Low: before attempts of some depth or without limit, about the moving against the fixed parts.
-/// - Medium: after deep attempts of one part against one other that found nothing. High: only where no deeper attempt
-///   can follow, for the reduced tolerance.
+/// - Low: in attempts of some depth or without limit, about the moving against the fixed parts.
+/// - Medium: in deep attempts of one part against one other. High: after them, only where no deeper attempt can follow,
+///   for the reduced tolerance.
 /// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
 ///
 /// What is not proved with the reduced tolerance is not proved with all of it either, and takes less time.
@@ -37,8 +40,11 @@ class ProofSchedule {
   /// A pair of one that moves and one that is fixed, locked by their overlap; of several leaving parts, when each of
   /// them is in such a pair.
   const Certificate* locked(const Attempt& attempt) const;
-  /// What is known before a search, or proved because it is cheaper than the search. `attempt` is canonical.
-  const Certificate* before(const Attempt& attempt, const RunContext& context);
+  /// What is known before a search. `attempt` is canonical.
+  const Certificate* before(const Attempt& attempt) const;
+  /// Proofs that are tried while a search goes on, in order: each when the search has spent so many steps and state
+  /// checks. Empty: none.
+  std::vector<SearchPause> during(const Attempt& attempt, const RunContext& context);
   /// What is proved because a search found nothing.
   const Certificate* after(const Attempt& attempt, const PathResult& result, const RunContext& context);
   /// At the end of a run: why `part` is left, together with the others of `left`, if that can be proved.
@@ -64,6 +70,8 @@ class ProofSchedule {
   const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
+  const Certificate* prove_low(const Attempt& attempt, const RunContext& context);
+  bool is_provable(const Attempt& attempt, unsigned depth) const;
 
   const Assembly& assembly_;
   double tolerance_;

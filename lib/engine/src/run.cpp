@@ -125,8 +125,8 @@ SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner,
   return result;
 }
 
-SequenceResult plan_one(const Assembly& assembly, PartId part, const RunOptions& options, Oracle& oracle,
-                        RemovalRecorder& recorder, RunContext context) {
+SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, RemovalRecorder& recorder,
+                        RunContext context) {
   Attempt attempt;
   for (const auto& p : assembly.parts) (p.id == part ? attempt.moving : attempt.fixed).push_back({p.id, Pose{}});
   SequenceResult result;
@@ -135,18 +135,7 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, const RunOptions&
     return result;
   }
   context.progress("sequence", 0, 1, assembly.parts[part].name);
-  // Less deep than where proofs begin, first: what comes out with a few actions needs no proof that it cannot. Searches
-  // that cannot be resumed would do all of their work again.
-  attempt.resume = oracle.resumes();
-  const AttemptResult* found = nullptr;
-  for (unsigned depth = 1; attempt.resume && depth < options.proofs.low_effort_depth; ++depth) {
-    attempt.max_depth = depth;
-    found = &oracle.attempt(attempt, context);
-    if (found->result.outcome() != Outcome::depth_limit) break;
-  }
-  attempt.max_depth = 0;
-  if (found == nullptr || found->result.outcome() == Outcome::depth_limit) found = &oracle.attempt(attempt, context);
-  const AttemptResult& answer = *found;
+  const AttemptResult& answer = oracle.attempt(attempt, context);
   result.outcome = answer.result.outcome();
   if (is_success(result.outcome)) {
     result.removals.push_back({{part}, &answer});
@@ -265,7 +254,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   if (!prepared)
     sequence.outcome = why_stopped(own);
   else if (only_one)
-    sequence = plan_one(assembly, part, options, oracle, recorder, own);
+    sequence = plan_one(assembly, part, oracle, recorder, own);
   else
     sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
 

@@ -18,7 +18,7 @@ struct HookParams {
 class Hook final : public ImmobilityProver {
  public:
   explicit Hook(const HookParams& params = {}) : params_(params) {}
-  ProverTraits traits() const noexcept override { return {ProofEffort::low, 2, 2, false}; }
+  ProverTraits traits() const noexcept override { return {ProofEffort::medium, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
 
  private:

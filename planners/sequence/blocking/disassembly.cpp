@@ -51,8 +51,8 @@ void Disassembly::make_strategies() {
   if (straight_ && params_.rotations)
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)
-    list_.add(
-        std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, params_, params_.max_depth));
+    list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, params_,
+                                                   params_.max_depth));
   list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, immobility_.get(), params_));
   list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, immobility_.get(), params_));
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));

@@ -66,17 +66,33 @@ bool Immobility::merge_first(GroupState& group, const Questions& questions) {
   return false;
 }
 
+bool Immobility::merge_proved(GroupState& group, const AttemptResult& answer) {
+  const Certificate* proof = answer.certificate;
+  if (proof == nullptr || !proof->full_tolerance || !proof->poses.empty() || proof->parts.size() != 2) return false;
+  const SubassemblyId a = state_.subassembly_of(proof->parts[0]), b = state_.subassembly_of(proof->parts[1]);
+  if (a == b || !group.contains(a) || !group.contains(b)) return false;
+  state_.merge(group, proof->parts, *proof);
+  return true;
+}
+
 bool Immobility::merge_caged(GroupState& group) { return merge_first(group, cage_questions(group)); }
 
 Immobility::Questions Immobility::cage_questions(const GroupState& group) const {
+  const auto costs_as_much = [&](SubassemblyId s) {
+    return state_.is_single(s) && history_.last(s) != nullptr &&
+           history_.spent(s) >= static_cast<double>(params_.cage_proof_steps);
+  };
+  const bool over = group.is_pair() ? group.pair_finished : group.searches_exhausted;
   Questions questions;
   for (std::size_t i = 0; i < group.members.size(); ++i)
     for (std::size_t k = i + 1; k < group.members.size(); ++k)
-      add_questions(Kind::cage, group.members[i], group.members[k], questions);
+      if (over || costs_as_much(group.members[i]) || costs_as_much(group.members[k]))
+        add_questions(Kind::cage, group.members[i], group.members[k], questions);
   return questions;
 }
 
 bool Immobility::merge_flat(GroupState& group, SubassemblyId id) {
+  if (history_.spent(id) < static_cast<double>(params_.flat_proof_steps)) return false;
   Questions questions;
   add_flat_questions(group, id, questions);
   return merge_first(group, questions);
@@ -92,13 +108,15 @@ Immobility::Questions Immobility::flat_questions(const GroupState& group) const 
 
 void Immobility::add_flat_questions(const GroupState& group, SubassemblyId id, Questions& questions) const {
   const auto size = [&](PartId part) { return state_.assembly().parts[part].mesh->box().size().norm(); };
+  constexpr double kEqual = 1 - 1e-6;  // equal parts, one of them turned
   if (!history_.was_searched(id)) return;
   const std::vector<PartId>& touched = group.is_pair() ? state_.parts_of(group.members[group.members[0] == id ? 1 : 0])
                                                        : state_.failure_of(state_.part_of(id))->blocked_by;
   for (const PartId part : state_.parts_of(id))
     for (const PartId other : touched) {
       const SubassemblyId s = state_.subassembly_of(other);
-      if (group.contains(s) && s != id && size(other) > size(part)) questions.push_back({Kind::flat, part, other});
+      if (group.contains(s) && s != id && size(other) >= kEqual * size(part))
+        questions.push_back({Kind::flat, part, other});
     }
 }
 

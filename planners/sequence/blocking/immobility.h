@@ -27,10 +27,13 @@ class Immobility {
   Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history, PathOracle& oracle,
              const ImmobilityParams& params);
 
-  /// Quick proofs about all pairs.
+  /// What an attempt proved of two of the group as assembled, if it did: they are merged.
+  bool merge_proved(GroupState& group, const AttemptResult& answer);
+  /// Quick proofs about all pairs of which one was searched without success for as much as such proofs cost, or of all
+  /// when the searches are over.
   bool merge_caged(GroupState& group);
-  /// Proofs about a flat piece of `id` and the larger parts that its last search touched: expensive, but cheaper than a
-  /// second search.
+  /// Proofs about a flat piece of `id` and the larger parts that its last search touched, once its searches have cost
+  /// as much as such proofs; without `id`: of all, at any cost.
   bool merge_flat(GroupState& group, SubassemblyId id);
   bool merge_flat(GroupState& group);
   /// Confinement, for motions that penetrate as deep as paths may: for those that were searched to `proof_depth` and

@@ -70,10 +70,19 @@ void ImmobilityParams::describe(S& s) {
   s.add<unsigned>(
       "cage_proofs", &ImmobilityParams::cage_proofs,
       {.unit = "1", .doc = "Advanced. Quick proofs about pairs, at most, in a run; up to two seconds each."});
+  s.add<std::int64_t>(
+      "cage_proof_steps", &ImmobilityParams::cage_proof_steps,
+      {.unit = "1",
+       .min = 0,
+       .max = 1e12,
+       .doc = "Advanced. Steps and state checks that the searches for a part have cost before quick proofs "
+              "about it are sought; all are once the searches are over."});
   s.add<unsigned>("flat_proofs", &ImmobilityParams::flat_proofs,
                   {.unit = "1",
                    .doc = "Advanced. Proofs about flat pieces of searched parts, at most, in a run; up to ten seconds "
                           "each."});
+  s.add<std::int64_t>("flat_proof_steps", &ImmobilityParams::flat_proof_steps,
+                      {.unit = "1", .min = 0, .max = 1e12, .doc = "Advanced. The same for proofs about flat pieces."});
   s.add<unsigned>("early_confinement_proofs", &ImmobilityParams::early_confinement_proofs,
                   {.unit = "1",
                    .doc = "Advanced. Proofs of confinement for the full tolerance, at most, in a run; up to half a "
@@ -120,6 +129,11 @@ void SimultaneousMotionParams::describe(S& s) {
                   {.unit = "1", .doc = "Advanced. Those of them that are moved deeper: several parts moved."});
   s.add<unsigned>("simultaneous_depth", &SimultaneousMotionParams::simultaneous_depth,
                   {.unit = "1", .min = 1, .doc = "Advanced. Depth of these."});
+  s.add<double>("simultaneous_share", &SimultaneousMotionParams::simultaneous_share,
+                {.unit = "1",
+                 .min = 0,
+                 .doc = "Advanced. What simultaneous motions may cost, of what the searches for single parts have cost "
+                        "until then; once these are over there is no limit."});
 }
 
 void PathSearchParams::describe(S& s) {

@@ -40,7 +40,9 @@ struct PartialTranslationParams {
 struct ImmobilityParams {
   bool merge_immobile = true;
   unsigned cage_proofs = 120;
+  std::int64_t cage_proof_steps = 2'000;
   unsigned flat_proofs = 30;
+  std::int64_t flat_proof_steps = 20'000;
   unsigned early_confinement_proofs = 6;
   unsigned late_confinement_proofs = 8;
   unsigned proof_depth = 4;
@@ -63,6 +65,7 @@ struct SimultaneousMotionParams {
   unsigned simultaneous_sets = 12;
   unsigned simultaneous_deep_sets = 2;
   unsigned simultaneous_depth = 4;
+  double simultaneous_share = 1;
   static void describe(Schema<BlockingParams>& schema);
 };
 

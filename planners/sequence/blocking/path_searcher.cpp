@@ -76,7 +76,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     state_.set_failure(
         {part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate});
   history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size(), &answer}, result);
-  return false;
+  return immobility_ != nullptr && immobility_->merge_proved(group, answer);
 }
 
 }  // namespace dismantle::blocking

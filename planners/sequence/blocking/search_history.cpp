@@ -15,6 +15,8 @@ void SearchHistory::add(SubassemblyId id, PastSearch search, const PathResult& r
   const PartId part = state_.part_of(id);
   last_[part] = std::move(search);
   cost_[part] = cost_of(part, result);
+  spent_[part] += result.stats.cost;
+  work_ += work_of({part}, result);
 }
 
 Attempt SearchHistory::attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const {
@@ -62,9 +64,14 @@ unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_
 /// Simulated steps and state checks take the longer the more triangles the part has. Counts, not seconds: these are the
 /// same on every machine.
 int SearchHistory::cost_of(PartId part, const PathResult& result) const {
-  const double work =
-      (1 + result.stats.cost) * static_cast<double>(state_.assembly().parts[part].mesh->triangles.size());
-  return static_cast<int>(std::log2(std::max(1.0, work)) / params_.cost_octaves);
+  return static_cast<int>(std::log2(std::max(1.0, work_of({part}, result))) / params_.cost_octaves);
+}
+
+double SearchHistory::work_of(const std::vector<PartId>& moving, const PathResult& result) const {
+  double triangles = 0;
+  for (const PartId part : moving)
+    triangles += static_cast<double>(state_.assembly().parts[part].mesh->triangles.size());
+  return (1 + result.stats.cost) * triangles;
 }
 
 void SearchHistory::sort_by_cost(Subassemblies& ids, unsigned depth) const {

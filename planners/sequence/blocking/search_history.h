@@ -27,7 +27,16 @@ class SearchHistory final : public GroupListener {
   const PastSearch* last(SubassemblyId id) const;
   /// Was it ever searched?
   bool was_searched(SubassemblyId id) const { return cost_.contains(state_.part_of(id)); }
+  /// What all its searches cost (SearchStats::cost).
+  double spent(SubassemblyId id) const {
+    const auto known = spent_.find(state_.part_of(id));
+    return known == spent_.end() ? 0 : known->second;
+  }
   void add(SubassemblyId id, PastSearch search, const PathResult& result);
+  /// Work of all unsuccessful searches for single parts until now, and of any result for such parts. The same unit as
+  /// sort_by_cost(): does not depend on the machine.
+  double work() const { return work_; }
+  double work_of(const std::vector<PartId>& moving, const PathResult& result) const;
 
   /// The search for a path of `id` out of its group. The oracle resumes the last one where it can.
   Attempt attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const;
@@ -60,6 +69,8 @@ class SearchHistory final : public GroupListener {
   const DisassemblyState& state_;
   const PathSearchParams& params_;
   std::map<PartId, PastSearch> last_;
+  double work_ = 0;
+  std::map<PartId, double> spent_;
   std::map<PartId, int> cost_;  ///< of the last search for the part: about its logarithm
 };
 

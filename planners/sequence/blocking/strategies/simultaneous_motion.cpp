@@ -17,14 +17,20 @@ double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
 }  // namespace
 
 SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
-                                       const Lookahead& lookahead, const SimultaneousMotionParams& params,
-                                       unsigned max_depth)
+                                       const Lookahead& lookahead, const SearchHistory& history,
+                                       const SimultaneousMotionParams& params, unsigned max_depth)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
       lookahead_(lookahead),
+      history_(history),
       params_(params),
       max_depth_(max_depth) {}
+
+/// What it has cost is measured by what the searches for single parts have; nothing waits for good, for these end.
+bool SimultaneousMotion::can_afford(const GroupState& group) const {
+  return group.searches_exhausted || work_ <= params_.simultaneous_share * history_.work();
+}
 
 /// One round after the first round of path searches, the next after the second, and so on.
 Result SimultaneousMotion::apply(GroupState& group) {
@@ -34,16 +40,19 @@ Result SimultaneousMotion::apply(GroupState& group) {
   if (unsupported_ || progress.rounds >= allowed) return Result::unchanged;
   const std::vector<Subassemblies> sets = candidate_sets(group);
   while (progress.rounds < allowed) {
-    const unsigned round = ++progress.rounds;
+    const unsigned round = progress.rounds + 1;
     std::vector<Subassemblies> list;
     for (const Subassemblies& set : sets)
-      if (is_worthwhile(group, set, round) && (round > 1 || set.size() == 2) &&
-          (round < kRounds || list.size() < params_.simultaneous_deep_sets))
+      if (!progress.tried.contains(set) && is_worthwhile(group, set, round) && (round > 1 || set.size() == 2) &&
+          (round < kRounds || list.size() + progress.tried.size() < params_.simultaneous_deep_sets))
         list.push_back(set);
     for (std::size_t k = 0; k < list.size(); ++k) {
-      if (state_.stop() || unsupported_) return Result::unchanged;
+      if (state_.stop() || unsupported_ || !can_afford(group)) return Result::unchanged;
+      progress.tried.insert(list[k]);
       if (move(group, list, k, round)) return Result::restart;
     }
+    progress.tried.clear();
+    progress.rounds = round;
   }
   if (!sets.empty())
     progress.note = std::to_string(sets.size()) +
@@ -129,6 +138,9 @@ bool SimultaneousMotion::move(GroupState& group, const std::vector<Subassemblies
     return true;
   }
   unsupported_ = unsupported_ || result.outcome() == Outcome::unsupported;
+  std::vector<PartId> moving;
+  for (const PlacedPart& p : attempt->moving) moving.push_back(p.part);
+  work_ += history_.work_of(moving, result);
   last_[ids] = {attempt->max_depth, result.outcome(), result.blocked_by, several_moved(*attempt, result.best_pose)};
   return false;
 }
@@ -143,7 +155,7 @@ bool SimultaneousMotion::several_moved(const Attempt& attempt, const std::vector
 }
 
 void SimultaneousMotion::on_group_changed(GroupState& group, const GroupChange& change) {
-  if (change.kind != GroupChange::Kind::merged) progress_[group].rounds = 0;
+  if (change.kind != GroupChange::Kind::merged) progress_[group] = {};
   if (change.moves_remaining()) last_.clear();
 }
 

@@ -9,16 +9,18 @@
 
 #include "blocking/lookahead.h"
 #include "blocking/params.h"
+#include "blocking/search_history.h"
 #include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
 
 /// Three rounds. Pairs to depth 1, before single parts are searched deeper; then larger sets, which are expensive; then
-/// those sets deeper in which more than one part moved.
+/// those sets deeper in which more than one part moved. Before the searches for single parts are over, all of this
+/// costs no more than a share of what they have cost: a set that is too early for that waits.
 class SimultaneousMotion final : public Strategy {
  public:
   SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
-                     const SimultaneousMotionParams& params, unsigned max_depth);
+                     const SearchHistory& history, const SimultaneousMotionParams& params, unsigned max_depth);
   std::string_view name() const noexcept override { return "simultaneous_motion"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
   Result apply(GroupState& group) override;
@@ -27,7 +29,8 @@ class SimultaneousMotion final : public Strategy {
 
  private:
   struct Progress {
-    unsigned rounds = 0;  ///< that are over, or under way
+    unsigned rounds = 0;            ///< that are over
+    std::set<Subassemblies> tried;  ///< in the round that is under way
     std::string note;
   };
   struct PastMotion {
@@ -40,6 +43,7 @@ class SimultaneousMotion final : public Strategy {
   unsigned depth_of(unsigned round) const;
   std::optional<Attempt> attempt_for(const GroupState& group, const Subassemblies& ids, unsigned round) const;
   bool is_worthwhile(const GroupState& group, const Subassemblies& ids, unsigned round) const;
+  bool can_afford(const GroupState& group) const;
   bool move(GroupState& group, const std::vector<Subassemblies>& sets, std::size_t k, unsigned round);
   bool several_moved(const Attempt& attempt, const std::vector<Pose>& reached) const;
 
@@ -47,10 +51,12 @@ class SimultaneousMotion final : public Strategy {
   PathOracle& oracle_;
   StraightMotion& straight_;
   const Lookahead& lookahead_;
+  const SearchHistory& history_;
   const SimultaneousMotionParams& params_;
   unsigned max_depth_;
   PerGroup<Progress> progress_;
   std::map<Subassemblies, PastMotion> last_;
+  double work_ = 0;           // of unsuccessful motions, as SearchHistory::work()
   bool unsupported_ = false;  // by the path planner or the simulator
 };
 
