@@ -38,3 +38,11 @@ install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 # What there is to run, without the tests: the program and the built-in plugins.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
 add_custom_target(programs DEPENDS dismantle ${built_in})
+# What `cmake --install` builds and installs (CMakeLists.txt): no tests but the contract tests, which plugin authors run.
+set(installed programs manual ${libraries})
+foreach(target dismantle_contract_tests dismantle_python)
+  if(TARGET ${target})
+    list(APPEND installed ${target})
+  endif()
+endforeach()
+add_custom_target(installable DEPENDS ${installed})

@@ -4,14 +4,14 @@
 - core <- parallel <- geometry <- verification <- preparation, plan_io <- book, engine <- host <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
   others that build a library), never another plugin;
-- core has at most 2500 lines, a file 400, a class 40 methods (a rough count of the declarations in its body)."""
+- core has at most 1900 lines of code (comments and empty lines are free), a file 400, a class 40 methods (a rough count of the declarations in its body)."""
 import argparse
 import os
 import re
 import sys
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-CORE_MAX_LINES = 2500
+CORE_MAX_LINES = 1900
 FILE_MAX_LINES = 400
 CLASS_MAX_METHODS = 40
 FOLDERS = ("core", "lib", "plugins", "simulators", "planners", "apps", "tests")
@@ -180,9 +180,10 @@ def check(root):
                 problems.append(f'{f}: includes "{included}", a header of tests')
             elif to not in (place, "core", "" if place == "core" else "lib/parallel") and to not in allowed:
                 problems.append(f'{f}: includes "{included}" of {to}, which {place} may not')
-    core = sum(text[f].count("\n") for f in files if f.startswith("core/") and not is_test(f))
+    core = sum(bool(line.strip()) and not line.strip().startswith("//")
+               for f in files if f.startswith("core/") and not is_test(f) for line in text[f].splitlines())
     if core > CORE_MAX_LINES:
-        problems.append(f"core: {core} lines; at most {CORE_MAX_LINES}")
+        problems.append(f"core: {core} lines of code; at most {CORE_MAX_LINES}")
     return files, core, problems
 
 

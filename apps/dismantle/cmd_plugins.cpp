@@ -152,9 +152,8 @@ void add_plugins(CLI::App& app, Action& action) {
       ->required()
       ->option_text("acme.rrt");
   new_command->footer(
-      "Writes a complete project: CMake files, a plugin that works, its tests, a README, a workflow for GitHub and, "
-      "for\n"
-      "planners and simulators, a benchmark. It needs an installed Dismantle and nothing of its source\n"
+      "Writes a complete project: CMake files, a plugin that works, its tests, a README, a workflow for GitHub and,\n"
+      "where planners can be compared, a benchmark. It needs an installed Dismantle and nothing of its source\n"
       "(docs/write-a-planner.md).\n"
       "Example:\n  dismantle plugins new my_planner --kind path_planner --name acme.rrt");
   new_command->callback([&action, made] { action = [made] { return make_new(*made); }; });

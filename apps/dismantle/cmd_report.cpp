@@ -42,6 +42,10 @@ std::string rendered(const bench::ReportData& data, const ReportOptions& options
     bench::write_plans(data, folder);
     plans = folder.filename().string();
   }
+  if (options.format == "svg") {
+    if (!options.tables.empty()) throw Error("--table and --format svg exclude each other: the picture is of the curves");
+    return bench::report_svg(data);
+  }
   const auto tables = chosen(bench::tables_of(data, plans), options);
   if (options.format == "markdown") return bench::report_markdown(data, tables);
   if (options.format == "csv") return bench::report_csv(tables);
@@ -81,13 +85,13 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("DIR", options->inputs, "Folders with results, or databases; any number, merged")
       ->required()
       ->option_text(" ");
-  command->add_option("--format", options->format, "text, markdown, csv (the trials), or html: one self-contained page")
-      ->check(CLI::IsMember({"text", "markdown", "csv", "html"}))
-      ->option_text("text|markdown|csv|html");
+  command->add_option("--format", options->format, "text, markdown, csv (the trials), svg (the curves), or html: one self-contained page")
+      ->check(CLI::IsMember({"text", "markdown", "csv", "svg", "html"}))
+      ->option_text("text|markdown|csv|svg|html");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
   command->add_option("--table", options->tables, "Just this table; may be repeated")
-      ->check(CLI::IsMember({"success", "sizes", "time", "pairs", "outcomes", "curves", "trials"}))
-      ->option_text("success|sizes|time|pairs|outcomes|curves|trials")
+      ->check(CLI::IsMember({"success", "sizes", "time", "precision", "pairs", "outcomes", "curves", "trials"}))
+      ->option_text("success|sizes|time|precision|pairs|outcomes|curves|trials")
       ->take_all()
       ->allow_extra_args(false);
   command->add_flag("--plans", options->plans, "html: write all plans beside the page, and link each row to its plan")

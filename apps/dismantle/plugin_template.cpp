@@ -21,8 +21,10 @@ struct Template {
   const char* kind;
   const char* id;  // of the plugin that its files are written for
 };
-constexpr std::array kTemplates = {Template{"path_planner", "acme.lines"}, Template{"sequence_planner", "acme.in_turn"},
-                                   Template{"simulator", "acme.stepper"}, Template{"importer", "acme.facets"}};
+constexpr std::array kTemplates = {
+    Template{"path_planner", "acme.lines"},           Template{"sequence_planner", "acme.in_turn"},
+    Template{"simulator", "acme.stepper"},            Template{"importer", "acme.facets"},
+    Template{"transfer_planner", "acme.two_trees"},   Template{"immobility_prover", "acme.walled_in"}};
 /// What all kinds have in common is written for this plugin.
 constexpr const char* kCommonId = "acme.example";
 

@@ -8,6 +8,7 @@ import shutil
 import sqlite3
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 from benching import BenchTest
 
@@ -48,7 +49,7 @@ class Report(BenchTest):
 
     def test_merged_shards_are_the_whole(self):
         self.split(5)
-        for form in ("text", "markdown", "csv", "html"):
+        for form in ("text", "markdown", "csv", "svg", "html"):
             self.assertEqual(self.report("out", "--format", form), self.report("shards", "--format", form))
         # The same rows twice are the same rows.
         self.assertEqual(self.report("out", "--format", "csv"), self.report("out", "shards", "--format", "csv"))
@@ -70,9 +71,21 @@ class Report(BenchTest):
         mean = sum(float(r["seconds"]) / float(r["removed"]) for r in solved) / len(solved)
         self.assertIn(f"{mean:.3g} ({len(solved)})", self.report("out", "--table", "time"))
 
+        depths = sorted(float(r["deepest"]) for r in solved)
+        cells = self.report("out", "--table", "precision", "--format", "csv").splitlines()[1].split(",")
+        self.assertEqual(cells[:2], ["t_rrt", str(len(solved))])
+        for cell, depth in zip(cells[2:], (depths[0], depths[(len(depths) - 1) // 2], depths[-1])):
+            self.assertAlmostEqual(float(cell), depth, delta=0.06 * depth)
+
+    def test_the_picture_stands_alone(self):
+        root = xml.etree.ElementTree.fromstring(self.report("out", "--format", "svg"))
+        self.assertEqual(root.tag, "{http://www.w3.org/2000/svg}svg")
+        self.assertEqual(len([e for e in root.iter() if e.tag.endswith("path")]), 2)  # a curve for each planner
+        self.assertIn("exclude", self.call("report", "out", "--format", "svg", "--table", "time", status=2).stderr)
+
     def test_page_is_self_contained(self):
         page = self.report("out", "--format", "html")
-        self.assertNotRegex(page, r"https?:|src=|@import|url\(|<link")
+        self.assertNotRegex(page, r"https?:(?!//www\.w3\.org/2000/svg')|src=|@import|url\(|<link")
         self.assertIn("many &lt;&amp;&gt; |", page)
         self.assertIsNone(re.search(r"many <&>", page))
         self.assertIn("many <&> \\|", self.report("out", "--format", "markdown"))

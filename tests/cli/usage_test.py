@@ -51,7 +51,7 @@ class NewPlugin(CliTest):
     """What it writes is built and tried by tests/install."""
 
     def test_a_project_has_the_name_everywhere(self):
-        for kind in ("path_planner", "sequence_planner", "simulator", "importer"):
+        for kind in ("path_planner", "sequence_planner", "simulator", "importer", "transfer_planner", "immobility_prover"):
             done = self.run_program("plugins", "new", kind, "--kind", kind, "--name", "zeta.two_words.x", status=0)
             self.assertIn("zeta_two_words_x.cpp", done.stdout)
             files = [os.path.join(folder, name) for folder, _, names in os.walk(self.path(kind)) for name in names]

@@ -39,7 +39,8 @@ build("${SOURCE_DIR}/consumer" consumer)
 build("${SOURCE_DIR}/../plugins_good/acme_straight" acme_straight)
 
 # What `plugins new` writes is built, loaded, obeys the laws of its kind and passes its own tests, as it stands.
-foreach(project sequence_planner:foo.one_by_one simulator:foo.world.small importer:foo.text)
+foreach(project sequence_planner:foo.one_by_one simulator:foo.world.small importer:foo.text transfer_planner:foo.carry
+    immobility_prover:foo.held)
   string(REPLACE ":" ";" project "${project}")
   list(POP_FRONT project kind id)
   string(REPLACE "." "_" name "${id}")
@@ -110,6 +111,12 @@ if(EXISTS "${BUILD_DIR}/share/dismantle/viewer.html" AND NOT EXISTS "${WORK_DIR}
 endif()
 file(READ "${WORK_DIR}/plan/plan.json" plan)
 expect("${plan}" "partial")
+# The Python module, with the installed plugins, from a folder of its own.
+if(PYTHON)
+  run(out ${CMAKE_COMMAND} -E env "PYTHONPATH=${WORK_DIR}/dismantle/${PYTHON_DIR}" "${PYTHON}" -B
+    "${SOURCE_DIR}/use_module.py" "${WORK_DIR}/l_slot")
+  expect("${out}" "^${WORK_DIR}/dismantle/.*__init__.py")
+endif()
 # The first section of docs/write-a-planner.md, literally: a path planner from `plugins new` to a comparison with bfs.
 file(READ "${WORK_DIR}/dismantle/share/doc/dismantle/docs/write-a-planner.md" page)
 string(FIND "${page}" "## Ten minutes" begin)

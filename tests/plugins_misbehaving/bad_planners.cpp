@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dismantle/errors.h"
+#include "dismantle/executor.h"
 #include "dismantle/plugin.h"
 
 namespace {
@@ -103,6 +104,25 @@ PathResult abort_later(const PathQuery& query, RunContext& context) {
   std::abort();
 }
 
+/// Uses up the stack of its thread.
+unsigned descend(unsigned levels) {
+  if (levels == 0) return 0;
+  volatile char room[4096] = {};
+  room[levels % sizeof room] = 1;
+  return descend(levels - 1) + static_cast<unsigned>(room[0]);
+}
+constexpr unsigned kTooDeep = 10'000'000;
+
+/// On a thread of the executor where there is one.
+PathResult overflow(const PathQuery& query, RunContext& context) {
+  if (query.scene.fixed.size() > 2) return honest(query, context);
+  if (!context.executor) return PathResult::failure(descend(kTooDeep) == 0 ? Outcome::exhausted : Outcome::timeout);
+  unsigned sum = 0;
+  auto task = context.executor->submit([&] { sum = descend(kTooDeep); }, dismantle::Executor::Priority::fork_join);
+  task.wait();
+  return PathResult::failure(sum == 0 ? Outcome::exhausted : Outcome::timeout);
+}
+
 PathResult hang(const PathQuery& query, RunContext& context) {
   if (query.scene.fixed.size() > 2) return honest(query, context);
   static const char words[] = "bad.hang hangs\n";  // the test waits for it
@@ -163,6 +183,7 @@ DISMANTLE_PLUGIN("bad.planners", "1.0.0", "MIT", "https://example.org/bad") {
   r.add<PathPlanner, Planner<wrong_parts>>("bad.wrong_parts", "Claims a path of more parts than move.");
   r.add<PathPlanner, Planner<segfault>>("bad.segfault", "Crashes at the third-last part.");
   r.add<PathPlanner, Planner<abort_later>>("bad.abort", "Aborts at the third-last part.");
+  r.add<PathPlanner, Planner<overflow>>("bad.overflow", "Uses up its stack at the third-last part.");
   r.add<PathPlanner, Planner<hang>>("bad.hang", "Hangs at the third-last part.");
   r.add<PathPlanner, Planner<eat_memory>>("bad.memory", "Eats memory at the third-last part.");
   r.add<SequencePlanner, Sequence<Fault::throws>>("bad.sequence_throws", "Throws after one part.");

@@ -20,8 +20,9 @@ class WithBoxes(CliTest):
 
     def plan(self, planner, *more, status=4, kind="--path-planner"):
         order = () if kind == "--sequence-planner" else ("--sequence-planner", "progressive")
+        threads = () if "--threads" in more else ("--threads", "1")
         path = ("--path-planner", "bad.honest") if kind == "--sequence-planner" else ()
-        return self.run_program("plan", "in", "-o", "out", kind, planner, "--simulator", "fcl", "--threads", "1", "--format", "json", *order, *path, *more,
+        return self.run_program("plan", "in", "-o", "out", kind, planner, "--simulator", "fcl", "--format", "json", *threads, *order, *path, *more,
                                 status=status, env=ENV)
 
     def saved(self):
@@ -93,6 +94,12 @@ class Crashes(WithBoxes):
                 self.assertIn("--isolate", text)
                 self.assertIn(planner, text)
             self.assertEqual(result["plan"], "out/plan.json")
+            self.assertEqual(len(self.saved()["disassembly"]), 1)
+
+    def test_a_stack_that_overflows_on_any_thread(self):
+        for threads in ("1", "3"):
+            done = self.plan("bad.overflow", "--threads", threads)
+            self.check_message(done.stderr, "SIGSEGV")
             self.assertEqual(len(self.saved()["disassembly"]), 1)
 
     def test_isolated(self):

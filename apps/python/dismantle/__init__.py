@@ -14,12 +14,14 @@ from ._core import (Answer, Assembly, Capabilities, Certificate, Contacts, Force
 from ._bench import bench, read_results
 from ._errors import ConfigError, Diagnostic, Error, InputError, PluginError
 from ._planners import Parameter, PathPlanner, SequencePlanner, path_planner, sequence_planner
+from ._poses import compose, inverse, matrix, pose_of_matrix, transform
 from ._run import describe, plugins, resolved_config, run, verify
 
 __all__ = [
-    "Answer", "Assembly", "Capabilities", "Certificate", "ConfigError", "Contacts", "Diagnostic", "Error", "Forced", "InputError",
-    "Oracle", "Outcome", "Overlap", "Parameter", "Part", "PathCheck", "PathPlanner", "PathQuery", "PathResult", "Plan", "PluginError",
-    "RunContext", "SequencePlanner", "Simulator", "Step", "StepOverlap", "StepReport", "Unsolved", "Verification", "World", "bench",
-    "describe", "interpolate", "load_plugin", "path_planner", "plugin_problems", "plugins", "read_results", "resolved_config", "run",
-    "samples", "sequence_planner", "verify",
+    "Answer", "Assembly", "Capabilities", "Certificate", "ConfigError", "Contacts", "Diagnostic", "Error", "Forced",
+    "InputError", "Oracle", "Outcome", "Overlap", "Parameter", "Part", "PathCheck", "PathPlanner", "PathQuery",
+    "PathResult", "Plan", "PluginError", "RunContext", "SequencePlanner", "Simulator", "Step", "StepOverlap",
+    "StepReport", "Unsolved", "Verification", "World", "bench", "compose", "describe", "interpolate", "inverse",
+    "load_plugin", "matrix", "path_planner", "plugin_problems", "plugins", "pose_of_matrix", "read_results",
+    "resolved_config", "run", "samples", "sequence_planner", "transform", "verify",
 ]

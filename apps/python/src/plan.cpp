@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "dismantle/errors.h"
+#include "dismantle/plan_io/animation.h"
 #include "dismantle/plan_io/explain.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/summary.h"
@@ -72,6 +73,15 @@ void bind_plan(py::module_& m) {
           "write",
           [](const HeldPlan& self, const std::filesystem::path& file) { write_file(file, to_json(self.plan)); },
           py::arg("path"), "Writes plan.json; replaces the file as a whole.")
+      .def(
+          "write_glb",
+          [](const HeldPlan& self, const std::filesystem::path& file, const LoadedAssembly& loaded) {
+            const auto bytes = to_glb(self.plan, *loaded.assembly);
+            write_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+          },
+          py::arg("path"), py::arg("assembly"),
+          "Writes the animation as glTF binary, a node for each part, for viewers and Blender. assembly: the one that the "
+          "plan is for.")
       .def(
           "explain",
           [](const HeldPlan& self, const std::string& part) { return explain_text(explain(self.plan, {}, part)); },
@@ -156,6 +166,10 @@ void bind_plan(py::module_& m) {
           "dict of facts about the run that made it (outcome, interrupted, attempts, memoised, prepare_seconds, "
           "plan_seconds, proof_seconds, planner_counts, sequence_counts, precedence); empty for a plan that was "
           "read.")
+      .def(py::pickle([](const HeldPlan& self) { return py::make_tuple(to_json(self.plan), self.info); },
+                      [](const py::tuple& state) {
+                        return HeldPlan{plan_from_json(py::cast<std::string>(state[0]), "<pickle>"), py::cast<std::map<std::string, py::object>>(state[1])};
+                      }))
       .def("__repr__", [](const HeldPlan& self) {
         return fmt::format("<Plan of '{}': {}, {} steps, {} parts>", self.plan.assembly.source,
                            word_of(self.plan.status), self.plan.disassembly.size(), self.plan.assembly.parts.size());

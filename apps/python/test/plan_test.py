@@ -1,4 +1,6 @@
+import copy
 import json
+import pickle
 import re
 
 import numpy as np
@@ -159,3 +161,26 @@ def test_interpolation_is_a_screw_motion():
         u = rng.uniform()
         there, back = dismantle.interpolate(a, b, u), dismantle.interpolate(b, a, 1 - u)
         assert np.allclose(there[:3], back[:3]) and abs(abs(there[3:] @ back[3:]) - 1) < 1e-9
+
+
+def test_a_plan_goes_to_other_processes_and_back(box):
+    plan = dismantle.run(box, seed=3)
+    for again in (pickle.loads(pickle.dumps(plan)), copy.deepcopy(plan)):
+        assert again.to_json() == plan.to_json() and again.info == plan.info
+    outcome = dismantle.Outcome.infeasible
+    assert pickle.loads(pickle.dumps(outcome)) == outcome
+    with pytest.raises(dismantle.ConfigError) as error:
+        dismantle.run(box, set={"path_planner.type": "bsf"})
+    again = pickle.loads(pickle.dumps(error.value))
+    assert str(again) == str(error.value) and again.diagnostics == error.value.diagnostics
+
+
+def test_the_animation_is_gltf(box, peg, tmp_path):
+    plan = dismantle.run(box, seed=1)
+    plan.write_glb(tmp_path / "plan.glb", box)
+    data = (tmp_path / "plan.glb").read_bytes()
+    assert data[:4] == b"glTF" and int.from_bytes(data[8:12], "little") == len(data)
+    content = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+    assert {n["name"] for n in content["nodes"]} >= set(box.names)
+    with pytest.raises(dismantle.InputError):
+        plan.write_glb(tmp_path / "other.glb", peg)

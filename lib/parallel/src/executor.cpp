@@ -1,5 +1,7 @@
 #include "dismantle/executor.h"
 
+#include <signal.h>
+
 #include <array>
 #include <chrono>
 #include <condition_variable>
@@ -10,6 +12,31 @@
 #include <utility>
 
 namespace dismantle {
+namespace {
+
+/// Where handlers of signals run (SA_ONSTACK) in a thread whose own stack may be what has overflowed. Without one, such a
+/// thread ends the process before any handler can say why.
+class SignalStack {
+ public:
+  SignalStack() {
+    stack_t stack = {};
+    stack.ss_sp = memory_.data();
+    stack.ss_size = memory_.size();
+    ::sigaltstack(&stack, nullptr);
+  }
+  ~SignalStack() {
+    stack_t none = {};
+    none.ss_flags = SS_DISABLE;
+    ::sigaltstack(&none, nullptr);
+  }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+
+ private:
+  std::vector<char> memory_ = std::vector<char>(1 << 16);
+};
+
+}  // namespace
 
 struct Executor::Task {
   enum class State : char { queued, running, done, withdrawn };
@@ -79,6 +106,7 @@ struct Executor::Pool {
   // Without it.
 
   void help() {
+    const SignalStack stack;
     std::unique_lock lock(mutex);
     while (true) {
       ++asleep;

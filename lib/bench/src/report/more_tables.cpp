@@ -86,6 +86,30 @@ Table pairs_table(const std::vector<Contender>& contenders) {
   return table;
 }
 
+Table precision_table(const std::vector<Contender>& contenders) {
+  Table table;
+  table.id = "precision";
+  table.title = "Precision of the plans";
+  table.note =
+      "Deepest penetration of a plan's parts beyond their overlap when assembled, certified by the verifier over the "
+      "whole motion; of an assembly scaled to size 10. Solved trials; the tolerance of the verifier is the suite's.";
+  table.columns = {"planner", "plans", "smallest", "median", "largest"};
+  for (const auto& c : contenders) {
+    std::vector<double> depths;
+    for (const ReportRow* row : c.rows)
+      if (row->solved && row->max_penetration) depths.push_back(*row->max_penetration);
+    std::sort(depths.begin(), depths.end());
+    std::vector<TableCell> out = {text(c.label), whole(depths.size())};
+    if (depths.empty())
+      out.insert(out.end(), 3, text("-"));
+    else
+      for (const std::size_t at : {std::size_t{0}, (depths.size() - 1) / 2, depths.size() - 1})
+        out.push_back(number(depths[at], "{:.2g}"));
+    table.rows.push_back(std::move(out));
+  }
+  return table;
+}
+
 Table outcomes_table(const std::vector<Contender>& contenders) {
   Table table;
   table.id = "outcomes";

@@ -7,6 +7,8 @@ namespace dismantle::bench {
 
 /// Two planners of one variant on what both solved.
 Table pairs_table(const std::vector<Contender>& contenders);
+/// How deep parts cut into each other along the plans.
+Table precision_table(const std::vector<Contender>& contenders);
 /// How trials ended.
 Table outcomes_table(const std::vector<Contender>& contenders);
 /// The curves at a few times.

@@ -69,12 +69,15 @@ std::string colour_of(std::size_t i) {
   return colours[i % std::size(colours)];
 }
 
-std::string svg_of(const std::vector<Curve>& curves) {
+std::string svg_of(const std::vector<Curve>& curves, const std::string& style) {
   const Axes axes = axes_of(curves);
-  const double height = kTop + kHeight + 40 + kLegend * double(curves.size());
-  std::string out =
-      fmt::format("<svg viewBox='0 0 {:.0f} {:.0f}' role='img' aria-label='Share of trials solved over time'>\n",
-                  kLeft + kWidth + 24, height);
+  const double width = kLeft + kWidth + 24, height = kTop + kHeight + 40 + kLegend * double(curves.size());
+  std::string out = fmt::format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' role='img' "
+      "aria-label='Share of trials solved over time'>\n",
+      width, height);
+  if (!style.empty())
+    out += fmt::format("<style>{}</style>\n<rect width='{:.0f}' height='{:.0f}' class='page'/>\n", style, width, height);
   out += grid(axes);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string look = fmt::format("stroke='{}'{}", colour_of(i), i >= 8 ? " stroke-dasharray='6 4'" : "");
@@ -89,6 +92,12 @@ std::string svg_of(const std::vector<Curve>& curves) {
     out += fmt::format("<text x='{:.1f}' y='{:.1f}'>{}</text>\n", kLeft + 36, y + 4, label);
   }
   return out + "</svg>\n";
+}
+
+std::string report_svg(const ReportData& data) {
+  return svg_of(curves_of(data),
+                "text { font: 12px sans-serif; fill: #222 } .page { fill: #fff } .grid { stroke: #ccc } "
+                ".curve { fill: none; stroke-width: 2.2 }");
 }
 
 }  // namespace dismantle::bench

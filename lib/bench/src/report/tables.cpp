@@ -98,6 +98,7 @@ std::vector<Table> tables_of(const ReportData& data, const std::string& plans) {
       "by the "
       "number of parts that came out. Planners that solve more also solve harder ones: see the pairs for a fair "
       "comparison.";
+  out.push_back(precision_table(contenders));
   out.push_back(pairs_table(contenders));
   out.push_back(outcomes_table(contenders));
   out.push_back(curves_table(data));

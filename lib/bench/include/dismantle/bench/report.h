@@ -53,7 +53,7 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// success, sizes, time, pairs, outcomes, curves, trials. `plans`: folder with the plans, relative to the page; empty:
+/// success, sizes, time, precision, pairs, outcomes, curves, trials. `plans`: folder with the plans, relative to the page; empty:
 /// none.
 DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::string& plans = "");
 
@@ -82,6 +82,8 @@ DISMANTLE_API std::string report_text(const ReportData& data, const std::vector<
 DISMANTLE_API std::string report_markdown(const ReportData& data, const std::vector<Table>& tables);
 /// One table after the other, with an empty line between; RFC 4180.
 DISMANTLE_API std::string report_csv(const std::vector<Table>& tables);
+/// The curves as one picture.
+DISMANTLE_API std::string report_svg(const ReportData& data);
 /// One file that needs nothing else.
 DISMANTLE_API std::string report_html(const ReportData& data, const std::vector<Table>& tables);
 
