@@ -121,7 +121,20 @@ class Results:
         return output_of(self.program, "report", self.folder, "--format", form, *more)
 
     def table(self, name):
-        return list(csv.reader(io.StringIO(self.report("csv", "--table", name))))
+        rows = list(csv.reader(io.StringIO(self.report("csv", "--table", name))))
+        if len(rows[0]) == 3 and rows[0][2] == "overall":  # of one category
+            rows = [row[:2] for row in rows]
+        return rows
+
+    def best(self, most=4):
+        """Who solved most, in words."""
+        solved, given = {}, {}
+        for t in self.trials:
+            if t["variant"] == "plain":
+                given[t["planner"]] = given.get(t["planner"], 0) + 1
+                solved[t["planner"]] = solved.get(t["planner"], 0) + (t["solved"] == "yes")
+        order = sorted(solved, key=lambda planner: -solved[planner])  # stable: as in the suite
+        return ", ".join(f"`{p}` {solved[p]} of {given[p]}" for p in order[:most])
 
     def seconds(self):
         return sum(float(t["wall s"]) for t in self.trials)
@@ -134,6 +147,7 @@ def main():
     parser.add_argument("--work", default=os.path.join(ROOT, "build/results"), help="folder of the databases")
     parser.add_argument("--suites", default=os.path.join(ROOT, "configs/bench"), help="folder of results_*.yaml: other limits, more seeds")
     parser.add_argument("--out", default=os.path.join(ROOT, "docs/results"))
+    parser.add_argument("--note", default="", help="what a reader has to know of this run, such as other jobs on the machine")
     parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; more than one disturb each other's times")
     arguments = parser.parse_args()
     if arguments.data:
@@ -146,7 +160,7 @@ def main():
         seconds, trials = seconds + results.seconds(), trials + len(results.trials)
         refused += sum(t["solved"] == "no" and t["outcome"] == "solved" for t in results.trials)
         assemblies = list(dict.fromkeys(t["assembly"] for t in results.trials))
-        text += f"\n## {title}\n\n{words} {len(assemblies)} assemblies, {len(results.trials)} trials: {', '.join(assemblies)}.\n"
+        text += f"\n## {title}\n\n{words} {len(assemblies)} assemblies, {len(results.trials)} trials: {', '.join(assemblies)}. Most solved: {results.best()}.\n"
         for table, heading, paper in tables:
             text += f"\n### {heading}\n\n{markdown(results.table(table))}\n{paper}"
         text += f"\n### Success over time\n\n![Share of trials solved within a time]({name}.svg)\n"
@@ -169,7 +183,7 @@ tools/make_results.py --data DIR
 | commit | {commit_of(ROOT)} |
 | program | {output_of(arguments.program, "--version").splitlines()[0]} |
 | machine | {machine()} |
-| run | one thread for each trial, {arguments.jobs} trial{"s" if arguments.jobs > 1 else ""} at a time; {trials} trials, {seconds / 60:.0f} minutes in all |
+| run | one thread for each trial, {arguments.jobs} trial{"s" if arguments.jobs > 1 else ""} at a time; {trials} trials, {seconds / 60:.0f} minutes in all{"; " + arguments.note if arguments.note else ""} |
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
 finds the plan valid; {refused} trials were claimed and refused. In brackets: the 95 % interval of Wilson, then solved/trials. Limits are seconds of wall

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 
@@ -93,7 +94,10 @@ TEST(Registry, BareIdsBelongToTheBuiltInFolder) {
     EXPECT_NE(registry.problems()[k].message.find("must carry a dot"), std::string::npos);
   Registry dotted(kAcme);  // and dots do not belong there
   dotted.scan();
-  ASSERT_EQ(dotted.problems().size(), 6u);
+  const auto plugins = std::count_if(fs::directory_iterator(kAcme), fs::directory_iterator(),
+                                     [](const auto& entry) { return entry.path().extension() == ".so"; });
+  ASSERT_GE(plugins, 8);
+  ASSERT_EQ(dotted.problems().size(), static_cast<std::size_t>(plugins));
   for (const auto& problem : dotted.problems())
     EXPECT_NE(problem.message.find("has a dot in its id"), std::string::npos);
 }

@@ -6,6 +6,7 @@
 
 namespace dismantle {
 
+/// Axis-aligned box; empty (`lo` above `hi`) until it is extended.
 struct Aabb {
   Eigen::Vector3d lo = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d hi = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());

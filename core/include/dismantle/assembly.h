@@ -55,6 +55,7 @@ struct SurfaceRepair {
   bool operator==(const SurfaceRepair&) const = default;
 };
 
+/// A part of the input that is not part of the assembly, and why.
 struct ExcludedPart {
   std::string name;
   std::string reason;
@@ -81,6 +82,7 @@ struct InitialOverlap {
   }
 };
 
+/// What is planned: parts in assembled position, and how they relate to the input.
 struct Assembly {
   std::string source;  ///< as the user named it
   std::string sha256;  ///< of the input files' bytes, in name order

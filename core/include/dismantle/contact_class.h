@@ -10,6 +10,7 @@
 
 namespace dismantle {
 
+/// How two parts are in each other when assembled (docs/concepts.md).
 enum class ContactClass {
   clearance,             ///< near, and apart everywhere
   kissing,               ///< they touch without an overlap
@@ -19,7 +20,9 @@ enum class ContactClass {
   inside,                ///< one lies in the solid of the other
 };
 
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(ContactClass contact);
+/// The class of that word; nothing for other words.
 DISMANTLE_API std::optional<ContactClass> contact_class_from_string(std::string_view text);
 
 /// Where two parts overlap, and how. The unit and the frame are those of the struct that holds it.

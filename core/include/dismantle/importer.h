@@ -25,6 +25,7 @@ struct RawPart {
   std::string problem{};               ///< not empty: it cannot be used, and why; `mesh` is ignored
 };
 
+/// Reads files of some formats into raw parts.
 class DISMANTLE_API Importer {
  public:
   virtual ~Importer();

@@ -10,6 +10,7 @@
 
 namespace dismantle {
 
+/// Indices of three vertices, counter-clockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// Indexed triangles with shared vertices; counter-clockwise seen from outside.

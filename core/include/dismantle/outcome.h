@@ -8,6 +8,7 @@
 
 namespace dismantle {
 
+/// How an attempt, a search or a run ended.
 enum class Outcome {
   solved,
   start_is_goal,  ///< nothing to do: the part is out already
@@ -21,8 +22,11 @@ enum class Outcome {
   crashed,        ///< the plugin threw; set by the oracle only
 };
 
+/// True for `solved` and `start_is_goal`.
 constexpr bool is_success(Outcome o) { return o == Outcome::solved || o == Outcome::start_is_goal; }
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(Outcome o);
+/// The outcome of that word; nothing for other words.
 DISMANTLE_API std::optional<Outcome> outcome_from_string(std::string_view text);
 
 }  // namespace dismantle

@@ -12,7 +12,9 @@
 namespace dismantle {
 
 struct PluginChoice;
+/// The value of one parameter.
 using ParamValue = std::variant<bool, std::int64_t, double, std::string, PluginChoice, std::vector<PluginChoice>>;
+/// Values of parameters by name.
 using ParamSet = std::map<std::string, ParamValue>;
 
 /// A plugin type that was chosen: `{type: tunnel_forest, tunnels: 10, after: 30000}` in YAML.

@@ -21,11 +21,13 @@ namespace dismantle {
 /// `plugin`: one PluginChoice; `plugins`: a list of them.
 enum class ParamType { boolean, integer, number, text, choice, plugin, plugins };
 
+/// One allowed value of a parameter of type choice.
 struct ParamChoice {
   std::string name;
   std::string doc;
 };
 
+/// The declaration of one parameter, for checks, descriptions and the reference.
 struct ParamSpec {
   std::string name;  ///< [a-z][a-z0-9_]*
   ParamType type = ParamType::number;
@@ -60,6 +62,7 @@ struct ParamTraits {
   std::string doc;
 };
 
+/// A value of an enumeration with its name in configurations.
 template <class E>
 struct EnumChoice {
   std::string name;

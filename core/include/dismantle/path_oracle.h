@@ -51,6 +51,7 @@ struct AttemptResult {
   double proof_seconds = 0;  ///< spent on proofs; not part of `seconds`
 };
 
+/// What an oracle has done so far.
 struct OracleCounts {
   std::uint64_t attempts = 0;   ///< answered by planning
   std::uint64_t memoised = 0;   ///< answered from memory

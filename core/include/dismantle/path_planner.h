@@ -176,6 +176,7 @@ struct PathPlannerTraits {
   bool resumable = false;            ///< uses PathQuery::resume_from and fills PathResult::state
 };
 
+/// What a portion of a search came to.
 enum class SearchStatus {
   solved,     ///< a path was found, or there is nothing to do
   paused,     ///< the portion is used up; another run() goes on

@@ -42,6 +42,7 @@ struct PlanStepOverlap {
   double depth = 0;         ///< the deepest along the step, input units, measured
 };
 
+/// One step: parts that move, and what that separates.
 struct PlanStep {
   unsigned step = 0;  ///< from 1
   std::vector<PlanMove> moves;
@@ -70,6 +71,7 @@ struct PlanPlace {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< input units, world
 };
 
+/// A part that is left, and why.
 struct PlanUnsolved {
   std::string part;
   Outcome outcome = Outcome::exhausted;
@@ -95,6 +97,7 @@ struct PlanCertificate {
   std::string text;
 };
 
+/// A part of the assembly, as the plan file names it.
 struct PlanPart {
   unsigned id = 0;
   std::string name;
@@ -103,6 +106,7 @@ struct PlanPart {
   std::vector<std::string> parents{};  ///< assemblies of its file that it is in, outermost first
 };
 
+/// Two parts that are in each other when assembled.
 struct PlanOverlap {
   std::string a, b;
   double depth = 0;                     ///< assembly units
@@ -110,6 +114,7 @@ struct PlanOverlap {
   std::optional<double> declared{};     ///< depth that the user allows this pair; assembly units
 };
 
+/// The assembly that a plan is for, as the plan file states it.
 struct PlanAssembly {
   std::string source, sha256;
   double scale = 1;                                  ///< assembly units per input unit
@@ -123,6 +128,7 @@ struct PlanAssembly {
   std::vector<PlanOverlap> overlaps;
 };
 
+/// How much of the assembly a plan takes apart.
 enum class PlanStatus {
   complete,  ///< every group is down to one part, by verified steps only
   forced,    ///< every group is down to one part, some steps are forced
@@ -136,6 +142,7 @@ enum class AssemblyStatus {
   reversed,  ///< the disassembly backwards and nothing more: no layout was asked for
 };
 
+/// How an assembly comes apart and is put together: what plan.json holds (docs/plan-format.md).
 struct Plan {
   std::string generator_name = "dismantle";
   std::string generator_version;

@@ -20,6 +20,7 @@ using PluginMaker = std::function<std::shared_ptr<void>(PluginKind, const Plugin
 template <class Interface>
 class PluginRef {
  public:
+  /// What the plugin is used as.
   using interface_type = Interface;
   static constexpr PluginKind kind = PluginKindOf<Interface>::value;
 
@@ -44,8 +45,10 @@ class PluginRef {
   PluginMaker make_;
 };
 
+/// True for PluginRef types.
 template <class T>
 inline constexpr bool is_plugin_ref = false;
+/// True for PluginRef types.
 template <class Interface>
 inline constexpr bool is_plugin_ref<PluginRef<Interface>> = true;
 

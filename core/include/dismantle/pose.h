@@ -32,6 +32,7 @@ DISMANTLE_API double angle_between(const Eigen::Quaterniond& a, const Eigen::Qua
 
 /// Rotation vector (axis times angle in [0, pi]) of q.
 DISMANTLE_API Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& q);
+/// The rotation about `w` by its length in radians; inverse of rotation_vector().
 DISMANTLE_API Eigen::Quaterniond rotation_from_vector(const Eigen::Vector3d& w);
 
 /// Pose at u in [0, 1] on the constant screw motion from a (u = 0) to b (u = 1), by the shorter turn.

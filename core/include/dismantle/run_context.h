@@ -16,6 +16,7 @@ namespace dismantle {
 /// Point in time after which work should stop; default: never.
 class DISMANTLE_API Deadline {
  public:
+  /// Never goes back.
   using Clock = std::chrono::steady_clock;
   Deadline() = default;
   static Deadline after_seconds(double s);
@@ -57,6 +58,7 @@ class DISMANTLE_API Rng {
 
 class Executor;
 
+/// How important a message is.
 enum class LogLevel { debug, info, warning, error };
 
 /// Progress of a phase ("prepare", "fields", "sequence", ...). done <= total; total 0 = unknown.

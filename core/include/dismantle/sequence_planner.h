@@ -17,6 +17,7 @@ struct Removal {
   const AttemptResult* attempt = nullptr;
 };
 
+/// A part that is left, and why.
 struct Unsolved {
   PartId part = 0;
   Outcome outcome = Outcome::exhausted;
@@ -26,6 +27,7 @@ struct Unsolved {
   const Certificate* certificate = nullptr;  ///< of the oracle: proof that it cannot leave
 };
 
+/// What a sequence planner gave.
 struct SequenceResult {
   /// solved: every group is down to one part, or to what the constraints keep together, or the target is out.
   Outcome outcome = Outcome::crashed;

@@ -16,6 +16,7 @@
 
 namespace dismantle {
 
+/// What a moving part may do.
 enum class MotionSpace {
   translation,  ///< R3: orientation is locked
   rigid,        ///< SE(3)
@@ -29,6 +30,7 @@ struct Capabilities {
   unsigned max_moving = 1;  ///< largest number of parts that may move at once
 };
 
+/// A part, and where it is.
 struct PlacedPart {
   PartId part = 0;
   Pose pose;
@@ -65,6 +67,7 @@ struct Action {
   bool in_body_frame = false;  ///< the wrenches turn with their bodies: given in the axes of the part, not of the world
 };
 
+/// One point of contact of a moving part with another part.
 struct Contact {
   PartId moving = 0;
   PartId other = 0;
@@ -79,6 +82,7 @@ struct Contact {
 /// within the simulator's accuracy. One vector<Pose> per recorded instant, entries as Scene::moving.
 using Trace = std::vector<std::vector<Pose>>;
 
+/// What World::advance did.
 struct StepReport {
   std::uint64_t steps = 0;  ///< time steps simulated
   double travel = 0;        ///< largest displacement of any point of a moving part, from begin to end pose

@@ -29,6 +29,7 @@ class SpeculativeCache {
   /// context of a speculative computation has the executor, a deadline and a cancellation flag, but no sinks for
   /// progress and log.
   using Compute = std::function<Value(const RunContext&)>;
+  /// A value that may be asked for soon.
   struct Request {
     Key key;
     Compute compute;

@@ -71,6 +71,7 @@ struct Truth {
   std::vector<TruthContact> contacts;                           ///< all other pairs keep the clearance
 };
 
+/// A sample: its parts and what is known of them.
 struct Model {
   std::vector<RawPart> parts;  ///< names are file names without ".obj"
   Truth truth;

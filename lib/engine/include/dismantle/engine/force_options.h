@@ -3,8 +3,10 @@
 
 namespace dismantle {
 
+/// When forced steps are made.
 enum class ForceWhen { off, last_resort };
 
+/// When parts without a verified path are taken out by force, and what that may cost.
 struct ForceOptions {
   ForceWhen when = ForceWhen::off;
   double share = 0.35;       ///< of the time of the run, (0, 1): kept for forced steps

@@ -12,8 +12,10 @@
 
 namespace dismantle {
 
+/// A direction along an axis.
 enum class Up { x, y, z };
 
+/// Where parts lie before they are put together.
 struct LayoutOptions {
   bool enabled = true;  ///< false: assembly steps begin where the disassembly left the parts
   Up up = Up::z;        ///< normal of the plane that parts are laid out on

@@ -8,6 +8,7 @@
 
 namespace dismantle {
 
+/// When immobility provers are asked; defaults and docs are in describe().
 struct ProofOptions {
   unsigned low_effort_depth = 3;
   unsigned medium_effort_depth = 4;

@@ -41,6 +41,7 @@ struct PlanningSetup {
   std::vector<NamedProver> provers{};  ///< in the order of asking; empty: nothing is proved
 };
 
+/// Limits and switches of one run.
 struct RunOptions {
   double path_timeout = 120;     ///< seconds per attempt, 0 = none
   std::uint64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
@@ -56,6 +57,7 @@ struct RunOptions {
   Constraints constraints;
 };
 
+/// What a run gave.
 struct RunResult {
   Plan plan;
   Outcome outcome = Outcome::crashed;

@@ -24,6 +24,7 @@ struct Limits {
   double most() const { return overlap + penetration; }
 };
 
+/// What the check of one direction says.
 enum class Answer {
   certified,
   violated,   ///< a point beyond its limit was found
@@ -31,6 +32,7 @@ enum class Answer {
   exhausted,  ///< neither, within the budget
 };
 
+/// The answer of the check of one direction, and the place where it fails.
 struct Finding {
   Answer answer = Answer::certified;
   // Unless certified:

@@ -17,6 +17,7 @@ namespace dismantle::geometry {
 inline Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
 }
+/// Normal of the triangle times its area.
 inline Eigen::Vector3d area_vector(const Mesh& mesh, std::size_t triangle) {
   const Eigen::Vector3d& a = mesh.vertex(triangle, 0);
   return (mesh.vertex(triangle, 1) - a).cross(mesh.vertex(triangle, 2) - a);

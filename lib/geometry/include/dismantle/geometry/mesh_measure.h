@@ -16,6 +16,7 @@ namespace dismantle {
 /// Enclosed volume by the divergence theorem, about the centre of the box; negative when inside out.
 /// Meaningful only for closed meshes. Shells add up, voids (inward shells) subtract.
 DISMANTLE_API double signed_volume(const Mesh& mesh);
+/// Sum of the areas of all triangles.
 DISMANTLE_API double surface_area(const Mesh& mesh);
 DISMANTLE_API double longest_edge(const Mesh& mesh);  ///< 0 for an empty mesh
 
@@ -27,6 +28,7 @@ struct EdgeUse {
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< middle of the first open (else inconsistent) edge
   bool closed() const { return open == 0 && inconsistent == 0; }
 };
+/// How often edges are used by triangles, in each sense.
 DISMANTLE_API EdgeUse edge_use(const Mesh& mesh);
 
 /// Shell of each triangle: connected through shared edges; numbered by first triangle. The mesh must be welded.

@@ -12,6 +12,7 @@
 
 namespace dismantle {
 
+/// What welding the vertices did.
 struct WeldResult {
   std::size_t merged = 0;      ///< vertices merged into equal or close ones
   std::size_t unused = 0;      ///< vertices dropped since no triangle uses them
@@ -24,6 +25,7 @@ struct WeldResult {
 /// with two equal corners and unused vertices. Keeps the order of what stays.
 DISMANTLE_API WeldResult weld(Mesh& mesh, double tolerance);
 
+/// What drop_duplicate_faces() did.
 struct DuplicateFaces {
   std::size_t repeated = 0;   ///< copies dropped of triangles that were there before
   std::size_t cancelled = 0;  ///< triangles dropped in pairs of opposite sense: walls without thickness
@@ -36,12 +38,14 @@ DISMANTLE_API DuplicateFaces drop_duplicate_faces(Mesh& mesh);
 /// Returns the number of triangles split.
 DISMANTLE_API std::size_t close_t_junctions(Mesh& mesh, double tolerance);
 
+/// Up to which size holes are filled.
 struct HoleLimits {
   double max_area_share = 0.1;  ///< of the mesh's surface area
   std::size_t max_edges = 1000;
   double max_unevenness = 0.05;  ///< distance of the rim from its best plane, share of its extent, to count as flat
   std::size_t max_uneven_edges = 200;  ///< of rims that are not flat
 };
+/// A hole of a mesh, filled or not.
 struct Hole {
   bool filled = false;
   std::size_t edges = 0;
@@ -54,6 +58,7 @@ struct Hole {
 /// made of triangles of rim vertices. Neighbouring triangles must be oriented alike.
 DISMANTLE_API std::vector<Hole> fill_holes(Mesh& mesh, const HoleLimits& limits);
 
+/// What orienting the triangles did.
 struct OrientResult {
   std::size_t flipped = 0;    ///< triangles turned
   std::size_t membranes = 0;  ///< triangles dropped: outside or inside of the solid on both sides
@@ -65,6 +70,7 @@ struct OrientResult {
 /// unchanged.
 DISMANTLE_API OrientResult orient_outward(Mesh& mesh);
 
+/// What sorting the closed shells of a mesh did.
 struct ShellResult {
   std::size_t shells = 0;
   std::size_t voids = 0;         ///< inward shells inside a solid

@@ -16,6 +16,7 @@
 
 namespace dismantle::geometry {
 
+/// One triangle of a part, as the sweep tests see it.
 struct Patch {
   Corners p;       ///< frame of its part
   Corners inward;  ///< displacement of the vertex rule for a unit of depth, lengths <= 1
@@ -46,6 +47,7 @@ struct Probe {
   /// Takes over every corner that is deeper in `other`.
   void deepen(const Probe& other);
 };
+/// How a patch that is placed lies against another solid.
 Probe probe(const Patch& patch, const Placement& place, const Solid& other);
 /// Corners moved the shortest way out and half of what `depth` leaves over beyond the surface, and across that by the
 /// vertex rule; none by more than `depth`.
@@ -56,6 +58,7 @@ struct Escape {
   double depth;         ///< > 0 inside, < 0 outside; distance to the surface
   Eigen::Vector3d out;  ///< unit: the shortest way out
 };
+/// Where `point` is with respect to `solid`.
 Escape escape_at(const Eigen::Vector3d& point, const Solid& solid);
 
 /// An edge of the patch whose ends have different ways out, and the place on it where both ways are equally long: there
@@ -65,8 +68,10 @@ struct Ridge {
   std::size_t edge;
   double t;
 };
+/// True when the probed point is on a ridge.
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe);
 
+/// The corners at a placement.
 Corners placed(const Placement& place, const Corners& p);
 
 }  // namespace dismantle::geometry

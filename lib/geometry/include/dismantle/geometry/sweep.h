@@ -9,8 +9,10 @@
 
 namespace dismantle::geometry {
 
+/// Corners of a triangle.
 using Corners = std::array<Eigen::Vector3d, 3>;
 
+/// What a sweep found.
 enum class Sighting {
   far,      ///< clear, and apart from the whole box of the hierarchy
   clear,    ///< certainly meets no triangle

@@ -18,6 +18,7 @@ namespace dismantle {
 DISMANTLE_API Eigen::Vector3d closest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
+/// The point of a surface that is closest to a given one.
 struct ClosestPoint {
   double distance = std::numeric_limits<double>::infinity();  ///< >= 0
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -29,6 +30,7 @@ struct ClosestPoint {
 /// overlapping shells count as their union and a void with inward normals counts as outside.
 class DISMANTLE_API TriangleBvh {
  public:
+  /// A box of the hierarchy.
   struct Node {
     Aabb box;
     std::uint32_t first = 0;  ///< leaf: first entry of order(); inner: index of the right child (left is next)

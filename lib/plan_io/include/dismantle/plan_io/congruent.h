@@ -10,6 +10,7 @@
 
 namespace dismantle {
 
+/// A part as a copy of an earlier one.
 struct ShapePlacement {
   std::size_t original = 0;  ///< index of the first part of this shape; the part's own if there is none before it
   Pose pose;                 ///< takes the original, assembled, to this part, assembled; assembly units

@@ -29,6 +29,7 @@ DISMANTLE_API std::string step_order_graphml(const Plan& plan);
 /// has verified it: nodes are the sets of parts that exist as one piece at some time, a hyperarc is a step that takes
 /// one of them apart. A plan is one solution, so a set has one hyperarc at most. Format "dismantle.and_or".
 DISMANTLE_API std::string and_or_json(const Plan& plan);
+/// The AND/OR graph of the plan's separations, for Graphviz.
 DISMANTLE_API std::string and_or_dot(const Plan& plan);
 
 /// Tables of GitHub's Markdown: the steps with direction, distance and what they wait for; what stays and what is

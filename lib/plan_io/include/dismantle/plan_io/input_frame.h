@@ -12,6 +12,7 @@
 
 namespace dismantle {
 
+/// Unit and axes of the input.
 struct InputFrame {
   std::string unit;         ///< "mm", "inch"...
   bool unit_known = false;  ///< false: the files name none, and `unit` is the usual one of CAD, "mm" (of glTF: "m")
@@ -29,6 +30,7 @@ DISMANTLE_API double metres_in(std::string_view unit);
 
 /// @throws InputError as metres_in().
 DISMANTLE_API InputFrame input_frame(const Assembly& assembly);
+/// Unit and up direction of the files that a plan is for.
 DISMANTLE_API InputFrame input_frame(const PlanAssembly& assembly);
 
 }  // namespace dismantle

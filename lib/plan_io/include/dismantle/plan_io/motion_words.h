@@ -10,6 +10,7 @@
 
 namespace dismantle {
 
+/// A motion as a reader sees it: straight legs and turns.
 struct MotionSummary {
   /// Displacements of the point along the straight legs of its path, input units. Empty when it stays where it is.
   std::vector<Eigen::Vector3d> legs;

@@ -9,7 +9,9 @@
 
 namespace dismantle {
 
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(PlanStatus status);
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(AssemblyStatus status);
 /// Same plan, same bytes. Times are the only fields that vary between runs.
 DISMANTLE_API std::string to_json(const Plan& plan);

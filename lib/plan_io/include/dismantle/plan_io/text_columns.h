@@ -26,6 +26,7 @@ inline std::size_t column_of(std::size_t so_far, const std::string& name) {
   return std::max({so_far, std::size_t{4}, std::min<std::size_t>(width_of(name), 40)});
 }
 
+/// The names with commas between them.
 inline std::string joined(const std::vector<std::string>& names) {
   std::string out;
   for (const auto& name : names) out += (out.empty() ? "" : ", ") + name;
@@ -44,6 +45,7 @@ inline std::string names_of(const PlanStep& step) {
   return joined(names);
 }
 
+/// Columns for the parts of a step, so that all steps fit.
 inline std::size_t widest_step(const Plan& plan) {
   std::size_t width = 4;
   for (const auto& step : plan.disassembly) width = column_of(width, names_of(step));

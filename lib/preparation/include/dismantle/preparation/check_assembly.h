@@ -14,6 +14,7 @@
 
 namespace dismantle {
 
+/// What a finding is about.
 enum class FindingKind {
   unusable,   ///< the part cannot be planned with: not closed, no volume, unreadable numbers
   repaired,   ///< its surface had to be changed
@@ -24,12 +25,14 @@ enum class FindingKind {
   isolated,   ///< it touches no other part
 };
 
+/// How bad a finding is.
 enum class Severity {
   note,     ///< nothing to do
   warning,  ///< planning works, but its result may mislead
   error,    ///< a part is missing from the plan, or a pair hides a collision
 };
 
+/// One thing that is wrong with an input, or worth knowing.
 struct Finding {
   FindingKind kind = FindingKind::unusable;
   Severity severity = Severity::error;
@@ -49,6 +52,7 @@ struct CheckedContact {
   OverlapPlace place;  ///< input units; only its class where they do not overlap
 };
 
+/// What check_assembly() says of an input.
 struct AssemblyCheck {
   std::vector<Finding> findings;  ///< errors first, then warnings, then notes; deeper overlaps first
   std::size_t parts = 0;          ///< in the input
@@ -66,7 +70,9 @@ DISMANTLE_API AssemblyCheck check_assembly(const Assembly& assembly, const Prepa
 /// What the report alone tells: for an input of which no assembly could be made.
 DISMANTLE_API AssemblyCheck check_parts(const PrepareReport& report);
 
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(FindingKind kind);
+/// The word that files and messages use.
 DISMANTLE_API std::string_view to_string(Severity severity);
 /// For a terminal; UTF-8, ends with a line break.
 DISMANTLE_API std::string findings_text(const AssemblyCheck& check, const std::string& source);

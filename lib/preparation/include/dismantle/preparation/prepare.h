@@ -41,6 +41,7 @@ struct PartReport {
   double volume = 0;  ///< input units cubed
 };
 
+/// What preparation did with the input.
 struct PrepareReport {
   std::vector<PartReport> parts;           ///< all that came in, in order
   std::vector<std::string> warnings;       ///< about the assembly as a whole

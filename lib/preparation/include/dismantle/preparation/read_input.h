@@ -14,6 +14,7 @@
 
 namespace dismantle {
 
+/// Limits for reading files.
 struct ReadOptions {
   std::int64_t max_triangles = 5'000'000;  ///< all files together; give it PrepareOptions::max_triangles
 };

@@ -15,11 +15,13 @@
 
 namespace dismantle {
 
+/// One thing that is wrong with a plan.
 struct PlanProblem {
   unsigned step = 0;  ///< 0 = the plan as a whole
   std::string message;
 };
 
+/// What the check of a whole plan found.
 struct PlanCheck {
   bool valid = false;      ///< every step is a valid motion that separates what it says, and every certificate holds
   bool complete = false;   ///< valid, no step is forced, and every group is down to one part

@@ -24,6 +24,7 @@ struct MotionDepth {
   double excess() const { return depth > allowed ? depth - allowed : 0; }
 };
 
+/// How exactly depths along a motion are measured.
 struct MotionDepthOptions {
   double absolute = 0.01;                                       ///< assembly units, > 0: resolution of the answer ...
   double relative = 0.05;                                       ///< ... or this share of the depth, whichever is more

@@ -19,6 +19,7 @@ namespace geometry {
 struct Solid;
 }
 
+/// How strict the verifier is.
 struct VerifyOptions {
   double max_penetration = 0.01;  ///< assembly units, > 0; above the pair's initial overlap
 };
@@ -34,6 +35,7 @@ struct Violation {
   bool uncertain = false;   ///< could not be certified at the resolution limit, but no point beyond was found
 };
 
+/// The verifier's answer about a motion.
 struct MotionCheck {
   bool valid = false;
   double max_penetration = 0;  ///< valid: certified upper bound above the initial overlap (a rung of a fixed ladder)
@@ -123,6 +125,7 @@ DISMANTLE_API double penetration_depth(const Mesh& a, const Pose& pose_a, const 
 /// The same with the place of the deepest point.
 DISMANTLE_API Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b,
                                               const Pose& pose_b, double tolerance);
+/// Penetration depth of two parts at two poses; assembly units, >= 0, exact up to `tolerance`.
 DISMANTLE_API double penetration_depth(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                        double tolerance);
 

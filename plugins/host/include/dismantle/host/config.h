@@ -98,6 +98,7 @@ struct ConfigOption {
   std::string value;
 };
 
+/// What a configuration is made of: a file, and what overrides it.
 struct ConfigSource {
   std::optional<std::filesystem::path> file;  ///< none: defaults only
   std::vector<std::string> set;               ///< "path_planner.goal_bias=0.1"; the value is YAML
@@ -127,6 +128,7 @@ struct PluginSection {
   PluginKind kind;
   const char* default_id;
 };
+/// The sections that name a plugin, in the order of the file.
 DISMANTLE_API const std::vector<PluginSection>& plugin_sections();
 /// The parameter `provers` of the section `immobility`. Its default: the built-in provers, as far as they are there.
 DISMANTLE_API ParamSpec provers_parameter(const Registry& registry);

@@ -26,6 +26,7 @@ struct ConfigMember;
 
 /// Scalars are kept as text: what they mean is decided by the parameter that they are for.
 struct DISMANTLE_API ConfigNode {
+  /// What a node of YAML is.
   enum class Kind { null, scalar, sequence, map };
   Kind kind = Kind::null;
   std::string scalar;
@@ -43,6 +44,7 @@ struct DISMANTLE_API ConfigNode {
   std::string_view kind_name() const;  ///< "a map", "a list", "a value", "nothing"
 };
 
+/// A key of a map with its value, and where each stands.
 struct ConfigMember {
   std::string key;
   ConfigMark key_mark;

@@ -12,8 +12,10 @@ namespace dismantle {
 /// Major: any change of a boundary type's layout, of a vtable, or of the meaning of a call.
 /// Minor: functions appended to what the host provides, or fields appended to PluginHeader.
 inline constexpr std::uint16_t kPluginApiMajor = 5;
+/// Raised when the host offers more to plugins; older plugins stay valid.
 inline constexpr std::uint16_t kPluginApiMinor = 0;
 inline constexpr std::uint32_t kPluginMagic = 0x4c504d44;  ///< "DMPL" in a little-endian file
+/// Name of the struct that a plugin exports.
 inline constexpr char kPluginHeaderSymbol[] = "dismantle_plugin_header";
 
 /// Exported as `dismantle_plugin_header`. Strings are stored inside, not pointed to, so that the host

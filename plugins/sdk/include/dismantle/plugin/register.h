@@ -10,6 +10,7 @@
 
 namespace dismantle::abi {
 
+/// Hash of the layout of the types that cross the boundary.
 inline constexpr std::uint64_t kBoundaryLayout =
     layout_hash<Triangle, Mesh, Pose, Aabb, Part, Normalization, InitialOverlap, ExcludedPart, Assembly, Rgba, RawPart,
                 Importer, Capabilities, PlacedPart, Scene, BodyState, State, Wrench, Action, Contact, Trace, StepReport,
@@ -20,8 +21,10 @@ inline constexpr std::uint64_t kBoundaryLayout =
                 ProverTraits, SeparationQuery, SeparationQuestion, PartMemo, ImmobilityProver, Deadline, CancelToken,
                 Rng, ProgressEvent, RunContext, Executor, ParamValue, ParamSet, ParamChoice, ParamSpec, PluginChoice,
                 PluginRef<PathPlanner>, TypeTraits, PluginType, Registrar>();
+/// The ABI tag of this translation unit.
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
+/// Fills the struct that a plugin exports, at compile time.
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,
                                    int (*register_types)(void*, char*, std::size_t) noexcept) {
   PluginHeader header;

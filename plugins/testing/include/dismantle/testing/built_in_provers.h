@@ -12,6 +12,7 @@
 
 namespace dismantle::fake {
 
+/// The registry with the built-in plugins of the build, scanned once.
 inline const Registry& plugin_registry() {
   static const std::unique_ptr<Registry> all = [] {
     auto r = std::make_unique<Registry>();
@@ -33,6 +34,7 @@ inline const std::vector<NamedProver>& built_in_provers() {
   return all;
 }
 
+/// The built-in prover of that id, with its defaults.
 inline std::shared_ptr<const ImmobilityProver> prover_of_kind(const std::string& kind) {
   for (const NamedProver& p : built_in_provers())
     if (p.id == kind) return p.prover;

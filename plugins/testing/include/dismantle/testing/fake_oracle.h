@@ -56,6 +56,7 @@ struct FakeMachine {
   }
 };
 
+/// An oracle that answers from a FakeMachine, remembers what it was asked and checks that the planner keeps the rules.
 class FakeOracle final : public PathOracle {
  public:
   explicit FakeOracle(FakeMachine machine) : machine_(std::move(machine)) {}
@@ -121,12 +122,14 @@ class Notes final : public SequenceObserver {
   std::vector<std::size_t> left;
 };
 
+/// What a sequence planner did on a FakeOracle.
 struct FakeRun {
   SequenceResult result;
   Notes notes;
   std::vector<std::pair<PartId, unsigned>> asked;
 };
 
+/// Runs the planner on a FakeOracle of the machine; `on_attempt` is called with the number of each attempt.
 inline FakeRun run_on(SequencePlanner& planner, const FakeMachine& machine, RunContext context,
                       std::function<void(std::size_t)> on_attempt = {}) {
   FakeRun run;
@@ -139,6 +142,7 @@ inline FakeRun run_on(SequencePlanner& planner, const FakeMachine& machine, RunC
   return run;
 }
 
+/// A context with these random numbers.
 inline RunContext seeded(std::uint64_t seed) {
   RunContext context;
   context.rng = Rng(seed);

@@ -16,6 +16,7 @@
 
 namespace dismantle::fake {
 
+/// An axis-aligned block, assembly units.
 struct Box {
   Eigen::Vector3d lo, hi;
 };
@@ -27,6 +28,7 @@ inline Mesh boxes(const std::vector<Box>& list) {
   return mesh;
 }
 
+/// An assembly of these parts, prepared as it is.
 inline Assembly assembly_of(const std::vector<std::pair<std::string, std::vector<Box>>>& parts) {
   Assembly a;
   a.source = "fake";
@@ -80,6 +82,7 @@ inline Assembly row(unsigned n) {
   return assembly_of(parts);
 }
 
+/// A simulator without physics: what a test sets is what it says.
 class Physics final : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return has; }
@@ -94,6 +97,7 @@ class Physics final : public Simulator {
   std::function<void(RunContext&)> on_prepare;
 };
 
+/// A path of two instants along `way`.
 inline Path straight(const Scene& scene, const Eigen::Vector3d& way) {
   Path path(2);
   for (const auto& p : scene.moving) {
@@ -147,8 +151,10 @@ inline PathResult forged(const Path& path) {
   return result;
 }
 
+/// What is done in place of a search.
 using Script = std::function<PathResult(const PathQuery&, RunContext&)>;
 
+/// A path planner that is one function.
 class Scripted final : public FunctionPathPlanner {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
@@ -161,6 +167,7 @@ class Scripted final : public FunctionPathPlanner {
   Script script_;
 };
 
+/// A set-up of the fake simulator, a scripted path planner, and a sequence planner.
 inline PlanningSetup setup(Script script, std::shared_ptr<SequencePlanner> sequence = nullptr) {
   PlanningSetup i;
   i.simulator = std::make_shared<Physics>();
@@ -170,6 +177,7 @@ inline PlanningSetup setup(Script script, std::shared_ptr<SequencePlanner> seque
   return i;
 }
 
+/// A failure, as a planner gives it.
 inline PathResult outcome(Outcome o, std::string message = {}) {
   if (o != Outcome::start_is_goal) return PathResult::failure(o, std::move(message));
   PathResult result;

@@ -12,8 +12,10 @@
 
 namespace dismantle::fake {
 
+/// An immobility prover that is one function.
 class ScriptedProver final : public ImmobilityProver {
  public:
+  /// What is done in place of a search.
   using Script = std::function<std::optional<Certificate>(const SeparationQuery&, const RunContext&)>;
   ScriptedProver(ProverTraits traits, Script script) : traits_(traits), script_(std::move(script)) {}
   ProverTraits traits() const noexcept override { return traits_; }
@@ -26,6 +28,7 @@ class ScriptedProver final : public ImmobilityProver {
   Script script_;
 };
 
+/// A prover under that id which follows the script.
 inline NamedProver prover(std::string id, ProverTraits traits, ScriptedProver::Script script) {
   return {std::move(id), std::make_shared<ScriptedProver>(traits, std::move(script))};
 }

@@ -38,10 +38,13 @@ inline Mesh split_vertices(const Mesh& m) {
   return out;
 }
 
+/// Turns one triangle over.
 inline void flip(Mesh& m, std::size_t t) { std::swap(m.triangles[t][1], m.triangles[t][2]); }
 
+/// A part as an importer gives it.
 inline RawPart raw(const std::string& name, Mesh mesh) { return {name, name + ".obj", std::move(mesh)}; }
 
+/// A folder that is removed with the object.
 class TempFolder {
  public:
   TempFolder() {
@@ -76,6 +79,7 @@ inline std::string input_error(const std::function<void()>& f) {
   return "";
 }
 
+/// True when one of the lines contains the text.
 inline bool any_contains(const std::vector<std::string>& lines, const std::string& text) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const std::string& line) { return line.find(text) != std::string::npos; });

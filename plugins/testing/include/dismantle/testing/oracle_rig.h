@@ -11,6 +11,7 @@
 
 namespace dismantle::fake {
 
+/// An oracle of the engine on an assembly and a set-up of a test.
 struct Rig {
   Rig(Assembly a, PlanningSetup i, unsigned threads = 1, RunOptions o = {})
       : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {

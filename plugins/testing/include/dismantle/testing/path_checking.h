@@ -44,6 +44,7 @@ class RuleChecker final : public PathChecker {
   std::function<Ruling(const Path&)> rule_;
 };
 
+/// A checker that accepts every path.
 inline RuleChecker accept_all() {
   return RuleChecker([](const Path&) {
     Ruling ruling;

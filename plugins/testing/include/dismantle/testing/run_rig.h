@@ -59,7 +59,9 @@ inline PathResult push_blocks(const PathQuery& query, RunContext& context) {
   return query.scene.moving[0].part == 0 ? outcome(Outcome::exhausted) : push(query, context);
 }
 
+/// What is done in place of a sequence planner.
 using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, SequenceObserver&, RunContext&)>;
+/// A sequence planner that is one function.
 class Custom final : public SequencePlanner {
  public:
   explicit Custom(Steps steps) : steps_(std::move(steps)) {}
@@ -71,10 +73,12 @@ class Custom final : public SequencePlanner {
   Steps steps_;
 };
 
+/// A run that takes the parts out in turn.
 inline RunResult run_in_turn(const Assembly& assembly, RunContext context = {}, const RunOptions& options = {}) {
   return run(assembly, setup(push, std::make_shared<InTurn>()), options, context);
 }
 
+/// The plan file's text with all times set to zero.
 inline std::string text_without_times(Plan plan) {
   for (auto& step : plan.disassembly) step.seconds = 0;
   for (auto& part : plan.unsolved) part.seconds = 0;

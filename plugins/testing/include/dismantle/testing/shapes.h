@@ -18,8 +18,10 @@
 
 namespace dismantle::shapes {
 
+/// A point or direction.
 using Vec3 = Eigen::Vector3d;
 
+/// The surface of an axis-aligned box.
 inline Mesh box(const Vec3& lo, const Vec3& hi) {
   Mesh m;
   for (int i = 0; i < 8; ++i)
@@ -29,6 +31,7 @@ inline Mesh box(const Vec3& lo, const Vec3& hi) {
   return m;
 }
 
+/// Adds the shells of `from`; `flip`: turned inside out.
 inline void append(Mesh& to, const Mesh& from, bool flip = false) {
   const auto base = static_cast<std::uint32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
@@ -37,6 +40,7 @@ inline void append(Mesh& to, const Mesh& from, bool flip = false) {
                                 : Triangle{base + t[0], base + t[1], base + t[2]});
 }
 
+/// Both meshes as one.
 inline Mesh joined(Mesh a, const Mesh& b) {
   append(a, b);
   return a;
@@ -137,11 +141,13 @@ inline Mesh tube(double ri, double ro, double z0, double z1, int around, int alo
   return m;
 }
 
+/// The mesh at a pose.
 inline Mesh moved(Mesh m, const Pose& p) {
   for (auto& v : m.vertices) v = p * v;
   return m;
 }
 
+/// Volume that the surface encloses.
 inline double volume(const Mesh& m) {
   double v = 0;
   for (std::size_t t = 0; t < m.triangles.size(); ++t)
@@ -149,6 +155,7 @@ inline double volume(const Mesh& m) {
   return v;
 }
 
+/// An assembly of these parts, prepared as it is.
 inline Assembly assembly_of(const std::vector<Mesh>& meshes, std::vector<InitialOverlap> overlaps = {}) {
   Assembly a;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -165,12 +172,15 @@ inline Assembly assembly_of(const std::vector<Mesh>& meshes, std::vector<Initial
   return a;
 }
 
+/// A displacement without rotation.
 inline Pose shift(const Vec3& t) { return {t, Eigen::Quaterniond::Identity()}; }
 
+/// Each coordinate uniform in [lo, hi).
 inline Vec3 random_vector(Rng& rng, double lo, double hi) {
   return {rng.uniform(lo, hi), rng.uniform(lo, hi), rng.uniform(lo, hi)};
 }
 
+/// Any rotation; the translation uniform in a cube of half edge `reach`.
 inline Pose random_pose(Rng& rng, double reach) {
   Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
   return {random_vector(rng, -reach, reach), q.normalized()};
