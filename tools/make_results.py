@@ -147,6 +147,7 @@ def main():
     parser.add_argument("--work", default=os.path.join(ROOT, "build/results"), help="folder of the databases")
     parser.add_argument("--suites", default=os.path.join(ROOT, "configs/bench"), help="folder of results_*.yaml: other limits, more seeds")
     parser.add_argument("--out", default=os.path.join(ROOT, "docs/results"))
+    parser.add_argument("--commit", help="what the program was built from, if that is not what is checked out")
     parser.add_argument("--note", default="", help="what a reader has to know of this run, such as other jobs on the machine")
     parser.add_argument("--jobs", type=int, default=1, help="trials at the same time; more than one disturb each other's times")
     arguments = parser.parse_args()
@@ -180,7 +181,7 @@ tools/make_results.py --data DIR
 
 | | |
 |---|---|
-| commit | {commit_of(ROOT)} |
+| commit | {arguments.commit or commit_of(ROOT)} |
 | program | {output_of(arguments.program, "--version").splitlines()[0]} |
 | machine | {machine()} |
 | run | one thread for each trial, {arguments.jobs} trial{"s" if arguments.jobs > 1 else ""} at a time; {trials} trials, {seconds / 60:.0f} minutes in all{"; " + arguments.note if arguments.note else ""} |
