@@ -14,7 +14,7 @@
 
 namespace dismantle {
 
-/// When a search has spent so many steps and state checks, in all: a proof that would settle it. Null: it goes on.
+/// Asked when a search has spent this number of steps and state checks: a proof that would settle it. Null: it goes on.
 struct SearchPause {
   std::uint64_t steps = 0;  ///< > 0, more than those of the pause before
   std::function<const Certificate*()> proof;

@@ -42,7 +42,7 @@ class ProofSchedule {
   const Certificate* locked(const Attempt& attempt) const;
   /// What is known before a search. `attempt` is canonical.
   const Certificate* before(const Attempt& attempt) const;
-  /// Proofs that are tried while a search goes on, in order: each when the search has spent so many steps and state
+  /// Proofs that are tried while a search goes on, in order, each at that number of steps and state
   /// checks. Empty: none.
   std::vector<SearchPause> during(const Attempt& attempt, const RunContext& context);
   /// What is proved because a search found nothing.
