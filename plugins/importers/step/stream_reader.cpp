@@ -142,6 +142,7 @@ void StreamReader::begin_body(Payload& payload) {
 }
 
 void StreamReader::add_vertices(Payload& payload) {
+  if (parts_.empty()) throw Broken{"vertices of no body"};
   constexpr std::size_t kSize = 3 * sizeof(double);
   const std::size_t count = payload.size() / kSize;
   if (count > vertices_left_) throw Broken{"more vertices than were announced"};
@@ -156,6 +157,7 @@ void StreamReader::add_vertices(Payload& payload) {
 }
 
 void StreamReader::add_triangles(Payload& payload) {
+  if (parts_.empty()) throw Broken{"triangles of no body"};
   const std::size_t count = payload.size() / sizeof(Triangle);
   if (count > triangles_left_) throw Broken{"more triangles than were announced"};
   if (count > 0 && vertices_left_ > 0) throw Broken{"triangles before their vertices"};

@@ -158,6 +158,19 @@ TEST(StepStream, PromisesTakeNoMemory) {
   EXPECT_EQ(few.problem(), "too many triangles");
 }
 
+/// A record of vertices or triangles before any body, with or without anything in it.
+TEST(StepStream, GeometryOfNoBodyIsRefused) {
+  const std::string magic(kMagic, sizeof kMagic);
+  for (const char tag : {'V', 'T'})
+    for (const std::uint32_t size : {0U, 12U, 24U}) {
+      std::string bytes = magic + tag + std::string(reinterpret_cast<const char*>(&size), sizeof size);
+      bytes += std::string(size, '\0');
+      StreamReader reader(10, {});
+      EXPECT_FALSE(reader.feed(std::as_bytes(std::span(bytes.data(), bytes.size())))) << tag << size;
+      EXPECT_NE(reader.problem().find("of no body"), std::string::npos) << reader.problem();
+    }
+}
+
 TEST(StepStream, CoordinatesAreFiniteAndCornersExist) {
   Body body;
   body.name = "x";
