@@ -6,6 +6,7 @@
 
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
 #include <cmath>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "dismantle/errors.h"
 #include "names_3mf.h"
 #include "readers.h"
+#include "text_scan.h"
 
 namespace dismantle::mesh_files {
 namespace {
@@ -25,6 +27,16 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   out << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
   return out;
 }
+
+/// Ends the reading when the run is to stop.
+class Polling : public Assimp::ProgressHandler {
+ public:
+  explicit Polling(const RunContext& context) : context_(context) {}
+  bool Update(float) override { return !context_.should_stop(); }
+
+ private:
+  const RunContext& context_;
+};
 
 class SceneReader {
  public:
@@ -129,15 +141,17 @@ class SceneReader {
 
 }  // namespace
 
-std::vector<RawPart> read_with_assimp(const std::filesystem::path& file) {
+std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) {
   std::string ending = file.extension().string();
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   try {
     Assimp::Importer importer;
+    importer.SetProgressHandler(new Polling(context));  // the importer owns it
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    stop_if_told(context, file);
     if (!scene || !scene->mRootNode) {
       const std::string why = importer.GetErrorString();
       // What assimp says of a file whose begin it does not recognise.

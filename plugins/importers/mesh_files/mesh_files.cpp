@@ -32,14 +32,14 @@ std::optional<std::uint64_t> MeshFiles::count_triangles(const std::filesystem::p
   return std::nullopt;
 }
 
-std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file, const RunContext&) {
+std::vector<RawPart> MeshFiles::read(const std::filesystem::path& file, const RunContext& context) {
   const std::string e = ending(file);
   try {
-    if (e == "obj") return read_obj(file);
-    if (e == "stl") return read_stl(file);
-    if (e == "off") return read_off(file);
-    if (e == "ply") return read_ply(file);
-    return read_with_assimp(file);
+    if (e == "obj") return read_obj(file, context);
+    if (e == "stl") return read_stl(file, context);
+    if (e == "off") return read_off(file, context);
+    if (e == "ply") return read_ply(file, context);
+    return read_with_assimp(file, context);
   } catch (const std::bad_alloc&) {
     throw InputError(file.string(), "too large for the memory of this machine");
   }

@@ -25,7 +25,7 @@ struct Section {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::filesystem::path& file) : file_(file), lines_(file) {}
+  ObjReader(const std::filesystem::path& file, const RunContext& context) : file_(file), lines_(file, context) {}
 
   std::vector<RawPart> read() {
     std::string_view line;
@@ -211,21 +211,25 @@ class ObjReader {
 
 }  // namespace
 
-std::vector<RawPart> read_obj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+std::vector<RawPart> read_obj(const std::filesystem::path& file, const RunContext& context) {
+  return ObjReader(file, context).read();
+}
 
 std::optional<std::uint64_t> count_obj_triangles(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return std::nullopt;
-  std::uint64_t triangles = 0;
-  std::string line;
-  while (std::getline(in, line)) {
-    std::string_view rest = line;
-    if (take_word(rest) != "f") continue;
-    std::uint64_t corners = 0;
-    while (!take_word(rest).empty()) ++corners;
-    triangles += corners > 2 ? corners - 2 : 0;
+  try {
+    LineReader lines(file);
+    std::uint64_t triangles = 0;
+    std::string_view rest;
+    while (lines.next(rest)) {
+      if (take_word(rest) != "f") continue;
+      std::uint64_t corners = 0;
+      while (!take_word(rest).empty()) ++corners;
+      triangles += corners > 2 ? corners - 2 : 0;
+    }
+    return triangles;
+  } catch (const InputError&) {
+    return std::nullopt;  // reading it will say why
   }
-  return triangles;
 }
 
 }  // namespace dismantle::mesh_files

@@ -26,8 +26,8 @@ std::uint64_t take_count(std::string_view& rest, const LineReader& lines) {
 
 }  // namespace
 
-std::vector<RawPart> read_off(const std::filesystem::path& file) {
-  LineReader lines(file);
+std::vector<RawPart> read_off(const std::filesystem::path& file, const RunContext& context) {
+  LineReader lines(file, context);
   std::string_view line;
   if (!next_filled(lines, line)) throw InputError(file.string(), "the file is empty");
   std::string_view rest = line;

@@ -15,6 +15,8 @@
 namespace dismantle::mesh_files {
 namespace {
 
+constexpr std::uint64_t kRowsPerPoll = 1024;
+
 enum class Scalar { i8, u8, i16, u16, i32, u32, f32, f64 };
 
 std::optional<Scalar> scalar_named(std::string_view name) {
@@ -60,7 +62,8 @@ enum class Format { text, little, big };
 
 class PlyReader {
  public:
-  explicit PlyReader(const std::filesystem::path& file) : file_(file), in_(file, std::ios::binary) {
+  explicit PlyReader(const std::filesystem::path& file, const RunContext& context = {})
+      : file_(file), context_(context), in_(file, std::ios::binary) {
     if (!in_) throw InputError(file.string(), "cannot be opened");
   }
 
@@ -77,6 +80,7 @@ class PlyReader {
     part.file = file_.filename().string();
     for (const auto& element : elements_) {
       for (std::uint64_t i = 0; i < element.count; ++i) {
+        if (i % kRowsPerPoll == 0) stop_if_told(context_, file_);
         where_ = fmt::format("{} {} of {}", element.name, i + 1, element.count);
         row(element, part.mesh);
       }
@@ -235,6 +239,7 @@ class PlyReader {
   }
 
   std::filesystem::path file_;
+  RunContext context_;
   std::ifstream in_;
   Format format_ = Format::text;
   std::vector<Element> elements_;
@@ -246,7 +251,9 @@ class PlyReader {
 
 }  // namespace
 
-std::vector<RawPart> read_ply(const std::filesystem::path& file) { return PlyReader(file).read(); }
+std::vector<RawPart> read_ply(const std::filesystem::path& file, const RunContext& context) {
+  return PlyReader(file, context).read();
+}
 
 std::optional<std::uint64_t> count_ply_triangles(const std::filesystem::path& file) {
   try {

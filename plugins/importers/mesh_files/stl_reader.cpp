@@ -13,6 +13,7 @@ namespace dismantle::mesh_files {
 namespace {
 
 constexpr std::size_t kHeader = 84, kRecord = 50;
+constexpr std::uint32_t kTrianglesPerPoll = 4096;
 
 /// What a binary file states about itself.
 struct BinaryHeader {
@@ -44,7 +45,7 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
 
 bool is_text(const BinaryHeader& header) { return header.says_solid && !header.fits(); }
 
-std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header) {
+std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header, const RunContext& context) {
   const std::string name = file.string();
   if (header.size < kHeader)
     throw InputError(name, fmt::format("{} bytes are too short for an STL file: it is cut off or no STL", header.size));
@@ -61,6 +62,7 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   in.seekg(kHeader);
   unsigned char record[kRecord];
   for (std::uint32_t t = 0; t < header.triangles; ++t) {
+    if (t % kTrianglesPerPoll == 0) stop_if_told(context, file);
     if (!in.read(reinterpret_cast<char*>(record), kRecord))
       throw InputError(name, fmt::format("cannot be read beyond triangle {}", t));
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -81,8 +83,8 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   return parts;
 }
 
-std::vector<RawPart> read_text(const std::filesystem::path& file) {
-  LineReader lines(file);
+std::vector<RawPart> read_text(const std::filesystem::path& file, const RunContext& context) {
+  LineReader lines(file, context);
   std::vector<RawPart> parts;
   bool in_solid = false, in_facet = false;
   std::size_t corners = 0;
@@ -126,24 +128,25 @@ std::vector<RawPart> read_text(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::vector<RawPart> read_stl(const std::filesystem::path& file) {
+std::vector<RawPart> read_stl(const std::filesystem::path& file, const RunContext& context) {
   const auto header = header_of(file);
   if (!header) throw InputError(file.string(), "cannot be opened");
-  return is_text(*header) ? read_text(file) : read_binary(file, *header);
+  return is_text(*header) ? read_text(file, context) : read_binary(file, *header, context);
 }
 
 std::optional<std::uint64_t> count_stl_triangles(const std::filesystem::path& file) {
   const auto header = header_of(file);
   if (!header) return std::nullopt;
   if (!is_text(*header)) return header->triangles;
-  std::ifstream in(file, std::ios::binary);
-  std::uint64_t triangles = 0;
-  std::string line;
-  while (std::getline(in, line)) {
-    std::string_view rest = line;
-    triangles += take_word(rest) == "endfacet";
+  try {
+    LineReader lines(file);
+    std::uint64_t triangles = 0;
+    std::string_view rest;
+    while (lines.next(rest)) triangles += take_word(rest) == "endfacet";
+    return triangles;
+  } catch (const InputError&) {
+    return std::nullopt;  // reading it will say why
   }
-  return triangles;
 }
 
 }  // namespace dismantle::mesh_files

@@ -13,6 +13,7 @@ namespace dismantle::mesh_files {
 
 namespace {
 constexpr std::size_t kLongestLine = 1 << 24;
+constexpr std::size_t kBlock = 1 << 16;  // bytes that are read at a time
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 std::string shown(std::string_view word) {
@@ -23,19 +24,46 @@ std::string shown(std::string_view word) {
 }
 }  // namespace
 
-LineReader::LineReader(const std::filesystem::path& file) : file_(file) {
+LineReader::LineReader(const std::filesystem::path& file, const RunContext& context)
+    : file_(file), context_(context), block_(kBlock) {
   errno = 0;
   in_.open(file, std::ios::binary);
   if (!in_) throw InputError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
 }
 
+void stop_if_told(const RunContext& context, const std::filesystem::path& file) {
+  if (context.should_stop()) throw Error("stopped while reading " + file.string());
+}
+
+/// The next block of the file; false at its end.
+bool LineReader::fill() {
+  stop_if_told(context_, file_);
+  in_.read(block_.data(), static_cast<std::streamsize>(block_.size()));
+  if (in_.bad()) fail("the file cannot be read further");
+  at_ = 0;
+  end_ = static_cast<std::size_t>(in_.gcount());
+  return end_ > 0;
+}
+
 bool LineReader::next(std::string_view& line) {
-  if (!std::getline(in_, buffer_)) {
-    if (in_.bad()) fail("the file cannot be read further");
-    return false;
+  buffer_.clear();
+  for (bool any = false, ended = false; !ended; any = true) {
+    if (at_ == end_ && !fill()) {
+      if (!any) return false;
+      break;
+    }
+    const char* begin = block_.data() + at_;
+    const auto* stop = static_cast<const char*>(std::memchr(begin, '\n', end_ - at_));
+    ended = stop != nullptr;
+    const std::size_t size = ended ? static_cast<std::size_t>(stop - begin) : end_ - at_;
+    buffer_.append(begin, size);
+    at_ += size + (ended ? 1 : 0);
+    if (buffer_.size() > kLongestLine) {
+      ++number_;
+      fail("the line is too long for a mesh file");
+    }
   }
   ++number_;
-  if (buffer_.size() > kLongestLine) fail("the line is too long for a mesh file");
   if (std::memchr(buffer_.data(), 0, buffer_.size())) fail("binary data in a text file");
   line = buffer_;
   if (number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);

@@ -7,23 +7,32 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "dismantle/run_context.h"
 
 namespace dismantle::mesh_files {
 
-/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines.
+/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines, before memory is taken for them.
 class LineReader {
  public:
   /// @throws InputError when the file cannot be opened.
-  explicit LineReader(const std::filesystem::path& file);
-  /// False at the end. The view holds until the next call. @throws InputError on read errors and binary data.
+  explicit LineReader(const std::filesystem::path& file, const RunContext& context = {});
+  /// False at the end. The view holds until the next call. @throws InputError on read errors and binary data, Error when
+  /// the context wants to stop.
   bool next(std::string_view& line);
   /// @throws InputError "FILE: line N: problem".
   [[noreturn]] void fail(const std::string& problem) const;
   std::size_t number() const { return number_; }
 
  private:
+  bool fill();
+
   std::filesystem::path file_;
+  RunContext context_;
   std::ifstream in_;
+  std::vector<char> block_;
+  std::size_t at_ = 0, end_ = 0;  // what of the block is still to be read
   std::string buffer_;
   std::size_t number_ = 0;
 };
@@ -35,6 +44,9 @@ std::string_view trimmed(std::string_view text);
 /// The whole word as a number. Accepts a leading '+'. Infinite and NaN values are returned as they are.
 std::optional<double> to_double(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view word);
+
+/// @throws Error when the context wants to stop: for what reads long files without lines.
+void stop_if_told(const RunContext& context, const std::filesystem::path& file);
 
 /// Next word of `rest` as a finite coordinate. @throws InputError through `lines`.
 double take_coordinate(std::string_view& rest, const LineReader& lines);

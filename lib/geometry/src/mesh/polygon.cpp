@@ -25,6 +25,10 @@ std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   return flat;
 }
 
+/// Corner tests after which a polygon is given up: enough for ten thousand corners of any shape that people draw. Windings
+/// without ears nearby would take the cube of their corners.
+constexpr std::uint64_t kMostTests = 400'000'000;
+
 /// Corners still there, in a ring.
 class EarClipper {
  public:
@@ -56,11 +60,11 @@ class EarClipper {
   }
 
   /// First ear at or after `start` whose doubled area is above `least`; with few corners, the best shaped one.
-  std::size_t find_ear(std::size_t start, double least) const {
+  std::size_t find_ear(std::size_t start, double least) {
     const bool best_of_all = ring_.size() <= 64;
     std::size_t best = ring_.size();
     double best_quality = -1;
-    for (std::size_t k = 0; k < ring_.size(); ++k) {
+    for (std::size_t k = 0; k < ring_.size() && tests_ < kMostTests; ++k) {
       const std::size_t i = (start + k) % ring_.size();
       const Vector2d &a = p_[at(i, -1)], &b = p_[at(i, 0)], &c = p_[at(i, 1)];
       const double area = cross2(b - a, c - b);
@@ -76,10 +80,11 @@ class EarClipper {
     return best;
   }
 
-  bool empty_ear(std::size_t i) const {
+  bool empty_ear(std::size_t i) {
     const std::uint32_t ia = at(i, -1), ib = at(i, 0), ic = at(i, 1);
     const Vector2d &a = p_[ia], &b = p_[ib], &c = p_[ic];
     for (const std::uint32_t j : ring_) {
+      ++tests_;
       if (j == ia || j == ib || j == ic) continue;
       const Vector2d& q = p_[j];
       if (q == a || q == b || q == c) continue;
@@ -90,6 +95,7 @@ class EarClipper {
 
   std::vector<Vector2d> p_;
   std::vector<std::uint32_t> ring_;
+  std::uint64_t tests_ = 0;
   double flat_ = 0;  // doubled areas below this are straight lines
 };
 

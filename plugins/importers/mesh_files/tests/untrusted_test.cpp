@@ -1,0 +1,74 @@
+// Files from anywhere: what they name, how much memory they ask for, and how long they take.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <string>
+
+#include "dismantle/errors.h"
+#include "dismantle/run_context.h"
+#include "mesh_files.h"
+#include "readers.h"
+#include "tests/fixtures.h"
+
+namespace dismantle::mesh_files {
+namespace {
+
+using testing::input_error;
+using testing::TempFolder;
+
+TEST(UntrustedFiles, ALineWithoutEndIsRefusedBeforeItIsAllInMemory) {
+  const TempFolder folder;
+  const std::string endless(std::size_t{17} << 20, '1');
+  for (const char* name : {"a.obj", "a.off"}) {
+    const auto file = folder.write(name, endless);
+    EXPECT_NE(input_error([&] { MeshFiles().read(file, {}); }).find("too long"), std::string::npos) << name;
+    EXPECT_FALSE(MeshFiles().count_triangles(file)) << name;
+  }
+}
+
+TEST(UntrustedFiles, LinesAreTheSameHoweverTheyLieInBlocks) {
+  const TempFolder folder;
+  for (const std::size_t comment : {65534U, 65535U, 65536U, 65537U, 200000U}) {
+    const std::string text =
+        "#" + std::string(comment, 'x') + "\nv 0 0 0\nv 1 0 0\r\nv 0 1 0\n\nf 1 2 3";  // the last line has no end
+    const auto parts = read_obj(folder.write("a.obj", text));
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts[0].mesh.vertices.size(), 3U);
+    EXPECT_EQ(parts[0].mesh.triangles.size(), 1U);
+  }
+}
+
+TEST(UntrustedFiles, AMaterialLibraryThatIsAPipeIsNotWaitedFor) {
+  const TempFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.mtl").c_str(), 0600), 0);
+  const auto parts = read_obj(folder.write("a.obj", "mtllib pipe.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  ASSERT_EQ(parts.size(), 1U);
+  EXPECT_FALSE(parts[0].colour);
+}
+
+TEST(UntrustedFiles, ReadingEndsWhenItIsToldTo) {
+  const TempFolder folder;
+  const Mesh box = testing::box({0, 0, 0}, {1, 1, 1});
+  RunContext stopped;
+  stopped.cancel.cancel();
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const auto& file :
+       {folder.write("a.obj", testing::obj_text(box)), folder.write("a.stl", testing::text_stl(box, "x")),
+        folder.write("b.stl", testing::binary_stl(box)), folder.write("a.ply", ply), folder.write("a.off", off)}) {
+    EXPECT_FALSE(MeshFiles().read(file, {}).empty()) << file;
+    try {
+      MeshFiles().read(file, stopped);
+      ADD_FAILURE() << file;
+    } catch (const InputError& e) {
+      ADD_FAILURE() << e.what();  // nothing is wrong with the file
+    } catch (const Error&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::mesh_files
