@@ -15,6 +15,14 @@ namespace {
   throw Error(fmt::format("{}: cannot write: {}", file.string(), std::generic_category().message(error)));
 }
 
+/// Puts the new name on the disk. Where folders cannot be synchronised the file system sees to it itself.
+void sync_folder(const std::filesystem::path& folder) {
+  const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) return;
+  ::fsync(fd);
+  ::close(fd);
+}
+
 }  // namespace
 
 void write_file(const std::filesystem::path& file, const std::string& content) {
@@ -32,12 +40,16 @@ void write_file(const std::filesystem::path& file, const std::string& content) {
     else if (errno != EINTR)
       error = errno;
   }
+  // Without this a file may have its name before its bytes are on the disk.
+  while (error == 0 && ::fsync(fd) != 0)
+    if (errno != EINTR) error = errno;
   if (::close(fd) != 0 && error == 0) error = errno;
   if (error == 0 && ::rename(temporary.c_str(), file.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     fail(file, error);
   }
+  sync_folder(file.parent_path());
 }
 
 }  // namespace dismantle

@@ -9,7 +9,6 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/plan_file.h"
-#include "dismantle/plan_io/write_file.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
@@ -346,38 +345,6 @@ TEST(PlanIo, NoTextDoesWorseThanAnInputError) {
   EXPECT_THROW(plan_from_json(std::string(200'000, '['), "p"), InputError);
   EXPECT_THROW(plan_from_json("", "p"), InputError);
   EXPECT_THROW(plan_from_json("null", "p"), InputError);
-}
-
-class WriteFile : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "dismantle-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    dir = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(dir); }
-  std::filesystem::path dir;
-};
-
-TEST_F(WriteFile, ReplacesTheWholeContentAndLeavesNothingElse) {
-  const auto file = dir / "p.json";
-  write_file(file, std::string(100'000, 'a'));
-  write_file(file, std::string("b\0c", 3));
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), std::string("b\0c", 3));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir), {}), 1);
-}
-
-TEST_F(WriteFile, NamesTheFileThatCannotBeWritten) {
-  for (const auto& file : {dir / "missing" / "p.json", dir}) {
-    try {
-      write_file(file, "x");
-      ADD_FAILURE() << file;
-    } catch (const Error& e) {
-      EXPECT_NE(std::string(e.what()).find(file.string()), std::string::npos) << e.what();
-    }
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(dir));
 }
 
 }  // namespace
