@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -9,18 +10,12 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
+#include "process/shell.h"
 
 namespace dismantle::bench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// For the shell.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 /// Output and exit status of a command. Standard error goes with standard output.
 std::pair<std::string, int> output_of(const std::string& command) {
@@ -36,6 +31,10 @@ std::pair<std::string, int> output_of(const std::string& command) {
 
 std::string slurm_script(const SlurmJob& job) {
   const fs::path folder = fs::absolute(job.folder);
+  // Slurm reads its lines before any shell does: a line break in a name would be an option of its own.
+  for (const std::string& name : {job.suite.string(), folder.string()})
+    if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
+      throw Error(fmt::format("the name '{}' has control characters, and cannot stand in a Slurm script", name));
   std::string out = "#!/bin/bash\n";
   out += fmt::format("#SBATCH --job-name=dismantle-{}\n", job.suite.stem().string());
   out += fmt::format("#SBATCH --array=1-{}\n", job.tasks);
@@ -45,9 +44,9 @@ std::string slurm_script(const SlurmJob& job) {
   for (const auto& option : job.options) out += fmt::format("#SBATCH {}\n", option);
   out += "# Each task is a shard with a database of its own. Submitted again, it goes on where it stopped.\n";
   for (const char* name : {"DISMANTLE_PLUGIN_PATH", "DISMANTLE_DATA"})
-    if (const char* value = std::getenv(name)) out += fmt::format("export {}={}\n", name, quoted(value));
+    if (const char* value = std::getenv(name)) out += fmt::format("export {}={}\n", name, shell_quoted(value));
   out += fmt::format("exec {} bench {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {}\n",
-                     quoted(job.program.string()), quoted(fs::absolute(job.suite).string()), quoted(folder.string()),
+                     shell_quoted(job.program.string()), shell_quoted(fs::absolute(job.suite).string()), shell_quoted(folder.string()),
                      job.tasks, job.jobs);
   return out;
 }
@@ -56,7 +55,7 @@ Submitted submit(const SlurmJob& job) {
   Submitted out;
   out.script = job.folder / "slurm.sh";
   write_file(out.script, slurm_script(job));
-  const auto [text, status] = output_of("sbatch --parsable " + quoted(out.script.string()));
+  const auto [text, status] = output_of("sbatch --parsable " + shell_quoted(out.script.string()));
   if (status != 0)
     throw Error(fmt::format("{} was written but not submitted: sbatch says: {}", out.script.string(), text));
   out.id = text.substr(0, text.find_first_of(";\n"));

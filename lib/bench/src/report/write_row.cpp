@@ -8,6 +8,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
+#include "process/shell.h"
 #include "store/compress.h"
 #include "store/sqlite.h"
 
@@ -73,8 +74,9 @@ std::string write_row(const ReportRow& row, const std::filesystem::path& folder)
   if (row.has_plan) write_file(folder / "plan.json", plan_of(db, row.id));
   const auto json = json_of(db, row.id);
   write_file(folder / "row.json", json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  return fmt::format("dismantle plan '{}' -c '{}'{}", row.input, (folder / "config.yaml").string(),
-                     row.part.empty() ? "" : fmt::format(" --part '{}'", row.part));
+  return fmt::format("dismantle plan {} -c {}{}", shell_quoted(row.input),
+                     shell_quoted((folder / "config.yaml").string()),
+                     row.part.empty() ? "" : " --part " + shell_quoted(row.part));
 }
 
 }  // namespace dismantle::bench

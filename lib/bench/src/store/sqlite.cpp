@@ -7,7 +7,8 @@
 namespace dismantle::bench {
 namespace {
 
-constexpr int kPatience = 60000;  // ms that another writer may take
+constexpr int kPatience = 60000;          // ms that another writer may take
+constexpr int kLargestValue = 256 << 20;  // bytes of one value: plans are far below
 
 }  // namespace
 
@@ -20,6 +21,10 @@ Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string
     throw InputError(name_, "cannot be opened as a database: " + why);
   }
   sqlite3_busy_timeout(db_, kPatience);
+  // A database may come from anywhere: its schema calls no functions with side effects and cannot write to its own tables.
+  sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(db_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLargestValue);
 }
 
 Sqlite::~Sqlite() { sqlite3_close(db_); }
