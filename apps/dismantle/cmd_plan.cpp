@@ -1,6 +1,7 @@
 // dismantle plan INPUT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -51,11 +52,13 @@ void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
   constexpr double kNanoseconds = 1e9;
   notes.chosen.set(fmt::format("simulator {}, path planner {}, sequence planner {}", config.simulator.type,
                                config.path_planner.type, config.sequence_planner.type));
-  notes.grace = static_cast<std::int64_t>(kNanoseconds * config.run.grace);
-  if (const double left = context.deadline.seconds_left(); std::isfinite(left) && config.run.grace > 0) {
+  // A wait of a century is one without end; more would not fit into the ticks of a clock.
+  constexpr double kCentury = 3.2e9;
+  notes.grace = static_cast<std::int64_t>(kNanoseconds * std::min(config.run.grace, kCentury));
+  if (const double left = context.deadline.seconds_left(); left < kCentury && config.run.grace > 0) {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     notes.end = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() +
-                static_cast<std::int64_t>(kNanoseconds * (left + config.run.grace));
+                static_cast<std::int64_t>(kNanoseconds * (left + std::min(config.run.grace, kCentury)));
   }
   context.on_progress = [&notes, shown = context.on_progress](const ProgressEvent& event) {
     notes.busy.set(fmt::format("{} {}/{}: {}", event.phase, event.done, event.total, event.detail));

@@ -8,6 +8,7 @@
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
 #include "dismantle/loaded_plan.h"
+#include "dismantle/preparation/prepare.h"
 #include "dismantle/report_text.h"
 #include "dismantle/stopped.h"
 #include "dismantle/verification/check_plan.h"
@@ -20,7 +21,10 @@ struct Verify {
   ConsoleOptions console;
 };
 
-/// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid.
+constexpr double kUsualSize = PrepareOptions{}.size;
+
+/// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid. A plan states the scale of its
+/// units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny gains nothing.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration;
   if (plan.verified_max_penetration > most)
@@ -28,12 +32,13 @@ double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console
         fmt::format("the plan was made with a tolerance of {:.3g}; it is verified with {:.3g} assembly units",
                     plan.verified_max_penetration, most));
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff();
-  if (std::abs(size - 10) > 1e-6)
+  const double tolerance = std::min({plan.verified_max_penetration, most, most / kUsualSize * size});
+  if (std::abs(size - kUsualSize) > 1e-6)
     console.warning(
-        fmt::format("the largest edge of the assembly is {:.6g} of the plan's units, usually it is 10: the "
+        fmt::format("the largest edge of the assembly is {:.6g} of the plan's units, usually it is {:g}: the "
                     "tolerance is {:.2g} of it",
-                    size, std::min(plan.verified_max_penetration, most) / size));
-  return std::min(plan.verified_max_penetration, most);
+                    size, kUsualSize, tolerance / size));
+  return tolerance;
 }
 
 int verify(const Verify& options) {

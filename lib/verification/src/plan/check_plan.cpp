@@ -92,11 +92,12 @@ class Checker {
   bool motion_holds(const StepMotion& motion, const Group& others, const char* what, double& bound) {
     std::vector<PlacedPart> fixed;
     for (const PartId id : others) fixed.push_back({id, state_.place[id]});
-    const MotionCheck check = verifier_.check_motion(motion.moving, fixed, motion.path);
+    const MotionCheck check = verifier_.check_motion(motion.moving, fixed, motion.path, context_);
     if (check.valid) {
       bound = check.max_penetration;
       return true;
     }
+    if (check.interrupted) return false;  // run() says so
     const Violation v = check.violation.value_or(Violation{});
     const Eigen::Vector3d at = assembly_.normalization.to_input(v.point);
     const std::string where = fmt::format("between poses {} and {}, at [{:.6g}, {:.6g}, {:.6g}] of '{}'", v.segment,
