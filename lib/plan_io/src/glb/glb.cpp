@@ -38,12 +38,13 @@ void animate(const Track& track, GlbScene& scene, std::map<std::vector<float>, s
   }
   GlbBuffer& buffer = scene.buffer();
   const std::size_t n = times.size();
-  const auto [clock, fresh] = clocks.try_emplace(times, 0);
-  if (fresh) clock->second = buffer.add(times, kFloat, "SCALAR", n, kNone, true);
+  const auto entry = clocks.try_emplace(times, 0);
+  std::size_t& clock = entry.first->second;
+  if (entry.second) clock = buffer.add(times, kFloat, "SCALAR", n, kNone, true);
   const auto channel = [&](const char* path, std::size_t output) {
     channels.push_back(
         {{"sampler", samplers.size()}, {"target", {{"node", scene.node_of(track.part)}, {"path", path}}}});
-    samplers.push_back({{"input", clock->second}, {"interpolation", "LINEAR"}, {"output", output}});
+    samplers.push_back({{"input", clock}, {"interpolation", "LINEAR"}, {"output", output}});
   };
   channel("translation", buffer.add(translations, kFloat, "VEC3", n, kNone, false));
   if (turns) channel("rotation", buffer.add(rotations, kFloat, "VEC4", n, kNone, false));

@@ -78,12 +78,12 @@ Json import_json(const ImportParams& params) {
   Json out;
   for (const auto& [importer, values] : params)
     for (const auto& [name, value] : values)
-      std::visit(
-          [&](const auto& v) {
+      out[importer][name] = std::visit(
+          [&whole = value](const auto& v) {
             if constexpr (std::is_constructible_v<Json, decltype(v)>)
-              out[importer][name] = v;
+              return Json(v);
             else
-              out[importer][name] = to_text(value);  // a choice of plugins
+              return Json(to_text(whole));  // a choice of plugins
           },
           value);
   return out;

@@ -69,7 +69,8 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     return result;
   }
   static thread_local struct { std::vector<Vec3> corners, normals; } kept;
-  auto& [corners, normals] = kept;  // once: to find what is the thread's own takes a call each time
+  auto& corners = kept.corners;  // once: to find what is the thread's own takes a call each time
+  auto& normals = kept.normals;
   corners.clear();
   normals.clear();
   for (int k = 0; k < 3; ++k)

@@ -46,8 +46,8 @@ fs::path preset_folder(const fs::path& built_in_folder) {
 
 /// Those that cannot be used now may be later, when more plugins are there.
 void Registry::resolve_presets() {
-  for (const auto& [id, preset] : open_presets_)
-    std::erase_if(problems_, [&](const PluginProblem& p) { return p.file == preset->file; });
+  for (const auto& preset : open_presets_)
+    std::erase_if(problems_, [&](const PluginProblem& p) { return p.file == preset.second->file; });
   std::vector<std::string> ids;
   for (const auto& [id, preset] : open_presets_) ids.push_back(id);
   for (const auto& id : ids) {
