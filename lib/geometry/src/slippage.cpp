@@ -106,15 +106,17 @@ std::vector<Twist> separated(const Eigen::MatrixXd& space, double radius) {
   return twists;
 }
 
-std::vector<Twist> motions_along(const std::vector<Vec6>& rows, double radius) {
+/// What slips; where nothing does and `or_least_stiff`, the least stiff motion.
+std::vector<Twist> motions_along(const std::vector<Vec6>& rows, double radius, bool or_least_stiff) {
   if (rows.size() < kLeastContacts) return {};
   Mat6 mean = Mat6::Zero();
   for (const Vec6& row : rows) add_square(mean, row, 1);
   mean /= static_cast<double>(rows.size());
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(mean);
   int slips = count_slipping(eigen.eigenvalues());
-  if (slips > 4) return {};   // all but free: the contacts do not tell where to
-  if (slips == 0) slips = 1;  // the least stiff motion; a simulation will tell whether it is possible
+  if (slips > 4) return {};  // all but free: the contacts do not tell where to
+  if (slips == 0 && !or_least_stiff) return {};
+  if (slips == 0) slips = 1;  // a simulation will tell whether it is possible
   return separated(eigen.eigenvectors().leftCols(slips), radius);
 }
 
@@ -183,22 +185,36 @@ std::vector<Twist> slippable_motions(const Mesh& mesh, const Vec3& center) {
   return found;
 }
 
-std::vector<Twist> slippable_motions(const std::vector<SurfaceSample>& contacts, const Vec3& center, double radius) {
+namespace {
+
+/// Along all contacts, and along those that remain without a flat face square to the axis of one of these motions.
+std::vector<Twist> motions_with_and_without_end_face(const std::vector<SurfaceSample>& contacts, const Vec3& center,
+                                                     double radius, bool or_least_stiff) {
   std::vector<Vec6> rows;
   rows.reserve(contacts.size());
   for (const SurfaceSample& c : contacts) rows.push_back(speed_across(c.point - center, c.normal, radius));
-  std::vector<Twist> twists = motions_along(rows, radius);
-  const std::size_t of_all = twists.size();
-  for (std::size_t i = 0; i < of_all; ++i) {
-    if (twists[i].angular.norm() * radius < kMostlyTurns) continue;
-    const std::vector<Vec6> others = without_end_face(rows, twists[i].angular.normalized());
+  const std::vector<Twist> axes = motions_along(rows, radius, true);
+  std::vector<Twist> twists = or_least_stiff ? axes : motions_along(rows, radius, false);
+  for (const Twist& about : axes) {
+    if (about.angular.norm() * radius < kMostlyTurns) continue;
+    const std::vector<Vec6> others = without_end_face(rows, about.angular.normalized());
     if (others.size() == rows.size()) continue;
-    for (const Twist& t : motions_along(others, radius)) {
+    for (const Twist& t : motions_along(others, radius, or_least_stiff)) {
       const bool known = std::any_of(twists.begin(), twists.end(), [&](const Twist& k) { return alike(k, t, radius); });
       if (!known) twists.push_back(t);
     }
   }
   return twists;
+}
+
+}  // namespace
+
+std::vector<Twist> slippable_motions(const std::vector<SurfaceSample>& contacts, const Vec3& center, double radius) {
+  return motions_with_and_without_end_face(contacts, center, radius, true);
+}
+
+std::vector<Twist> guided_motions(const std::vector<SurfaceSample>& contacts, const Vec3& center, double radius) {
+  return motions_with_and_without_end_face(contacts, center, radius, false);
 }
 
 }  // namespace dismantle::geometry

@@ -158,6 +158,24 @@ TEST(SlippageOfContacts, ANutThatSitsOnAPlateStillTellsItsLead) {
   }
 }
 
+TEST(SlippageOfContacts, WhatIsHeldOnAllSidesHasNoGuidedMotion) {
+  Rng rng(8);
+  for (int i = 0; i < 30; ++i) {
+    const Pose pose = random_pose(rng);
+    const auto held = contacts_of(rng, pose, [](Rng& r) {  // a box in a box
+      Vector3d p(r.uniform(-1, 1), r.uniform(-1, 1), r.uniform(-1, 1)), n = Vector3d::Zero();
+      const auto k = static_cast<Eigen::Index>(r.below(3));
+      n[k] = p[k] = r.below(2) == 0 ? 1 : -1;
+      return Sampled{p, n};
+    });
+    EXPECT_TRUE(guided_motions(held, pose.t, 1).empty());
+    EXPECT_FALSE(slippable_motions(held, pose.t, 1).empty()) << "the least stiff one";
+    const double lead = rng.uniform(0.1, 1.0);
+    const auto thread = contacts_of(rng, pose, [&](Rng& r) { return on_thread(r, lead); });
+    EXPECT_EQ(guided_motions(thread, pose.t, 1).size(), 1U);
+  }
+}
+
 TEST(SlippageOfContacts, NothingIsSaidOfFew) {
   Rng rng(4);
   const auto contacts = contacts_of(rng, Pose{}, on_cylinder);

@@ -29,6 +29,12 @@ const Tree* reached_in(const PathQuery& query, MotionSpace space) {
   return tree ? &*tree : nullptr;
 }
 
+/// Whoever can follow screws, in one piece: asks whether nothing else leads on.
+bool may_screw(const PathQuery& query, const Tactics& tactics) {
+  return tactics.motion == Motion::automatic && query.goal.any_of.empty() && !tactics.turning.empty() &&
+         tactics.turning.front() == Stage::twists;
+}
+
 Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context) {
   Search search(query, space, tactics, context);
   if (const Tree* tree = reached_in(query, space)) search.resume(*tree);
@@ -58,6 +64,18 @@ PathResult ByTurns::run(const Search::Limits& limits) {
   const auto goes_on = [](const PathResult& r) { return r.outcome() == Outcome::depth_limit; };
   paused_ = false;
   Search::Limits turn = limits;
+  if (!screw_first_) screw_first_ = may_screw(query_, tactics_) && translation_.screw_leads_out();
+  if (*screw_first_) {
+    if (!rotation_) rotation_.emplace(begun(query_, MotionSpace::rigid, tactics_, context_));
+    turn.rank = 0;
+    turn.expansions = 1;
+    second_ = rotation_->run(turn);
+    if (!goes_on(second_) && second_.outcome() != Outcome::exhausted) return merged(first_, second_);
+    paused_ = goes_on(second_) && rotation_->paused();
+    if (paused_) return merged(first_, second_);
+    screw_first_ = false;
+    turn = limits;
+  }
   while (goes_on(first_) || goes_on(second_)) {
     turn.rank = turning_ ? rank_ - std::min(rank_, tactics_.turning_lag) : rank_;
     if (turning_ && !rotation_) rotation_.emplace(begun(query_, MotionSpace::rigid, tactics_, context_));
@@ -141,8 +159,20 @@ SearchStatus ContactSearch::run(const Budget& portion) {
   return only_the_portion ? SearchStatus::paused : status_of(now_.outcome());
 }
 
+/// Where nothing but a screw leads out, a leg for that comes before the others.
+void ContactSearch::put_screws_first() {
+  if (std::exchange(asked_for_screws_, true) || legs_.empty() || !may_screw(query_, tactics_)) return;
+  const Leg translation = legs_.front();
+  Search search = begun(query_, translation.space, tactics_, context_);
+  if (search.screw_leads_out())
+    legs_.insert(legs_.begin(), {MotionSpace::rigid, 0, 1, translation.share});
+  else
+    begin_leg(translation, std::move(search));
+}
+
 /// One after the other, the first that finds something ending it.
 SearchStatus ContactSearch::run_legs(Search::Limits limits) {
+  put_screws_first();
   while (!legs_.empty()) {
     const SearchStatus status = run_leg(legs_.front(), limits);
     if (status != SearchStatus::exhausted) return status;
@@ -158,14 +188,17 @@ SearchStatus ContactSearch::run_legs(Search::Limits limits) {
   return status_of(now_.outcome());
 }
 
+void ContactSearch::begin_leg(const Leg& leg, Search search) {
+  if (leg.space == MotionSpace::rigid && reached_->rigid) search.resume(*reached_->rigid);  // of the leg for screws
+  current_.emplace(std::move(search));
+  if (leg.share) share_left_ = share_ = *leg.share - std::min(current_->spared(), *leg.share / 2);
+}
+
 /// What ends because it has had its share may go on another time. The work that
 /// an earlier search has spared counts, up to a half. `exhausted`: on to the
 /// next.
 SearchStatus ContactSearch::run_leg(const Leg& leg, Search::Limits limits) {
-  if (!current_) {
-    current_.emplace(begun(query_, leg.space, tactics_, context_));
-    if (leg.share) share_left_ = share_ = *leg.share - std::min(current_->spared(), *leg.share / 2);
-  }
+  if (!current_) begin_leg(leg, begun(query_, leg.space, tactics_, context_));
   limits.rank = leg.rank;
   limits.expansions = leg.expansions;
   std::uint64_t* const all = limits.steps_left;

@@ -36,7 +36,8 @@ class ByTurns {
   std::optional<Search> rotation_;
   PathResult first_, second_;  ///< what each said last
   unsigned rank_ = 0;
-  bool turning_ = false;  ///< whose turn it is
+  bool turning_ = false;             ///< whose turn it is
+  std::optional<bool> screw_first_;  ///< asked for when run() is called first; false once that turn is over
   bool paused_ = false;
 };
 
@@ -64,6 +65,8 @@ class ContactSearch final : public PathSearch {
   static std::vector<Leg> legs_of(const PathQuery& query, const Tactics& tactics);
   SearchStatus run_legs(Search::Limits limits);
   SearchStatus run_leg(const Leg& leg, Search::Limits limits);
+  void begin_leg(const Leg& leg, Search search);
+  void put_screws_first();
   void keep_tree();
 
   const PathQuery& query_;
@@ -76,6 +79,7 @@ class ContactSearch final : public PathSearch {
   std::vector<Leg> legs_;  ///< those still to come, the current one first; where
                            ///< there are no turns
   std::optional<Search> current_;
+  bool asked_for_screws_ = false;
   std::uint64_t share_left_ = 0, share_ = 0;  ///< of the current leg
   bool any_ = false;                          ///< a leg has ended
   PathResult ended_,

@@ -40,6 +40,10 @@ class Search {
   /// Simulated steps and looks that need not be made again, thanks to resume().
   std::uint64_t spared() const { return spared_; }
 
+  /// A cheap question, of contacts alone: where the query begins, is every motion that they leave free a turn, and does
+  /// one of these lead out? Then translations are of no use.
+  bool screw_leads_out();
+
   /// What one call of run() may use.
   struct Limits {
     Deadline deadline;
@@ -63,14 +67,12 @@ class Search {
 
  private:
   enum class RunEnd { blocked, solved, refused_learned, refused, stop };
-  /// One action applied from a node, so far.
+  /// A run along screws, so far.
   struct Run {
     State state;
-    std::int32_t last = -1;                              ///< node recorded last
-    std::uint32_t first = 0;                             ///< its first node: the run may come near its own
-    Path way;                                            ///< since then
-    double length = 0;                                   ///< of all glides together
-    std::vector<std::pair<double, std::int32_t>> marks;  ///< lengths at which nodes were recorded
+    std::int32_t last = -1;  ///< node recorded last
+    Path way;                ///< since then
+    double length = 0;       ///< of all glides together
   };
 
   void reset();
@@ -92,7 +94,12 @@ class Search {
   RunEnd follow(std::int32_t from, const Action& action, Stage stage, unsigned depth, PathResult& result);
   RunEnd follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result);
   enum class GlideEnd { blocked, out, known, stop };
-  GlideEnd glide(const Twist& twist, unsigned depth, Run& run);
+  struct Stretch {
+    GlideEnd end;
+    double way;
+  };
+  Stretch glide(const Twist& twist, const State& start, double clear, std::uint32_t first);
+  void record(const Twist& twist, double way, unsigned depth, Run& run);
   RunEnd verify(std::int32_t last, const State& start, PathResult& result);
   std::vector<PartId> note_contacts(const State& state);
   void note_touched(std::int32_t node, const std::vector<PartId>& parts);
