@@ -133,6 +133,15 @@ std::vector<Vec6> without_end_face(const std::vector<Vec6>& rows, const Vec3& ax
   return others;
 }
 
+/// Contacts face along the axis as well as against it.
+bool blocked_both_ways(const std::vector<Vec6>& rows, const Vec3& axis) {
+  const auto faces = [&](double sign) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](const Vec6& j) { return sign * j.head<3>().dot(axis) > kEndFace; });
+  };
+  return faces(1) && faces(-1);
+}
+
 /// The places whose mean, with the weights, is exact for quadratic forms: the middles of the edges of all triangles.
 struct WeightedSample {
   Vec3 arm, normal;  ///< from the centre of the twists
@@ -197,8 +206,9 @@ std::vector<Twist> motions_with_and_without_end_face(const std::vector<SurfaceSa
   std::vector<Twist> twists = or_least_stiff ? axes : motions_along(rows, radius, false);
   for (const Twist& about : axes) {
     if (about.angular.norm() * radius < kMostlyTurns) continue;
-    const std::vector<Vec6> others = without_end_face(rows, about.angular.normalized());
-    if (others.size() == rows.size()) continue;
+    const Vec3 axis = about.angular.normalized();
+    const std::vector<Vec6> others = without_end_face(rows, axis);
+    if (others.size() == rows.size() || (!or_least_stiff && blocked_both_ways(rows, axis))) continue;
     for (const Twist& t : motions_along(others, radius, or_least_stiff)) {
       const bool known = std::any_of(twists.begin(), twists.end(), [&](const Twist& k) { return alike(k, t, radius); });
       if (!known) twists.push_back(t);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace dismantle::geometry {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kDamping = 1e-3;
 
 Pose moved_along(const Pose& pose, const Twist& twist, const Vec3& center, double duration) {
   const double rate = twist.angular.norm();
-  if (rate * duration < 1e-12) return {duration * twist.linear + pose.t, pose.q};
+  if (rate * std::abs(duration) < 1e-12) return {duration * twist.linear + pose.t, pose.q};
   const Vec3 axis = twist.angular / rate;
   const Vec3 on_axis = center + axis.cross(twist.linear) / rate;
   const Eigen::Quaterniond rotation = rotation_from_vector(duration * twist.angular);

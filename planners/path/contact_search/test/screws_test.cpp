@@ -60,7 +60,7 @@ TEST(ContactSearchScrews, ANutIsUnscrewedAtTheFirstLevelWithoutSimulation) {
                                           {{"diameter", diameter},
                                            {"pitch", pitch},
                                            {"turns", rng.uniform(0.5, 2)},
-                                           {"clearance", pitch * rng.uniform(0.01, 0.06)},
+                                           {"clearance", pitch * rng.uniform(0.01, 0.03)},
                                            {"segments", std::int64_t{32}}},
                                           seed));
     const PathResult result = table.plan("contact_search", {}, 0, {.max_depth = 1}, {PartId{1}});

@@ -138,8 +138,8 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
       const State on_screw = moved(run.state, twist, center, kKept * best);
       room = on_screw;
       world_->project_to_clearance(room, kGlideClearance);
-      from_room = fitted_screw(twist, run.state.bodies[0].pose, room.bodies[0].pose, bodies_[0].center,
-                               world_->torque_arm(0), kKept * best * twist.angular.norm());
+      from_room = fitted_screw(about(twist, center, center_of(room)), run.state.bodies[0].pose, room.bodies[0].pose,
+                               bodies_[0].center, world_->torque_arm(0), kKept * best * twist.angular.norm());
       twist = about(from_room, center_of(room), center);
       // Where the screw was right, something else is in the way.
       if (travel(on_screw, room) > kGlideDepthShare * query_.tolerance) continue;

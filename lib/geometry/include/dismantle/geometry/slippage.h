@@ -35,7 +35,8 @@ DISMANTLE_API std::vector<Twist> slippable_motions(const Mesh& mesh, const Eigen
 DISMANTLE_API std::vector<Twist> slippable_motions(const std::vector<SurfaceSample>& contacts,
                                                    const Eigen::Vector3d& center, double radius);
 
-/// The same without the least stiff motion: empty where nothing slips.
+/// The same of what is certain: no least stiff motion where nothing slips, and nothing without flat faces that block
+/// both ways along the axis.
 DISMANTLE_API std::vector<Twist> guided_motions(const std::vector<SurfaceSample>& contacts,
                                                 const Eigen::Vector3d& center, double radius);
 
