@@ -12,7 +12,8 @@ namespace dismantle::sdf_penalty {
 enum class Dynamics {
   quasi_static,  ///< no inertia, viscous drag: a part goes where it is pushed and stops when the push stops
   unit_mass,     ///< second order, every part has mass 1
-  density,       ///< second order, mass = density * volume: the paper's
+  density,       ///< second order, mass = density * volume: the paper's text
+  acceleration,  ///< second order, a wrench is an acceleration: the same for every part
 };
 
 struct Parameters {
@@ -26,6 +27,8 @@ struct Parameters {
   double density = 1;
   double drag = 40;
   double max_travel = 0.02;
+  bool adaptive = false;
+  double rest_share = 0.01;
   sdf::DistanceModel distance = sdf::DistanceModel::exact;
   double cell = 0.05;
   std::int64_t cells_per_edge = 20;
@@ -53,7 +56,10 @@ struct Parameters {
                            {{"quasi_static", Dynamics::quasi_static,
                              "no inertia, viscous drag: speed does not depend on the part's mass or history"},
                             {"unit_mass", Dynamics::unit_mass, "second order, every part has mass 1"},
-                            {"density", Dynamics::density, "second order, mass from volume: the paper's"}},
+                            {"density", Dynamics::density, "second order, mass from volume: as the paper writes"},
+                            {"acceleration", Dynamics::acceleration,
+                             "second order, forces are linear and torques angular accelerations (unit/s^2, rad/s^2), "
+                             "whatever the part's mass and inertia: as the code published with the paper moves parts"}},
                            "How forces become motion.");
     s.add("density", &Parameters::density,
           {.unit = "kg/unit^3", .min = 0, .min_open = true, .doc = "Density of all parts under `dynamics: density`."});
@@ -67,6 +73,14 @@ struct Parameters {
            .min = 1e-4,
            .max = 0.1,
            .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
+    s.add("adaptive", &Parameters::adaptive,
+          {.doc = "Second order: as many time steps at once as lead no point further than `max_travel`."});
+    s.add("rest_share", &Parameters::rest_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 0.1,
+           .doc = "Second order: an advance ends when the rest of it cannot lead further than this share of the way of "
+                  "a free part. 0: every time step is made."});
     s.add_choice<sdf::DistanceModel>(
         "distance", &Parameters::distance,
         {{"exact", sdf::DistanceModel::exact,

@@ -35,10 +35,12 @@ PenaltyWorld::PenaltyWorld(const sdf::PreparedShapes& prepared, const Scene& sce
     const sdf::Placed& placed = prepared.placed[scene.moving[i].part];
     const sdf::MassProperties& mass = placed.shape->mass;
     Inertia inertia;
+    const Eigen::Matrix3d r = placed.rest.q.toRotationMatrix();
     if (parameters.dynamics == Dynamics::density) {
-      const Eigen::Matrix3d r = placed.rest.q.toRotationMatrix();
       inertia.mass = parameters.density * mass.volume;
       inertia.about_center = parameters.density * (r * mass.inertia * r.transpose());
+    } else if (parameters.dynamics == Dynamics::acceleration) {
+      inertia.about_center = r * mass.inertia * r.transpose() / mass.volume;
     } else {
       inertia.about_center = bodies()[i].radius * bodies()[i].radius * Eigen::Matrix3d::Identity();
     }
@@ -61,23 +63,87 @@ double PenaltyWorld::way_from_rest(const Action& action, double duration) const 
   double way = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     double acceleration = action.wrenches[i].force.norm() / inertia_[i].mass;
-    if (per_body() == 6)
-      acceleration += action.wrenches[i].torque.norm() * bodies()[i].radius / (inertia_[i].about_center.trace() / 3);
+    const double inertia = parameters_.dynamics == Dynamics::acceleration ? 1 : inertia_[i].about_center.trace() / 3;
+    if (per_body() == 6) acceleration += action.wrenches[i].torque.norm() * bodies()[i].radius / inertia;
     way = std::max(way, 0.5 * acceleration * duration * duration);
   }
   const double steps = std::max(1.0, duration / parameters_.time_step);
   return std::min(way, steps * parameters_.max_travel);
 }
 
+/// How far a small turn (axis and angle, the body's axes) about its centre moves any point of it. A long screw that
+/// turns about its axis moves no point far.
+double PenaltyWorld::reach(std::size_t body, const Eigen::Vector3d& turn) const {
+  if (turn.isZero()) return 0;
+  double most = 0;
+  for (const auto& p : bodies()[body].hull) most = std::max(most, turn.cross(p - bodies()[body].center).squaredNorm());
+  return std::sqrt(most);
+}
+
+/// Second order: how far a body that came from `before` in the last step gets in `rest` seconds, if its acceleration
+/// stays what it was.
+double PenaltyWorld::way_ahead(const State& before, const State& now, double dt, double rest) const {
+  double way = 0;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    const BodyState &was = before.bodies[i], &is = now.bodies[i];
+    const double arm = per_body() == 6 ? bodies()[i].radius : 0;
+    const double speed = is.velocity.norm() + arm * is.angular_velocity.norm();
+    const double gain = (is.velocity - was.velocity).norm() + arm * (is.angular_velocity - was.angular_velocity).norm();
+    way = std::max(way, rest * (speed + 0.5 * gain / dt * rest));
+  }
+  return way;
+}
+
+Eigen::Matrix3d PenaltyWorld::inertia_at(std::size_t body, const BodyState& state) const {
+  const Eigen::Matrix3d r = state.pose.q.toRotationMatrix();
+  return r * inertia_[body].about_center * r.transpose();
+}
+
+/// Second order: of the body alone.
+PenaltyWorld::Acceleration PenaltyWorld::acceleration(std::size_t body, const BodyState& state,
+                                                      const Action& action) const {
+  Wrench wrench = action.wrenches[body];
+  if (action.in_body_frame) wrench = {state.pose.q * wrench.force, state.pose.q * wrench.torque};
+  Acceleration a{wrench.force / inertia_[body].mass, Eigen::Vector3d::Zero()};
+  if (per_body() == 3) return a;
+  const Eigen::Matrix3d inertia = inertia_at(body, state);
+  const Eigen::Vector3d gyroscopic = state.angular_velocity.cross(inertia * state.angular_velocity);
+  a.angular = parameters_.dynamics == Dynamics::acceleration
+                  ? Eigen::Vector3d(wrench.torque - inertia.ldlt().solve(gyroscopic))
+                  : Eigen::Vector3d(inertia.ldlt().solve(wrench.torque - gyroscopic));
+  return a;
+}
+
+/// As many as keep every point within `max_travel`; one where even that leads further.
+int PenaltyWorld::steps_at_once(const State& state, const Action& action, double dt, int most) const {
+  double time = most * dt;
+  for (std::size_t i = 0; i < bodies().size(); ++i) {
+    const BodyState& s = state.bodies[i];
+    const Acceleration a = acceleration(i, s, action);
+    const Eigen::Quaterniond to_body = s.pose.q.conjugate();
+    const double speed = s.velocity.norm() + reach(i, to_body * s.angular_velocity);
+    const double gain = a.linear.norm() + reach(i, to_body * a.angular);
+    if (gain > 0)
+      time = std::min(
+          time, 2 * parameters_.max_travel / (speed + std::sqrt(speed * speed + 4 * gain * parameters_.max_travel)));
+    else if (speed > 0)
+      time = std::min(time, parameters_.max_travel / speed);
+  }
+  return std::clamp(static_cast<int>(time / dt + 1e-9), 1, most);
+}
+
 /// One implicit step from the contacts of the last update; leaves them updated.
 template <int Dof>
-PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, double* travel) {
+PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, int n_steps, double* travel) {
   using Solver = sdf::StepSolver<Dof>;
   const bool fixed_water = parameters_.dynamics == Dynamics::quasi_static;
   const auto n = dof();
   typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
   typename Solver::Vector target = Solver::Vector::Zero(n);
   double free_travel = 0, largest_force = 0;
+  // Where nothing is near, the sum of the single steps is known.
+  const bool flies = !fixed_water && n_steps > 1 && touching().empty();
+  const double gain = flies ? dt * dt * (n_steps + 1) / (2.0 * n_steps) : dt * dt;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i) * per_body();
     const sdf::MovingBody& body = bodies()[i];
@@ -96,16 +162,15 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
       }
     } else {
       weight.template block<3, 3>(at, at).diagonal().setConstant(inertia_[i].mass / (dt * dt));
-      shift = dt * s.velocity + dt * dt / inertia_[i].mass * wrench.force;
+      const Acceleration a = acceleration(i, s, action);
+      shift = dt * s.velocity + gain * a.linear;
       if (per_body() == 6) {
-        const Eigen::Matrix3d r = s.pose.q.toRotationMatrix();
-        const Eigen::Matrix3d inertia = r * inertia_[i].about_center * r.transpose();
-        weight.template block<3, 3>(at + 3, at + 3) = inertia / (dt * dt);
-        const Eigen::Vector3d torque = wrench.torque - s.angular_velocity.cross(inertia * s.angular_velocity);
-        turn = dt * s.angular_velocity + dt * dt * inertia.ldlt().solve(torque);
+        weight.template block<3, 3>(at + 3, at + 3) = inertia_at(i, s) / (dt * dt);
+        turn = dt * s.angular_velocity + gain * a.angular;
       }
     }
-    const double way = shift.norm() + turn.norm() * body.radius;
+    const double arm_way = fixed_water ? turn.norm() * body.radius : reach(i, s.pose.q.conjugate() * turn);
+    const double way = shift.norm() + arm_way;
     const double scale = way > parameters_.max_travel ? parameters_.max_travel / way : 1.0;
     target.template segment<3>(at) = scale * shift;
     if (per_body() == 6) target.template segment<3>(at + 3) = scale * turn;
@@ -118,13 +183,16 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     *travel = std::numeric_limits<double>::quiet_NaN();
     return Moved::stalled;
   }
-  *travel = displace<Dof>(state, x);
   if (!fixed_water)
     for (std::size_t i = 0; i < bodies().size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i) * per_body();
-      state.bodies[i].velocity = x.template segment<3>(at) / dt;
-      if (per_body() == 6) state.bodies[i].angular_velocity = x.template segment<3>(at + 3) / dt;
+      BodyState& s = state.bodies[i];
+      const Acceleration a = acceleration(i, s, action);
+      const double late = flies ? (n_steps - 1) * dt / (2.0 * n_steps) : 0;  // the last speed is more than the mean
+      s.velocity = x.template segment<3>(at) / dt + late * a.linear;
+      if (per_body() == 6) s.angular_velocity = x.template segment<3>(at + 3) / dt + late * a.angular;
     }
+  *travel = displace<Dof>(state, x);
   follow_contacts<Dof>(state, x, *travel);
   if (*travel < kStuckShare * free_travel) return Moved::not_at_all;
   if (fixed_water) settle<Dof>(state, kSettleDepth + largest_force / parameters_.contact_stiffness);
@@ -143,16 +211,22 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
   }
   const int steps = std::max(1, static_cast<int>(std::ceil(duration / natural - 1e-9)));
   const double dt = duration / steps;
+  const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
+  const bool may_rest = !quasi_static && parameters_.rest_share > 0;
+  State before;
   int idle = 0;
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < steps;) {
+    const int n = !quasi_static && parameters_.adaptive ? steps_at_once(state, action, dt, steps - k) : 1;
+    k += n;
     double travel = 0;
     Moved moved;
+    if (may_rest) before = state;
     if (bodies().size() > 1)
-      moved = step<Eigen::Dynamic>(state, action, dt, &travel);
+      moved = step<Eigen::Dynamic>(state, action, n * dt, n, &travel);
     else if (per_body() == 3)
-      moved = step<3>(state, action, dt, &travel);
+      moved = step<3>(state, action, n * dt, n, &travel);
     else
-      moved = step<6>(state, action, dt, &travel);
+      moved = step<6>(state, action, n * dt, n, &travel);
     ++report.steps;
     if (!std::isfinite(travel)) {
       state = begin_state;
@@ -170,13 +244,14 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
       report.stalled = true;
       break;
     }
+    if (may_rest && k < steps && way_ahead(before, state, n * dt, duration - k * dt) <= parameters_.rest_share * free)
+      break;
   }
   for (std::size_t i = 0; i < bodies().size(); ++i)
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
   // To and fro in place is standing fixed, too.
-  const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
   if (report.travel < kStallShare * free) report.stalled = true;
   return report;
 }

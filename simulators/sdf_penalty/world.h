@@ -16,16 +16,26 @@ class PenaltyWorld final : public sdf::BodyWorld {
   StepReport advance(State& state, const Action& action, double duration, Trace* trace) override;
 
  private:
-  struct Inertia {  ///< second order
+  struct Inertia {  ///< second order; `acceleration`: of a body of mass 1
     double mass = 1;
     Eigen::Matrix3d about_center;  ///< assembled frame
   };
   enum class Moved { freely, stalled, not_at_all };
 
+  struct Acceleration {
+    Eigen::Vector3d linear, angular;  ///< unit/s^2, rad/s^2; world axes
+  };
+
+  /// `n` time steps at once.
   template <int Dof>
-  Moved step(State& state, const Action& action, double dt, double* travel);
+  Moved step(State& state, const Action& action, double dt, int n, double* travel);
+  Eigen::Matrix3d inertia_at(std::size_t body, const BodyState& state) const;
+  Acceleration acceleration(std::size_t body, const BodyState& state, const Action& action) const;
+  int steps_at_once(const State& state, const Action& action, double dt, int most) const;
   double quasi_static_step(const Action& action) const;
   double way_from_rest(const Action& action, double duration) const;
+  double reach(std::size_t body, const Eigen::Vector3d& turn) const;
+  double way_ahead(const State& before, const State& now, double dt, double rest) const;
 
   Parameters parameters_;
   std::vector<Inertia> inertia_;  ///< per body

@@ -1,22 +1,27 @@
 #include "dismantle/plugin.h"
 #include "dismantle/push/plan.h"
 #include "parameters.h"
+#include "published.h"
 
 namespace dismantle::bfs {
 namespace {
 
 class Bfs final : public PathPlanner {
  public:
-  explicit Bfs(const Parameters& parameters) : tactics_(parameters.tactics()) {}
+  explicit Bfs(const Parameters& parameters) : parameters_(parameters), tactics_(parameters.tactics()) {}
 
   PathPlannerTraits traits() const noexcept override {
     return {.needs = push::required(), .simultaneous_motion = true, .resumable = true};
   }
   std::unique_ptr<PathSearch> start(const PathQuery& query, RunContext& context) override {
+    const bool as_one = query.goal.any_of.empty();
+    if (parameters_.variant == Variant::published && as_one && push::fits(query))
+      return std::make_unique<PublishedSearch>(query, parameters_, context);
     return push::start(query, tactics_, context);
   }
 
  private:
+  Parameters parameters_;
   push::Tactics tactics_;
 };
 

@@ -5,9 +5,44 @@
 
 namespace dismantle::bfs {
 
+enum class Variant {
+  shared,     ///< the search that bfs shares with contact_search
+  published,  ///< Algorithm 1 as the code published with the paper runs it
+};
+
+enum class Order { first_come, longest_first };
+
 struct Parameters : push::SearchParameters {
+  Variant variant = Variant::shared;
+  Order order = Order::longest_first;
+  double torque = 0;
+  double distinct_translation = 0.05;
+  double distinct_rotation = 0.2;
+
   static void describe(Schema<Parameters>& s) {
+    s.add_choice<Variant>(
+        "variant", &Parameters::variant,
+        {{"shared", Variant::shared, "the search that bfs shares with contact_search"},
+         {"published", Variant::published,
+          "level by level, as the code published with the paper; without `diagonals`, `intermediate`, "
+          "`translation_nodes`, `rotation_nodes`"}},
+        "How the tree of states is searched.");
     push::describe_search(s);
+    s.add_choice<Order>("order", &Parameters::order,
+                        {{"first_come", Order::first_come, "in the order in which they were reached"},
+                         {"longest_first", Order::longest_first, "those with the longest way from the start first"}},
+                        "Order of the states of one level under `variant: published`.");
+    s.add("torque", &Parameters::torque,
+          {.unit = "N unit",
+           .min = 0,
+           .doc = "Torque of each action under `variant: published`. 0: `force` times the part's radius."});
+    s.add("distinct_translation", &Parameters::distinct_translation,
+          {.unit = "unit",
+           .min = 0,
+           .min_open = true,
+           .doc = "Under `variant: published`: ends of two runs that are nearer than this are one state."});
+    s.add("distinct_rotation", &Parameters::distinct_rotation,
+          {.unit = "rad", .min = 0, .max = 3.2, .min_open = true, .doc = "... if turned by less than this, too."});
     push::describe_effort(s);
   }
 

@@ -50,6 +50,11 @@ bool in_vain(const PathResult& result) {
 
 Capabilities required() { return {.dynamics = true, .contacts = true, .distance = false, .max_moving = 1}; }
 
+bool fits(const PathQuery& query) {
+  const Capabilities has = query.simulator.capabilities();
+  return has.dynamics && has.contacts && has.max_moving >= query.scene.moving.size();
+}
+
 ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& context)
     : query_(query),
       tactics_(tactics),
@@ -238,8 +243,7 @@ PathResult ContactSearch::result() {
 
 std::unique_ptr<PathSearch> start(const PathQuery& query, const Tactics& tactics, RunContext& context,
                                   std::function<void()> between) {
-  const Capabilities has = query.simulator.capabilities();
-  if (!has.dynamics || !has.contacts || has.max_moving < query.scene.moving.size())
+  if (!fits(query))
     return path::unsupported(
         "pushing needs a simulator with dynamics and "
         "contacts for all moving parts");

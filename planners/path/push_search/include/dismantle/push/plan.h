@@ -14,6 +14,8 @@ namespace dismantle::push {
 
 /// What the simulator has to be capable of.
 Capabilities required();
+/// The query's simulator is capable of it.
+bool fits(const PathQuery& query);
 
 /// Search by translation and by rotation in turns of growing rank, until both are exhausted: what is new to each kind
 /// of motion comes before the rest of the other.

@@ -1,0 +1,90 @@
+/// Algorithm 1 in one motion space, as the code published with the paper runs it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "dismantle/path/state_set.h"
+#include "dismantle/path_planner.h"
+#include "parameters.h"
+
+namespace dismantle::bfs {
+
+/// A state where a run ended.
+struct Node {
+  State state;
+  std::int32_t parent = -1;
+  unsigned depth = 0;        ///< actions from the start
+  Path way{};                ///< instants after the parent's, this one's last
+  std::size_t instants = 0;  ///< from the start
+};
+
+/// A place where the verifier found the world too permissive (World::add_contact_sample).
+struct Lesson {
+  PartId part, other;
+  Eigen::Vector3d point;
+};
+
+/// What a search in one motion space has reached.
+struct Levels {
+  std::vector<Node> nodes;          ///< parents before their children
+  std::vector<std::int32_t> level;  ///< of the current depth, in the order in which they are searched from
+  std::vector<std::int32_t> next;   ///< children of those
+  std::size_t at = 0;               ///< the first of `level` that has not been given all actions
+  std::size_t action = 0;           ///< the next that it is given
+  std::vector<Lesson> lessons;
+  std::uint64_t work = 0;  ///< simulated steps that led here
+};
+
+/// The tree grows level by level. From a state each action is applied, one planning time step after the other and each
+/// from rest, until the part is out or similar to a state that it passed on its own way from the start. Where the run
+/// ends is a state of the next level.
+class LevelSearch {
+ public:
+  enum class End { searched, solved, paused, stopped, refused };
+
+  /// `earlier`: null, or what a search among the same parts has reached.
+  LevelSearch(const PathQuery& query, MotionSpace space, const Parameters& parameters, RunContext& context,
+              const Levels* earlier);
+
+  /// Applies all actions to all states of depth below `depth`. `steps_left`: counted down; null = no limit. Pauses
+  /// between two states after `pause_after` simulated steps of this call; 0 = never.
+  End run(unsigned depth, const Deadline& deadline, std::uint64_t* steps_left, std::uint64_t pause_after,
+          PathResult& result);
+  /// All states have been given all actions.
+  bool exhausted() const { return levels_.at == levels_.level.size() && levels_.next.empty(); }
+  bool starts_out() { return world_->separated(levels_.nodes.front().state); }
+  const Levels& levels() const { return levels_; }
+  /// Counts, contacts, and the furthest state.
+  void report(PathResult& result) const;
+
+ private:
+  void begin();
+  void remember(const State& state);
+  std::int32_t add(Node node);
+  void next_level();
+  End expand(std::int32_t from, PathResult& result);
+  End follow(std::int32_t from, const Action& action, const path::StateSet& passed, PathResult& result);
+  End verify(std::int32_t last, PathResult& result);
+  Path path_to(std::int32_t node) const;
+  bool over() const;
+
+  const PathQuery& query_;
+  const Parameters& parameters_;
+  RunContext& context_;
+  std::unique_ptr<World> world_;
+  std::vector<path::Ball> bodies_;
+  std::vector<Action> actions_;
+  path::StateSet ends_;  ///< of the runs so far
+  Levels levels_;
+  Deadline deadline_;
+  std::uint64_t* steps_left_ = nullptr;
+  std::map<PartId, std::uint64_t> touched_;
+  std::vector<Pose> best_;
+  double farthest_ = -1;
+  std::uint64_t steps_ = 0, expanded_ = 0, refused_ = 0, spared_ = 0, resumed_ = 0;
+};
+
+}  // namespace dismantle::bfs
