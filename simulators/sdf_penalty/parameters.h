@@ -28,7 +28,7 @@ struct Parameters {
   double drag = 40;
   double max_travel = 0.02;
   bool adaptive = false;
-  double rest_share = 0.01;
+  double rest_share = 0;
   sdf::DistanceModel distance = sdf::DistanceModel::exact;
   double cell = 0.05;
   std::int64_t cells_per_edge = 20;

@@ -18,6 +18,7 @@ ParamSet paper_simulator(bool adaptive = true) {
   return {{"dynamics", std::string("acceleration")},
           {"adaptive", adaptive},
           {"max_travel", 0.06},
+          {"rest_share", 0.01},
           {"contact_threshold", 0.005}};
 }
 ParamSet paper_planner(ParamSet given = {}) {
