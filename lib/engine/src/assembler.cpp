@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "dismantle/errors.h"
@@ -37,36 +38,41 @@ bool contains(const std::vector<PartId>& parts, PartId id) {
 /// Who is where. Group g > 0 was made by step g - 1. "Place" of a group: its displacement from where the disassembly
 /// has it.
 struct Assembler::Scenery {
+  /// Where a part is, and in which group, from some number of steps of the disassembly on.
+  struct Stand {
+    std::size_t since = 0;
+    Pose pose;
+    std::size_t group = 0;
+  };
   const std::vector<RecordedStep>& steps;
-  std::vector<std::vector<Pose>> poses;          ///< [k][part]: after k steps of the disassembly
-  std::vector<std::vector<std::size_t>> groups;  ///< [k][part]: likewise, its group
-  std::vector<Pose> place;                       ///< [group]
-  std::vector<std::string> missing;              ///< [group]: why it does not lie in the layout; empty: it does
+  std::vector<std::vector<Stand>> stands;  ///< [part]: one, and one more for each step that moves it
+  std::vector<Pose> place;                 ///< [group]
+  std::vector<std::string> missing;        ///< [group]: why it does not lie in the layout; empty: it does
 
   Scenery(const std::vector<RecordedStep>& recorded, std::size_t parts)
-      : steps(recorded), poses(1, std::vector<Pose>(parts)), groups(1, std::vector<std::size_t>(parts, 0)) {
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      poses.push_back(poses.back());
-      groups.push_back(groups.back());
+      : steps(recorded), stands(parts, std::vector<Stand>(1)) {
+    place.resize(steps.size() + 1), missing.resize(steps.size() + 1);
+    for (std::size_t i = 0; i < steps.size(); ++i)
       for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
-        poses.back()[steps[i].parts[k]] = steps[i].path->back()[k];
-        if (steps[i].leaves(steps[i].parts[k])) groups.back()[steps[i].parts[k]] = i + 1;
+        auto& list = stands[steps[i].parts[k]];
+        const std::size_t group = steps[i].leaves(steps[i].parts[k]) ? i + 1 : list.back().group;
+        list.push_back({i + 1, steps[i].path->back()[k], group});
       }
-    }
-    place.resize(steps.size() + 1);
-    missing.resize(steps.size() + 1);
   }
 
-  std::size_t part_count() const { return poses.front().size(); }
+  /// After k steps of the disassembly.
+  const Stand& stand(std::size_t k, std::size_t part) const {
+    const auto& list = stands[part];
+    return *std::prev(std::partition_point(list.begin(), list.end(), [&](const Stand& s) { return s.since <= k; }));
+  }
   /// Everything but the parts of step `i`, at the time when these are brought. Groups that lie nowhere are left out,
   /// unless it is the one that the step adds to.
   std::vector<PlacedPart> others(std::size_t i) const {
     std::vector<PlacedPart> all;
-    for (std::size_t p = 0; p < part_count(); ++p) {
-      const auto id = static_cast<PartId>(p);
-      const std::size_t g = groups[i + 1][p];
-      if (contains(steps[i].parts, id) || (!missing[g].empty() && g != steps[i].from)) continue;
-      all.push_back({id, place[g] * poses[i + 1][p]});
+    for (PartId id = 0; id < stands.size(); ++id) {
+      const Stand& s = stand(i + 1, id);
+      if (contains(steps[i].parts, id) || (!missing[s.group].empty() && s.group != steps[i].from)) continue;
+      all.push_back({id, place[s.group] * s.pose});
     }
     return all;
   }
@@ -112,8 +118,8 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   // dense poses a point leaves the box of its ends by less than a share of its way.
   std::vector<Aabb> rooms(n + 1);
   const double sagitta = 0.5 * normalizer_.max_travel();
-  for (std::size_t p = 0; p < scenery.part_count(); ++p)
-    rooms[0].extend(box_of(static_cast<PartId>(p), scenery.poses[0][p]));
+  for (std::size_t p = 0; p < scenery.stands.size(); ++p)
+    rooms[0].extend(box_of(static_cast<PartId>(p), scenery.stand(0, p).pose));
   const Aabb assembled = rooms[0];
   for (std::size_t i = 0; i < n; ++i) {
     const RecordedStep& step = scenery.steps[i];
@@ -134,14 +140,14 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
     const auto part = std::find_if(assembly_.parts.begin(), assembly_.parts.end(),
                                    [&, &wanted = name](const Part& p) { return p.name == wanted; });
     if (part == assembly_.parts.end()) continue;  // run() has told the user
-    const std::size_t g = scenery.groups.back()[part->id];
+    const std::size_t g = scenery.stands[part->id].back().group;
     if (g == 0) {
       remarks.push_back(fmt::format("layout: '{}' is not removed, so it stays where it is", name));
     } else if (given[g]) {
       remarks.push_back(fmt::format("layout: '{}' lies with parts whose place was given already", name));
     } else {
       given[g] = true;
-      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.poses.back()[part->id].inverse();
+      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.stands[part->id].back().pose.inverse();
       taken.push_back(geometry::box_under(rooms[g], scenery.place[g]));
     }
   }
@@ -167,13 +173,13 @@ void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const
     const std::size_t from = scenery.steps[i].from;
     std::vector<PlacedPart> others = scenery.others(i);
     // Those that it passed on its way out are in order: the motion is the same.
-    std::erase_if(others, [&](const PlacedPart& p) { return scenery.groups[i + 1][p.part] == from; });
+    std::erase_if(others, [&](const PlacedPart& p) { return scenery.stand(i + 1, p.part).group == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
     if (check.interrupted) return;  // no way is looked for any more
     if (check.valid) continue;
     const Violation v = check.violation.value_or(Violation{});
     const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;
-    const std::size_t lies = scenery.groups[i + 1][id];
+    const std::size_t lies = scenery.stand(i + 1, id).group;
     const std::size_t wrong = lies > 0 ? lies : from;  // the base stays: then it is the group that is added to
     if (!scenery.missing[wrong].empty()) continue;
     scenery.leave_out(wrong, fmt::format("in the layout '{}' lies where '{}' is put in", assembly_.parts[id].name,
@@ -233,7 +239,7 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
   Scene scene{{}, scenery.others(i)};
   std::vector<Pose> goal;
   for (const PartId id : step.parts) {
-    const Pose& out = scenery.poses[i + 1][id];
+    const Pose& out = scenery.stand(i + 1, id).pose;
     if (!step.leaves(id)) {  // there, and waits
       scene.fixed.push_back({id, scenery.place[step.from] * out});
       continue;

@@ -1,7 +1,11 @@
 #include "precedence.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
+
+#include "dismantle/geometry/swept_boxes.h"
 
 namespace dismantle {
 
@@ -11,23 +15,33 @@ bool holds(const std::vector<PartId>& parts, PartId id) {
   return std::find(parts.begin(), parts.end(), id) != parts.end();
 }
 
-/// Who hung together with whom, and where, just before each step.
-struct Before {
-  std::vector<Pose> poses;          // by part
-  std::vector<std::size_t> groups;  // by part
+/// Who hung together with whom, and where, at any step: what each step changed, so that it takes the room of the steps.
+struct History {
+  std::vector<std::vector<Pose>> poses;  // [step][k]: of its k-th part, just before it
+  std::vector<std::vector<std::pair<std::size_t, std::size_t>>> groups;  // [part]: from this step on, in this group
+
+  /// The group of `part` just before `step`.
+  std::size_t group(PartId part, std::size_t step) const {
+    const auto& list = groups[part];
+    const auto after = std::partition_point(list.begin(), list.end(), [&](const auto& g) { return g.first <= step; });
+    return after == list.begin() ? 0 : std::prev(after)->second;
+  }
 };
 
-std::vector<Before> befores(const std::vector<RecordedStep>& steps, std::size_t part_count) {
-  std::vector<Before> list{{std::vector<Pose>(part_count), std::vector<std::size_t>(part_count, 0)}};
+History history_of(const std::vector<RecordedStep>& steps, std::size_t part_count) {
+  History history;
+  history.groups.resize(part_count);
+  std::vector<Pose> at(part_count);
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    Before next = list.back();
+    std::vector<Pose>& before = history.poses.emplace_back();
+    for (const PartId id : steps[i].parts) before.push_back(at[id]);
     for (std::size_t k = 0; k < steps[i].parts.size(); ++k) {
-      next.poses[steps[i].parts[k]] = steps[i].path->back()[k];
-      if (steps[i].leaves(steps[i].parts[k])) next.groups[steps[i].parts[k]] = i + 1;
+      const PartId id = steps[i].parts[k];
+      at[id] = steps[i].path->back()[k];
+      if (steps[i].leaves(id)) history.groups[id].emplace_back(i + 1, i + 1);
     }
-    list.push_back(std::move(next));
   }
-  return list;
+  return history;
 }
 
 /// Without turns, along one line.
@@ -40,34 +54,76 @@ bool is_straight(const std::vector<Pose>& way) {
   return true;
 }
 
-bool needs(const RecordedStep& b, const RecordedStep& a, const Before& before, const Verifier& verifier) {
-  for (const PartId id : b.parts)
-    if (holds(a.parts, id)) return true;
-  // Parted before that: nothing that a did was in b's way.
-  if (before.groups[b.parts.front()] != a.from) return false;
-  for (std::size_t k = 0; k < b.parts.size(); ++k) {
-    std::vector<Pose> way;
-    for (const auto& instant : *b.path) way.push_back(instant[k]);
-    if (way.size() > 2 && is_straight(way)) way = {way.front(), way.back()};
-    for (const PartId id : a.parts)
-      if (!verifier.passes(b.parts[k], id, before.poses[id], way)) return true;
+/// The way of one part in a step, with the box around all of it.
+struct PartWay {
+  std::vector<Pose> poses;
+  Aabb box;
+};
+
+std::vector<PartWay> ways_of(const RecordedStep& step, const std::vector<Aabb>& boxes) {
+  std::vector<PartWay> ways;
+  for (std::size_t k = 0; k < step.parts.size(); ++k) {
+    std::vector<Pose> poses;
+    for (const auto& instant : *step.path) poses.push_back(instant[k]);
+    if (poses.size() > 2 && is_straight(poses)) poses = {poses.front(), poses.back()};
+    const Aabb around = geometry::SweptBoxes(poses, boxes[step.parts[k]]).whole();
+    ways.push_back({std::move(poses), around});
   }
-  return false;
+  return ways;
 }
+
+/// Asks the verifier about those pairs only whose boxes meet: most pairs of steps have none.
+class Needs {
+ public:
+  Needs(const std::vector<RecordedStep>& steps, const Assembly& assembly, const Verifier& verifier)
+      : steps_(steps), verifier_(verifier), history_(history_of(steps, assembly.parts.size())) {
+    for (const Part& part : assembly.parts) boxes_.push_back(part.mesh->box());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      std::vector<Aabb>& begin = begins_.emplace_back();
+      for (std::size_t k = 0; k < steps[i].parts.size(); ++k)
+        begin.push_back(geometry::box_under(boxes_[steps[i].parts[k]], history_.poses[i][k]));
+    }
+  }
+
+  const std::vector<Aabb>& boxes() const { return boxes_; }
+
+  /// Does step b, with these ways of its parts, need the earlier step a?
+  bool operator()(std::size_t b, const std::vector<PartWay>& ways, std::size_t a) const {
+    const std::vector<PartId>&these = steps_[b].parts, &those = steps_[a].parts;
+    for (const PartId id : these)
+      if (holds(those, id)) return true;
+    // Parted before that: nothing that a did was in b's way.
+    if (history_.group(these.front(), a) != steps_[a].from) return false;
+    for (std::size_t k = 0; k < these.size(); ++k)
+      for (std::size_t j = 0; j < those.size(); ++j)
+        if (ways[k].box.overlaps(begins_[a][j]) &&
+            !verifier_.passes(these[k], those[j], history_.poses[a][j], ways[k].poses))
+          return true;
+    return false;
+  }
+
+ private:
+  const std::vector<RecordedStep>& steps_;
+  const Verifier& verifier_;
+  History history_;
+  std::vector<Aabb> boxes_;                // by part, in its own frame
+  std::vector<std::vector<Aabb>> begins_;  // [step][k]: of its k-th part, where it stands just before
+};
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, std::size_t part_count,
+std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context) {
-  const std::vector<Before> before = befores(steps, part_count);
+  const Needs needs(steps, assembly, verifier);
   const std::size_t n = steps.size();
   std::vector<std::vector<std::size_t>> needed(n);
   std::vector<std::vector<bool>> follows(n, std::vector<bool>(n, false));  // [b][a]: a has to come before b
   for (std::size_t b = 0; b < n; ++b) {
+    const std::vector<PartWay> ways = ways_of(steps[b], needs.boxes());
     // Latest first: what follows from a later one is not asked for.
     for (std::size_t a = b; a-- > 0;) {
       if (follows[b][a]) continue;
-      if (!context.should_stop() && !needs(steps[b], steps[a], before[a], verifier)) continue;
+      if (!context.should_stop() && !needs(b, ways, a)) continue;
       needed[b].push_back(a);
       follows[b][a] = true;
       for (std::size_t c = 0; c < a; ++c) follows[b][c] = follows[b][c] || follows[a][c];

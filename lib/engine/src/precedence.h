@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/assembly.h"
 #include "dismantle/verification/verifier.h"
 #include "plan_builder.h"
 
@@ -15,7 +16,7 @@ namespace dismantle {
 /// each other may be done in either order or at once; only how far a part has to be taken until its hull is apart
 /// depends on what is still there. [b]: those that it needs, ascending, without those that follow from others. Steps
 /// from the one on at which `context` says to stop are taken to need all before them.
-std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, std::size_t part_count,
+std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,
                                                    const Verifier& verifier, const RunContext& context);
 
 /// 1 for steps that need no other, else one more than the highest layer among those needed.

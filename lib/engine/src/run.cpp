@@ -292,7 +292,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
                .put_together(builder.recorded(), builder.plan().disassembly, putting);
   };
   std::vector<std::vector<std::size_t>> needed;
-  const auto find_needed = [&] { needed = needed_steps(builder.recorded(), assembly.parts.size(), verifier, own); };
+  const auto find_needed = [&] { needed = needed_steps(builder.recorded(), assembly, verifier, own); };
   // Neither uses a result of the other.
   parallel_for(
       2, own.executor.get(), [&](std::size_t k) { k == 0 ? put_together() : find_needed(); }, [] { return false; });

@@ -4,52 +4,88 @@
 #include <limits>
 #include <utility>
 
-#include "dismantle/geometry/hull.h"
+#include "convex_set.h"
+#include "dismantle/geometry/swept_boxes.h"
 
 namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kRounding = 1e-9;  // more than that of a product
-
-Aabb box_of(const std::vector<Vec3>& points) {
-  Aabb box;
-  for (const Vec3& p : points) box.extend(p);
-  return box;
+/// As top_of(), of a box that is not turned.
+double top_of(const Aabb& box, const Vec3& normal) {
+  constexpr double kRounding = 1e-9;  // more than that of a product
+  const Vec3 middle = box.center(), half = 0.5 * box.size();
+  return normal.dot(middle) + (1 + kRounding) * normal.cwiseAbs().dot(half) + kRounding * middle.norm();
 }
 
 }  // namespace
 
 HullsApart::Side::Side(std::vector<PlacedHull> placed) : parts(std::move(placed)) {
-  std::size_t count = 0;
-  for (const PlacedHull& p : parts) {
-    begin.push_back(p.pose.t);
-    count += p.corners->size();
-  }
-  corners.reserve(count);
-  for (const PlacedHull& p : parts)
-    for (const Vec3& c : *p.corners) corners.push_back(p.pose * c);
+  std::erase_if(parts, [](const PlacedHull& p) { return p.corners->empty(); });
+  begin.reserve(parts.size());
+  for (const PlacedHull& p : parts) begin.push_back(p.pose.t);
+  boxes.resize(parts.size());
+  runs.resize((parts.size() + kRun - 1) / kRun);
+  most.resize(runs.size());
+  set_boxes();
 }
 
 void HullsApart::Side::move_to(const Vec3& shift) {
-  std::size_t at = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) parts[i].pose.t = begin[i] + shift;
+  set_boxes();
+}
+
+void HullsApart::Side::set_boxes() {
+  std::fill(runs.begin(), runs.end(), Aabb{});
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    parts[i].pose.t = begin[i] + shift;
-    for (const Vec3& c : *parts[i].corners) corners[at++] = parts[i].pose * c;
+    const PlacedHull& p = parts[i];
+    boxes[i] = p.pose.q.vec().isZero(0) ? Aabb{p.box->lo + p.pose.t, p.box->hi + p.pose.t} : box_under(*p.box, p.pose);
+    runs[i / kRun].extend(boxes[i]);
   }
 }
 
-/// Of all vertices: qhull leaves out those that are within rounding of a face. Most parts have none that could be.
-double HullsApart::Side::top(const Vec3& normal) const {
+/// Calls visit(i) for the parts that could reach as far as `least`, which visits raise. Those that could reach farthest
+/// come first, so that few others are left.
+template <class Visit>
+void HullsApart::Side::visit_farthest(const Vec3& normal, const double& least, const Visit& visit) {
+  for (std::size_t r = 0; r < runs.size(); ++r) most[r] = top_of(runs[r], normal);
+  const auto visit_run = [&](std::size_t r) {
+    for (std::size_t i = r * kRun; i < std::min(parts.size(), (r + 1) * kRun); ++i)
+      if (top_of(boxes[i], normal) >= least) visit(i);
+  };
+  const auto first = static_cast<std::size_t>(std::max_element(most.begin(), most.end()) - most.begin());
+  visit_run(first);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    if (r != first && most[r] >= least) visit_run(r);
+}
+
+/// The corner that is farthest along `normal`; of several the first one, whatever the order of visits.
+Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) {
   double top = -std::numeric_limits<double>::infinity();
-  for (const Vec3& c : corners) top = std::max(top, normal.dot(c));
-  for (const PlacedHull& p : parts) {
-    const Vec3 middle = p.pose * p.box->center(), half = 0.5 * p.box->size();
-    const double reach = (p.pose.q.conjugate() * normal).cwiseAbs().dot(half);
-    if (normal.dot(middle) + (1 + kRounding) * reach + kRounding * middle.norm() < top) continue;
+  std::size_t part = 0;
+  Vec3 corner = Vec3::Zero();
+  visit_farthest(normal, top, [&](std::size_t i) {
+    double own = -std::numeric_limits<double>::infinity();
+    Vec3 best = Vec3::Zero();
+    for (const Vec3& c : *parts[i].corners) {
+      const Vec3 p = parts[i].pose * c;
+      if (const double d = normal.dot(p); d > own) own = d, best = p;
+    }
+    if (own > top || (own == top && i < part)) top = own, part = i, corner = best;
+  });
+  return corner;
+}
+
+/// Of all vertices: qhull leaves out those that are within rounding of a face.
+double HullsApart::Side::top(const Vec3& normal) {
+  double top = -std::numeric_limits<double>::infinity();
+  visit_farthest(normal, top, [&](std::size_t i) {
+    const PlacedHull& p = parts[i];
+    for (const Vec3& c : *p.corners) top = std::max(top, normal.dot(p.pose * c));
+    if (geometry::top_of(*p.box, p.pose, normal) < top) return;  // most parts have none that could be
     for (const Vec3& v : p.mesh->vertices) top = std::max(top, normal.dot(p.pose * v));
-  }
+  });
   return top;
 }
 
@@ -66,19 +102,31 @@ double HullsApart::Side::top_along(Eigen::Index k, double sign) const {
   return top;
 }
 
+Aabb HullsApart::Side::box() const {
+  Aabb all;
+  for (const Aabb& run : runs) all.extend(run);
+  return all;
+}
+
 HullsApart::HullsApart(std::vector<PlacedHull> group, std::vector<PlacedHull> rest)
-    : group_(std::move(group)), rest_(std::move(rest)), theirs_(box_of(rest_.corners)) {}
+    : group_(std::move(group)), rest_(std::move(rest)) {}
 
 bool HullsApart::after(const Vec3& shift) {
   if (group_.parts.empty() || rest_.parts.empty()) return true;
   group_.move_to(shift);
-  const Aabb ours = box_of(group_.corners);
+  const Aabb ours = group_.box(), theirs = rest_.box();
   for (Eigen::Index k = 0; k < 3; ++k)  // most leave along an axis
     for (const double sign : {1.0, -1.0})
-      if ((sign > 0 ? ours.hi[k] < theirs_.lo[k] : ours.lo[k] > theirs_.hi[k]) &&
+      if ((sign > 0 ? ours.hi[k] < theirs.lo[k] : ours.lo[k] > theirs.hi[k]) &&
           -rest_.top_along(k, -sign) > group_.top_along(k, sign))
         return true;
-  const auto found = separate(group_.corners, rest_.corners);
+  const auto set = [](Side& side) {
+    const Aabb box = side.box();
+    return ConvexSet{side.parts.front().pose * side.parts.front().corners->front(),
+                     std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff()),
+                     [&side](const Vec3& normal) { return side.farthest(normal); }};
+  };
+  const auto found = separate(set(group_), set(rest_), 0);
   return found && -rest_.top(-found->normal) > group_.top(found->normal);
 }
 

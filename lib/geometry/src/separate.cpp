@@ -2,29 +2,32 @@
 // is a candidate plane with its exact gap, so the answer is certified by construction.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "dismantle/geometry/hull.h"
+#include "convex_set.h"
 
 namespace dismantle {
 namespace {
 
 constexpr int kMaxIterations = 256;
 
-struct Extreme {
-  std::size_t index = 0;
-  double value = 0;
-};
-
-Extreme farthest(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& n) {
-  Extreme best{0, -std::numeric_limits<double>::infinity()};
+const Eigen::Vector3d& farthest(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& n) {
+  std::size_t best = 0;
+  double most = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double d = n.dot(points[i]);
-    if (d > best.value) best = {i, d};
+    if (d > most) most = d, best = i;
   }
-  return best;
+  return points[best];
+}
+
+geometry::ConvexSet hull_of(std::span<const Eigen::Vector3d> points) {
+  double extent = 0;
+  for (const auto& p : points) extent = std::max(extent, p.cwiseAbs().maxCoeff());
+  return {points.front(), extent, [points](const Eigen::Vector3d& n) { return farthest(points, n); }};
 }
 
 struct Simplex {
@@ -95,35 +98,37 @@ Eigen::Vector3d reduce(Simplex& s) {
 
 }  // namespace
 
-std::optional<Separation> separate(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b,
-                                   double min_gap) {
-  if (a.empty() || b.empty()) return std::nullopt;
-  double extent = 0;
-  for (const auto& p : a) extent = std::max(extent, p.cwiseAbs().maxCoeff());
-  for (const auto& p : b) extent = std::max(extent, p.cwiseAbs().maxCoeff());
+std::optional<Separation> geometry::separate(const ConvexSet& a, const ConvexSet& b, double min_gap) {
+  const double extent = std::max(a.extent, b.extent);
   // A gap below the rounding of its own dot products proves nothing.
   const double needed = std::max(min_gap, 16 * std::numeric_limits<double>::epsilon() * extent);
 
   Separation best{Eigen::Vector3d::UnitX(), -std::numeric_limits<double>::infinity()};
   Simplex simplex;
-  simplex.p[0] = b[0] - a[0];
+  simplex.p[0] = b.any - a.any;
   simplex.size = 1;
   Eigen::Vector3d v = simplex.p[0];
   for (int i = 0; i < kMaxIterations; ++i) {
     const double length = v.norm();
     if (!(length > 1e-15 * extent)) break;  // the hulls share a point
     const Eigen::Vector3d n = v / length;
-    const Extreme top = farthest(a, n), bottom = farthest(b, -n);
-    const double gap = -bottom.value - top.value;
+    const Eigen::Vector3d top = a.farthest(n), bottom = b.farthest(-n);
+    const double gap = -(-n).dot(bottom) - n.dot(top);
     if (gap > best.gap) best = {n, gap};
     if (length - gap <= 1e-9 * length) break;  // converged: n is the widest gap
-    simplex.p[static_cast<std::size_t>(simplex.size++)] = b[bottom.index] - a[top.index];
+    simplex.p[static_cast<std::size_t>(simplex.size++)] = bottom - top;
     const Eigen::Vector3d next = reduce(simplex);
     if (!(next.squaredNorm() < v.squaredNorm()) || simplex.size == 4) break;  // no progress, or the origin is within
     v = next;
   }
   if (!(best.gap > needed)) return std::nullopt;
   return best;
+}
+
+std::optional<Separation> separate(std::span<const Eigen::Vector3d> a, std::span<const Eigen::Vector3d> b,
+                                   double min_gap) {
+  if (a.empty() || b.empty()) return std::nullopt;
+  return geometry::separate(hull_of(a), hull_of(b), min_gap);
 }
 
 }  // namespace dismantle

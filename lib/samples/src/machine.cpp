@@ -13,7 +13,7 @@ struct MachineParams {
   int segments = 32;
   static void describe(Schema<MachineParams>& s) {
     s.add("parts", &MachineParams::parts,
-          {.unit = "1", .min = 4, .max = 2000, .doc = "Number of parts, the base included."});
+          {.unit = "1", .min = 4, .max = 10000, .doc = "Number of parts, the base included."});
     add_clearance(s, 0.005, 0.3);
     add_segments(s);
   }

@@ -82,8 +82,8 @@ class RrtConnect final : public TransferPlanner {
   }
 
  private:
-  bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) const {
-    const StraightTransfers straight(query, parameters_.clearance);
+  bool goes_straight(const TransferQuery& query, RunContext& context, PathResult& result) {
+    const StraightTransfers straight(query, parameters_.clearance, boxes_);
     std::uint64_t refused = 0;  // only what trees find counts in the statistics
     std::size_t instants = 0;
     return path::show_forms(
@@ -160,6 +160,7 @@ class RrtConnect final : public TransferPlanner {
   }
 
   Parameters parameters_;
+  PartBoxes boxes_;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "dismantle/geometry/swept_boxes.h"
+
 namespace dismantle::rrt_connect {
 namespace {
 
@@ -10,14 +12,20 @@ using Eigen::Vector3d;
 
 constexpr double kRigid = 1e-7;  // assembly units
 
-/// How far things reach in direction `v`.
-double reach(const Assembly& assembly, const std::vector<PlacedPart>& parts, const Pose& displacement,
-             const Vector3d& v) {
+/// How far things reach in direction `v`. Of most, their boxes tell that others reach further.
+double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<PlacedPart>& parts,
+             const Pose& displacement, const Vector3d& v) {
   double most = -std::numeric_limits<double>::infinity();
-  for (const auto& p : parts) {
-    const Pose pose = displacement * p.pose;
-    for (const auto& x : assembly.parts[p.part].mesh->vertices) most = std::max(most, v.dot(pose * x));
-  }
+  std::vector<double> tops;
+  for (const auto& p : parts)
+    tops.push_back(geometry::top_of(boxes.of(assembly.parts[p.part]), displacement * p.pose, v));
+  const auto visit = [&](std::size_t i) {
+    const Pose pose = displacement * parts[i].pose;
+    for (const auto& x : assembly.parts[parts[i].part].mesh->vertices) most = std::max(most, v.dot(pose * x));
+  };
+  if (!parts.empty()) visit(static_cast<std::size_t>(std::max_element(tops.begin(), tops.end()) - tops.begin()));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (tops[i] > most) visit(i);
   return most;
 }
 
@@ -36,8 +44,15 @@ bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
   return true;
 }
 
-StraightTransfers::StraightTransfers(const TransferQuery& query, double clearance)
-    : query_(query), clearance_(clearance) {
+const Aabb& PartBoxes::of(const Part& part) {
+  if (known_.size() <= part.id) known_.resize(part.id + 1);
+  Known& known = known_[part.id];
+  if (known.mesh != part.mesh) known = {part.mesh, part.mesh->box()};
+  return known.box;
+}
+
+StraightTransfers::StraightTransfers(const TransferQuery& query, double clearance, PartBoxes& boxes)
+    : query_(query), clearance_(clearance), boxes_(boxes) {
   rigid_ = displacement_to_goal(query, goal_);
   const auto each = [&](const auto& visit) {
     for (const auto& m : query.scene.moving)
@@ -83,11 +98,11 @@ Path StraightTransfers::over(const Vector3d& v) const {
   const bool turns = angle_between(goal_.q, Eigen::Quaterniond::Identity()) > 1e-9;
   const Vector3d there = goal_ * center_;
   // A group that turns takes the room of its ball; one that does not, only its own.
-  const double own_start = -reach(query_.assembly, query_.scene.moving, {}, -v);
-  const double own_goal = -reach(query_.assembly, query_.scene.moving, goal_, -v);
+  const double own_start = -reach(query_.assembly, boxes_, query_.scene.moving, {}, -v);
+  const double own_goal = -reach(query_.assembly, boxes_, query_.scene.moving, goal_, -v);
   const double lowest_start = turns ? v.dot(center_) - radius_ : own_start;
   const double lowest_goal = turns ? v.dot(there) - radius_ : own_goal;
-  const double top = reach(query_.assembly, query_.scene.fixed, {}, v) + clearance_;
+  const double top = reach(query_.assembly, boxes_, query_.scene.fixed, {}, v) + clearance_;
   // Heights of the ball's centre that clear everything, and are not below either end.
   const double height =
       std::max({v.dot(center_) + std::max(0.0, top - lowest_start), v.dot(there) + std::max(0.0, top - lowest_goal)});

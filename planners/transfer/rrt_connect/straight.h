@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "dismantle/aabb.h"
+#include "dismantle/assembly.h"
 #include "dismantle/transfer_planner.h"
 
 namespace dismantle::rrt_connect {
@@ -12,13 +15,26 @@ namespace dismantle::rrt_connect {
 /// The displacement that takes the group from start to goal. False: the goal is not the group moved as a rigid body.
 bool displacement_to_goal(const TransferQuery& query, Pose& displacement);
 
+/// Boxes of the parts in their own frames, kept from one transfer to the next.
+class PartBoxes {
+ public:
+  const Aabb& of(const Part& part);
+
+ private:
+  struct Known {
+    std::shared_ptr<const Mesh> mesh;  // what the box is of
+    Aabb box;
+  };
+  std::vector<Known> known_;  // by part
+};
+
 /// Candidate paths, the most promising first: over everything on the side `up`, below everything, straight from place
 /// to place, around on the other four sides. The group turns about its middle where all else is at least `clearance`
 /// (assembly units) away. Each is computed when it is asked for, since the first is mostly free.
 class StraightTransfers {
  public:
-  /// `query` must outlive this.
-  StraightTransfers(const TransferQuery& query, double clearance);
+  /// `query` and `boxes` must outlive this.
+  StraightTransfers(const TransferQuery& query, double clearance, PartBoxes& boxes);
   /// Candidate `k`; nothing: there are no more.
   std::optional<Path> path(std::size_t k) const;
 
@@ -28,6 +44,7 @@ class StraightTransfers {
 
   const TransferQuery& query_;
   double clearance_;
+  PartBoxes& boxes_;
   bool rigid_;                                        // the goal is the group moved as a rigid body
   Pose goal_;                                         // its displacement
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  // of a ball around all that moves, at the start

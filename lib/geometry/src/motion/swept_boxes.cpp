@@ -12,6 +12,13 @@ Aabb box_under(const Aabb& box, const Pose& pose) {
   return moved;
 }
 
+double top_of(const Aabb& box, const Pose& pose, const Eigen::Vector3d& direction) {
+  constexpr double kRounding = 1e-9;  // more than that of a product
+  const Eigen::Vector3d middle = pose * box.center(), half = 0.5 * box.size();
+  const double reach = (pose.q.conjugate() * direction).cwiseAbs().dot(half);
+  return direction.dot(middle) + (1 + kRounding) * reach + kRounding * middle.norm();
+}
+
 SweptBoxes::SweptBoxes(const std::vector<Pose>& poses, const Aabb& box) {
   if (poses.size() == 1) {
     nodes_.push_back({box_under(box, poses.front())});

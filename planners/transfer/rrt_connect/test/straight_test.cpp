@@ -65,7 +65,8 @@ TEST(StraightTransfers, BeginAtTheStartEndAtTheGoalAndMoveTheGroupAsOneBody) {
   Rng rng(21);
   for (int trial = 0; trial < 60; ++trial) {
     const Errand errand(rng, trial % 2 == 0);
-    const StraightTransfers straight(errand.query, kClearance);
+    PartBoxes boxes;
+    const StraightTransfers straight(errand.query, kClearance, boxes);
     std::size_t found = 0;
     while (const auto path = straight.path(found)) {
       ++found;
@@ -86,7 +87,8 @@ TEST(StraightTransfers, FirstOverEverythingOnTheUpperSide) {
   Rng rng(22);
   for (int trial = 0; trial < 100; ++trial) {
     const Errand errand(rng, trial % 2 == 0);
-    const auto path = StraightTransfers(errand.query, kClearance).path(0);
+    PartBoxes boxes;
+    const auto path = StraightTransfers(errand.query, kClearance, boxes).path(0);
     ASSERT_TRUE(path);
     ASSERT_EQ(path->size(), 5U);
     const double top = errand.reach(errand.scene.fixed, errand.up, 1);
@@ -107,7 +109,8 @@ TEST(StraightTransfers, WithNothingAroundGoFromPlaceToPlace) {
   Rng rng(23);
   Errand errand(rng, true);
   errand.query.scene.fixed.clear();
-  const StraightTransfers straight(errand.query, kClearance);
+  PartBoxes boxes;
+    const StraightTransfers straight(errand.query, kClearance, boxes);
   ASSERT_TRUE(straight.path(0));
   EXPECT_EQ(straight.path(0)->size(), 3U);
   EXPECT_FALSE(straight.path(1));
@@ -117,7 +120,8 @@ TEST(StraightTransfers, AGroupThatWouldChangeItsShapeHasNone) {
   Rng rng(24);
   Errand errand(rng, true);
   errand.query.goal[1].t += Vector3d(0.1, 0, 0);
-  EXPECT_FALSE(StraightTransfers(errand.query, kClearance).path(0));
+  PartBoxes boxes;
+  EXPECT_FALSE(StraightTransfers(errand.query, kClearance, boxes).path(0));
 }
 
 }  // namespace

@@ -30,19 +30,27 @@ class HullsApart {
 
  private:
   using Vec3 = Eigen::Vector3d;
+  /// Boxes around the parts, and around runs of them, so that what reaches farthest is found at the cost of few parts.
   struct Side {
     std::vector<PlacedHull> parts;
-    std::vector<Vec3> begin;    // of the parts: where they were put
-    std::vector<Vec3> corners;  // where they are
+    std::vector<Vec3> begin;   // of the parts: where they were put
+    std::vector<Aabb> boxes;   // of the parts, where they are
+    std::vector<Aabb> runs;    // of each kRun parts
+    std::vector<double> most;  // of farthest(), by run: how far it could reach
 
     explicit Side(std::vector<PlacedHull> placed);
     void move_to(const Vec3& shift);
-    double top(const Vec3& normal) const;
+    void set_boxes();
+    template <class Visit>
+    void visit_farthest(const Vec3& normal, const double& least, const Visit& visit);
+    Vec3 farthest(const Vec3& normal);
+    double top(const Vec3& normal);
     double top_along(Eigen::Index axis, double sign) const;
+    Aabb box() const;
   };
+  static constexpr std::size_t kRun = 16;
 
   Side group_, rest_;
-  Aabb theirs_;  // around the corners of rest_
 };
 
 }  // namespace dismantle::geometry

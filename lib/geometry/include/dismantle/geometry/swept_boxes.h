@@ -12,6 +12,9 @@ namespace dismantle::geometry {
 /// Box around the corners of `box`, moved by `pose`.
 Aabb box_under(const Aabb& box, const Pose& pose);
 
+/// No point within `box`, moved by `pose`, reaches further along the unit vector `direction`, whatever the rounding.
+double top_of(const Aabb& box, const Pose& pose, const Eigen::Vector3d& direction);
+
 /// Axis-aligned boxes, in the world frame, that hold a box at all times of a path: one per segment, and a binary tree
 /// over them. Between two poses the box follows the screw motion that joins them; the bound on how far that bends away
 /// from a straight line is part of the boxes.
