@@ -47,7 +47,8 @@ if(DISMANTLE_CCACHE)
 endif()
 
 # Headers that most files need cost two to three seconds a file: compiled once for all libraries and plugins, and once
-# more, with Google Test, for all test programs. -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows what a file forgot to include.
+# more, with Google Test, for all test programs.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON with -DDISMANTLE_UNITY=OFF shows what a file forgot to include.
 set(DISMANTLE_COMMON_HEADERS
   <Eigen/Core> <Eigen/Geometry>
   <algorithm> <array> <atomic> <cerrno> <chrono> <cmath> <condition_variable> <cstdint> <cstring> <deque> <filesystem>
@@ -78,6 +79,7 @@ endfunction()
 dismantle_pch(dismantle_common_pch ${DISMANTLE_COMMON_HEADERS})
 function(dismantle_precompile target)
   dismantle_reuse_pch(${target} dismantle_common_pch)
+  dismantle_unity(${target} BATCH 8)
 endfunction()
 # The libraries of lib/ export their types: the types of the headers that these are made of must be visible, too.
 dismantle_pch(dismantle_library_pch ${DISMANTLE_COMMON_HEADERS})
@@ -93,6 +95,11 @@ function(dismantle_unity target)
   endif()
   cmake_parse_arguments(ARG "" "BATCH;EXCEPT" "" ${ARGN})
   if(ARG_BATCH)
+    get_target_property(sources ${target} SOURCES)
+    list(LENGTH sources count)
+    if(count LESS 2)
+      return()
+    endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ARG_BATCH})
     return()
   endif()

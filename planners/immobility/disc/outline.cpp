@@ -6,8 +6,10 @@
 
 namespace dismantle::immobility {
 
+namespace {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
+}  // namespace
 
 double distance(const Outline& outline, const Vec2& p) {
   double least = std::numeric_limits<double>::infinity();

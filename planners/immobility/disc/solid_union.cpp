@@ -6,7 +6,9 @@
 
 namespace dismantle::immobility {
 
+namespace {
 using Vec3 = Eigen::Vector3d;
+}  // namespace
 
 SolidUnion::SolidUnion(const std::vector<Solid>& solids, const Pose& frame) {
   for (const Solid& s : solids) solids_.push_back({&s, s.frame.inverse() * frame});

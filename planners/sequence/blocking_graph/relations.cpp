@@ -11,7 +11,7 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kGrid = 1e-6;    // offsets that differ by less are the same
-constexpr double kBeyond = 1e-3;  // how far past, so that the verifier's margins have room
+constexpr double kPast = 1e-3;  // how far past, so that the verifier's margins have room
 
 }  // namespace
 
@@ -115,7 +115,7 @@ Relations::Ahead::Request Relations::request(const Pair& pair) const {
   const Pair p = canonical(pair);
   const Pose begin{p.offset, orientations_[p.orientation_moving]};
   Pose end = begin;
-  end.t += (distance_past(p) + kBeyond) * directions_.all[p.direction];
+  end.t += (distance_past(p) + kPast) * directions_.all[p.direction];
   const Pose fixed_at{Vec3::Zero(), orientations_[p.orientation_fixed]};
   return {key_of(pair), [this, p, fixed_at, path = std::vector<Pose>{begin, end}](const RunContext&) {
             return !sweep_.passes(p.moving, p.fixed, fixed_at, path);

@@ -21,7 +21,7 @@ constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr double kFeelShare = 0.08, kFelt = 2e-3;
 constexpr int kFeelLooks = 40;
 /// Share of turning from which on a screw is one, and the axial share of a push that leans.
-constexpr double kTurns = 0.3, kLean = 0.5;
+constexpr double kTurns = 0.3, kAslant = 0.5;
 }  // namespace
 
 /// How far along the screw the hulls are apart, were nothing in the way; roughly, infinite if they never are.
@@ -130,7 +130,7 @@ std::vector<Action> Search::leaning_turns(const Node& node) {
   for (const Twist& twist : twists_at(node)) {
     if (twist.angular.norm() * world_->torque_arm(0) < kTurns) continue;
     const Eigen::Vector3d axis = twist.angular.normalized();
-    for (const double sign : {1.0, -1.0}) actions.push_back(along(twist, node.state, sign * kLean * axis));
+    for (const double sign : {1.0, -1.0}) actions.push_back(along(twist, node.state, sign * kAslant * axis));
   }
   return actions;
 }

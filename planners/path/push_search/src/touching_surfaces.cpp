@@ -6,7 +6,7 @@ namespace dismantle::push {
 namespace {
 
 /// Contacts further away than this (assembly units) do not constrain.
-constexpr double kTouching = 0.05;
+constexpr double kNearSurface = 0.05;
 
 }  // namespace
 
@@ -14,7 +14,7 @@ std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact
                                                        const std::vector<PlacedPart>& moving) {
   std::vector<geometry::SurfaceSample> samples;
   for (const Contact& c : contacts) {
-    if (c.depth < -kTouching || c.on_edge) continue;
+    if (c.depth < -kNearSurface || c.on_edge) continue;
     if (path::contains(moving, c.other)) continue;
     samples.push_back({c.point, c.normal});
   }
