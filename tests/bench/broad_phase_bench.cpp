@@ -15,13 +15,13 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 /// Pegs on a square grid, one apart.
-struct Field {
+struct Layout {
   Mesh mesh = shapes::box({-0.3, -0.3, 0}, {0.3, 0.3, 1});
   Aabb box = mesh.box();
   std::vector<Vec3> corners = hull_corners(mesh.vertices);
   std::vector<geometry::PlacedHull> all;
 
-  explicit Field(std::int64_t count) {
+  explicit Layout(std::int64_t count) {
     const auto columns = static_cast<std::int64_t>(std::ceil(std::sqrt(static_cast<double>(count))));
     for (std::int64_t i = 0; i < count; ++i)
       all.push_back({&mesh, &box, &corners,
@@ -32,8 +32,8 @@ struct Field {
 
 /// How far the middle peg has to be taken until its hull is apart from all others, aslant: axes do not tell.
 void BroadPhase_HullsApart(benchmark::State& state) {
-  const Field field(state.range(0));
-  std::vector<geometry::PlacedHull> rest = field.all;
+  const Layout layout(state.range(0));
+  std::vector<geometry::PlacedHull> rest = layout.all;
   const geometry::PlacedHull moving = rest[rest.size() / 2];
   rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(rest.size() / 2));
   const Vec3 way = Vec3(0.1, 0.2, 1).normalized();
