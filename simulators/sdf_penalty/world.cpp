@@ -178,7 +178,7 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
   }
   build_rows(state, dt);
   typename Solver::Vector x(n);
-  Solver().solve(weight, target, rows(), per_body(), x);
+  Solver(columns()).solve(weight, target, rows(), per_body(), x);
   if (!x.allFinite()) {
     *travel = std::numeric_limits<double>::quiet_NaN();
     return Moved::stalled;

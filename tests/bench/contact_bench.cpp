@@ -1,4 +1,4 @@
-// A time step of a part with 10 000 contact points of which 200 touch, sliding on a plate of 20 000 triangles.
+// A time step of a part of which a share of the contact points touches, sliding on a plate of many triangles.
 #include <benchmark/benchmark.h>
 
 #include "bench_models.h"
@@ -9,20 +9,37 @@ namespace {
 
 using sdf_penalty::Dynamics;
 
-/// A slab of 116 x 57 nodes a side, each a corner of its own height, so that all but those in folds, 10 000 in all, are
-/// contact points; 200 of the lower ones are feet at z = 0. `scattered`: all over the slab, else every other node of
-/// one patch of 20 x 20.
-Mesh brush(bool scattered) {
+/// A slab of nx x ny nodes a side, each a corner of its own height, so that all but those in folds are contact points;
+/// the lower ones that `is_foot(i, j)` names are feet at z = 0.
+template <class IsFoot>
+Mesh brush(int nx, int ny, const IsFoot& is_foot) {
   Rng rng(3);
   const auto low = [&](int i, int j) {
     const double up = rng.uniform(0.1, 0.2);
-    const int x = i - 8, y = j - 4;  // the feet lie around the middle
-    const bool foot = scattered ? x >= 0 && x < 100 && y >= 0 && y < 50 && x % 5 == 2 && y % 5 == 2
-                                : x >= 40 && x < 60 && y >= 15 && y < 35 && (x + y) % 2 == 0;
-    return foot ? 0.0 : up;
+    return is_foot(i, j) ? 0.0 : up;
   };
   const auto high = [&](int, int) { return rng.uniform(1.0, 1.1); };
-  return slab(116, 57, 0.06, 0.06, low, high);
+  return slab(nx, ny, 0.06, 0.06, low, high);
+}
+
+/// 10 000 contact points and 200 feet. `scattered`: all over the slab, else every other node of one patch of 20 x 20.
+Mesh brush_of_200(bool scattered) {
+  return brush(116, 57, [scattered](int i, int j) {
+    const int x = i - 8, y = j - 4;  // the feet lie around the middle
+    return scattered ? x >= 0 && x < 100 && y >= 0 && y < 50 && x % 5 == 2 && y % 5 == 2
+                     : x >= 40 && x < 60 && y >= 15 && y < 35 && (x + y) % 2 == 0;
+  });
+}
+
+/// Ten times as many contact points as feet, which lie all over the slab.
+Mesh brush_of(int feet) {
+  const int columns = static_cast<int>(std::ceil(std::sqrt(10.0 * feet))), rows = (10 * feet * 2 / 3) / columns;
+  const std::int64_t inner = static_cast<std::int64_t>(columns - 2) * (rows - 2);
+  return brush(columns, rows, [=](int i, int j) {
+    if (i == 0 || j == 0 || i == columns - 1 || j == rows - 1) return false;
+    const std::int64_t at = static_cast<std::int64_t>(i - 1) * (rows - 2) + j - 1;
+    return (at + 1) * feet / inner > at * feet / inner;
+  });
 }
 
 struct Rig {
@@ -30,11 +47,12 @@ struct Rig {
   sdf::PreparedShapes shapes;
   std::unique_ptr<sdf_penalty::PenaltyWorld> world;
 
-  Rig(bool scattered, Dynamics dynamics, MotionSpace space) {
-    Rng rng(4);
+  Rig(Mesh part, Dynamics dynamics, MotionSpace space) {
+    const Vector3d size = part.box().size();
+    const int nx = static_cast<int>(size.x() / 0.12) + 10, ny = static_cast<int>(size.y() / 0.12) + 10;
     const auto flat = [](int, int) { return 0.0; };
     const auto below = [](int, int) { return -0.5; };
-    assembly = assembly_of({brush(scattered), slab(101, 101, 0.12, 0.12, below, flat)});
+    assembly = assembly_of({std::move(part), slab(nx, ny, 0.12, 0.12, below, flat)});
     sdf::ShapeOptions options;
     options.points.spacing = 10;  // the corners are enough
     options.grid.max_nodes = 4'000'000;
@@ -48,10 +66,7 @@ struct Rig {
 };
 
 /// Presses down and slides to and fro, so that every step moves and the same feet stay in contact.
-void ContactStep(benchmark::State& state, Dynamics dynamics) {
-  const bool scattered = state.range(0) != 0;
-  const MotionSpace space = state.range(1) != 0 ? MotionSpace::rigid : MotionSpace::translation;
-  Rig rig(scattered, dynamics, space);
+void slide(benchmark::State& state, Rig& rig) {
   State s = rig.world->initial_state();
   const double duration = 0.1;
   Action action{{Wrench{}}};
@@ -82,6 +97,12 @@ void ContactStep(benchmark::State& state, Dynamics dynamics) {
   state.counters["per_ms_simulated"] =
       benchmark::Counter(simulated * 1e3, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
+
+void ContactStep(benchmark::State& state, Dynamics dynamics) {
+  Rig rig(brush_of_200(state.range(0) != 0), dynamics,
+          state.range(1) != 0 ? MotionSpace::rigid : MotionSpace::translation);
+  slide(state, rig);
+}
 BENCHMARK_CAPTURE(ContactStep, quasi_static, Dynamics::quasi_static)
     ->ArgNames({"scattered", "rigid"})
     ->ArgsProduct({{0, 1}, {0, 1}})
@@ -91,9 +112,16 @@ BENCHMARK_CAPTURE(ContactStep, unit_mass, Dynamics::unit_mass)
     ->ArgsProduct({{0, 1}, {0, 1}})
     ->Unit(benchmark::kMicrosecond);
 
+/// By the number of feet, of ten times as many points.
+void ContactStep_Feet(benchmark::State& state) {
+  Rig rig(brush_of(static_cast<int>(state.range(0))), Dynamics::quasi_static, MotionSpace::rigid);
+  slide(state, rig);
+}
+BENCHMARK(ContactStep_Feet)->ArgName("feet")->Arg(200)->Arg(2000)->Arg(20'000)->Unit(benchmark::kMicrosecond);
+
 /// What it costs when nothing touches.
 void FreeStep(benchmark::State& state) {
-  Rig rig(true, Dynamics::unit_mass, MotionSpace::rigid);
+  Rig rig(brush_of_200(true), Dynamics::unit_mass, MotionSpace::rigid);
   State s = rig.world->initial_state();
   s.bodies[0].pose.t.z() = 3;
   Action action{{Wrench{}}};

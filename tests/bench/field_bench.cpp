@@ -117,6 +117,21 @@ void Query_GridValueAndGradient(benchmark::State& state) {
 }
 BENCHMARK(Query_GridValueAndGradient);
 
+/// The same from the cache: points side by side, as those of one block are.
+void Query_GridValueAndGradient_Cached(benchmark::State& state) {
+  const Field field(torus(4, 1, 128, 48));
+  Rng rng(2);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 4096; ++i)
+    points.push_back(Vector3d(4, 0, 1) + 0.2 * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
+  Vector3d gradient;
+  ask_all(state, field, [&](std::size_t i) {
+    const double v = field.grid->value(points[i], gradient);
+    return v + gradient.x();
+  });
+}
+BENCHMARK(Query_GridValueAndGradient_Cached);
+
 /// What decides that a point is too far to matter.
 void Query_GridLowerBound(benchmark::State& state) {
   const Field field(torus(4, 1, 128, 48));

@@ -253,7 +253,7 @@ void BodyWorld::settle(State& state, double depth) {
     build_rows(state, 0);
     const auto weight = stay_put<Dof>(1e-3 * options_.stiffness);
     typename Solver::Vector x(n);
-    Solver().solve(weight, Solver::Vector::Zero(n), rows_, per_body_, x);
+    Solver(columns_).solve(weight, Solver::Vector::Zero(n), rows_, per_body_, x);
     if (!x.allFinite()) return;
     // A correction larger than a step would be a jump, not a correction.
     const double travel = travel_of<Dof>(x);
@@ -273,7 +273,7 @@ void BodyWorld::keep_off(State& state, double clearance) {
     for (auto& row : rows_) row.gap -= clearance;
     rows_current_ = false;
     typename Solver::Vector x(n);
-    Solver().solve(stay_put<Dof>(1e-2 * options_.stiffness), Solver::Vector::Zero(n), rows_, per_body_, x);
+    Solver(columns_).solve(stay_put<Dof>(1e-2 * options_.stiffness), Solver::Vector::Zero(n), rows_, per_body_, x);
     if (!x.allFinite() || displace<Dof>(state, x) < kSettleTravel) return;
   }
 }

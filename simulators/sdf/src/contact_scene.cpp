@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace dismantle::sdf {
 namespace {
@@ -18,8 +19,14 @@ constexpr double kOnEdge = 2e-4;
 constexpr double kEnoughCertain = 0.6;
 /// Distances that are linear over less than this are not worth remembering.
 constexpr double kLeastFlat = 5e-4;
-/// Of anchors, which are kept in single precision, for coordinates of up to some tens.
-constexpr double kAnchorRounding = 1e-5;
+/// Odometer reading at which a block wakes that has a point within the margin: at once.
+constexpr double kHeld = -2;
+
+/// What a way from an anchor and its distance may be off: both are kept in single precision.
+double rounding_of(const Anchor& anchor) {
+  constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
+  return kEpsilon * (anchor.point.lpNorm<1>() + anchor.distance);
+}
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
   const Eigen::Vector3d center = pose * local.center();
@@ -85,20 +92,28 @@ void ContactScene::add_point(PartId part, PartId other, const Eigen::Vector3d& p
 }
 
 Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
-                                     const FlatnessWanted& flatness, std::uint32_t& hint) {
+                                     const FlatnessWanted& flatness, std::uint32_t& hint, const Near& near) {
   ++queries_;
+  // A query with the last closest triangle needs no bound.
+  if (near.surely && hint != kNoTriangle) {
+    const Sample s = field.surface->sample(p, limit, hint, flatness, near.list);
+    hint = s.triangle;
+    return s;
+  }
   Sample rough;
   if (model_ == DistanceModel::grid) {
     rough.value = field.grid->value(p, rough.normal);
     return rough;
   }
-  // Clearly too far to matter: the grid's bound will do. Else the grid tells how far to search.
-  const double bound = field.grid->lower_bound(p);
+  // Clearly too far to matter: a bound will do, of the grid or of finer cells. Else the grid tells how far to search.
+  const double enough = std::max(kFarEnough * margin_, kGoodBound);
+  double bound = field.grid->lower_bound(p);
+  if (bound <= enough) bound = std::max(bound, field.surface->lower_bound(p, hint, near.list));
   rough.value = std::min(bound, limit);
-  if (bound > std::max(kFarEnough * margin_, kGoodBound)) return rough;
+  if (bound > enough) return rough;
   const double first =
       hint == kNoTriangle ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
-  Sample s = field.surface->sample(p, first, hint, flatness);
+  Sample s = field.surface->sample(p, first, hint, flatness, near.list);
   if (s.triangle == kNoTriangle && first < limit) s = field.surface->sample(p, limit, hint, flatness);
   if (s.triangle != kNoTriangle) {
     hint = s.triangle;
@@ -129,7 +144,9 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
     set.ready = true;
   }
-  const bool local = pair.everywhere < pair.allowed;
+  const bool local = pair.everywhere < pair.allowed, single = model_ == DistanceModel::exact && solids == 1;
+  // What a bound on the distance has to exceed to be as good; below it distances were measured on triangles.
+  const double near_enough = std::max(kFarEnough * margin, kGoodBound);
   const Pose to_target = world_[surface].inverse() * world_[owner];
   const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
   const Eigen::Vector3d shift = to_target.t;
@@ -176,8 +193,10 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       out.push_back(c);
     }
   };
-  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, std::uint32_t* linear, double allowed) {
-    const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, kOnEdge + allowed};
+  const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, std::uint32_t* linear, double allowed,
+                           const Near& near) {
+    const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, kOnEdge + allowed,
+                                  std::max(kLeastFlat, near.way)};
     Touch best;
     for (std::size_t s = 0; s < solids; ++s) {
       // Box distance bounds the signed distance from below outside: most solids drop out here.
@@ -185,8 +204,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       if (best.distance <= 0 ? !box.contains(p) : box.squared_distance(p) >= best.distance * best.distance) continue;
       Sample sample;
       if (linear == nullptr || !recall(set, *target.solids[s].surface, linear[s], p, sample)) {
-        sample = signed_distance(target.solids[s], p, kReach, flatness, hint[s]);
-        if (linear != nullptr && sample.flat_radius > kLeastFlat) remember(set, linear[s], p, sample);
+        sample = signed_distance(target.solids[s], p, kReach, flatness, hint[s], near);
+        if (linear != nullptr && sample.flat_radius > 0) remember(set, linear[s], p, sample);
       }
       if (sample.value < best.distance) best = {sample.value, s, sample};
     }
@@ -197,8 +216,10 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     if (set.wake[k] > odometer) continue;
     const PointBlock& block = points.points.blocks[k];
     const Eigen::Vector3d center = rotation * block.center + shift;
-    double lower = std::sqrt(target.box.squared_distance(center)) - block.radius;
-    if (lower + pair.everywhere < margin) {
+    // Where a point was listed a bound for the whole block tells nothing yet.
+    const bool held = set.wake[k] == kHeld;
+    double lower = held ? 0.0 : std::sqrt(target.box.squared_distance(center)) - block.radius;
+    if (!held && lower + pair.everywhere < margin) {
       double free = kReach * 4;
       for (const SolidField& s : target.solids) {
         const double outside = std::sqrt(s.box.squared_distance(center));
@@ -212,6 +233,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       slack = kReach;
       std::array<Eigen::Vector3d, ContactPoints::kBlockSize> at;
       std::array<std::uint32_t, ContactPoints::kBlockSize> awake, hints;
+      std::array<Near, ContactPoints::kBlockSize> near{};
       std::size_t count = 0;
       for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
         if (set.point_wake[i] > odometer) {
@@ -221,10 +243,23 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         at[count] = rotation * points.points.points[i] + shift;
         // The odometer counts the way of the point that went furthest; this one may have stayed far enough away.
         if (const Anchor& anchor = set.anchor[i]; anchor.distance > 0) {
-          const double way = (at[count] - anchor.point.cast<double>()).norm();
-          const double beyond = anchor.distance - way + pair.everywhere - margin - kAnchorRounding;
+          const double way = (at[count] - anchor.point.cast<double>()).norm() + rounding_of(anchor);
+          const double beyond = anchor.distance - way + pair.everywhere - margin;
           if (beyond > 0) {
             set.point_wake[i] = odometer + beyond;
+            slack = std::min(slack, beyond);
+            continue;
+          }
+          near[count].surely = single && anchor.distance + way < near_enough;
+          // A point that goes on as far as it has come leaves a smaller radius. Who sees surroundings asks for all.
+          if (!surroundings_) near[count].way = way;
+        }
+        if (single && !near[count].surely) {
+          const double bound = target.solids.front().surface->known_bound(at[count]);
+          if (bound > near_enough) {
+            const double beyond = bound + pair.everywhere - margin;
+            set.point_wake[i] = odometer + beyond;
+            set.anchor[i] = {at[count].cast<float>(), static_cast<float>(bound)};
             slack = std::min(slack, beyond);
             continue;
           }
@@ -232,29 +267,32 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         hints[count] = set.hint[i * solids];
         awake[count++] = i;
       }
-      if (model_ == DistanceModel::exact && solids == 1)
-        target.solids.front().surface->prefetch({at.data(), count}, {hints.data(), count});
+      if (single) {
+        std::array<const CandidateList*, ContactPoints::kBlockSize> lists;
+        target.solids.front().surface->prefetch({at.data(), count}, {hints.data(), count}, {lists.data(), count});
+        for (std::size_t n = 0; n < count; ++n) near[n].list = lists[n];
+      }
       for (std::size_t n = 0; n < count; ++n) {
         const std::uint32_t i = awake[n];
         const Eigen::Vector3d& p = at[n];
         const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
-        const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed);
+        const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed, near[n]);
         const double beyond = touch.distance + allowed - margin;
         set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
         // Interpolated distances may change faster than the way.
         if (model_ == DistanceModel::exact)
-          set.anchor[i] = {p.cast<float>(), beyond > 0 ? static_cast<float>(touch.distance) : 0.0F};
+          set.anchor[i] = {p.cast<float>(), static_cast<float>(std::max(touch.distance, 0.0))};
         slack = std::min(slack, beyond);
         if (touch.distance + allowed < margin) emit(p, touch, allowed);
       }
     }
-    set.wake[k] = slack > 0 ? odometer + slack : -1.0;
+    set.wake[k] = slack > 0 ? odometer + slack : kHeld;
   }
   set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
   for (std::size_t i = 0; i < set.extra.size(); ++i) {
     const Eigen::Vector3d p = rotation * set.extra[i] + shift;
     const double allowed = local ? std::max<double>(pair.everywhere, set.extra_own[i]) : pair.everywhere;
-    const Touch touch = nearest(p, &set.extra_hint[i * solids], nullptr, allowed);
+    const Touch touch = nearest(p, &set.extra_hint[i * solids], nullptr, allowed, {});
     if (touch.distance + allowed < margin) emit(p, touch, allowed);
   }
 }
@@ -319,28 +357,6 @@ void ContactScene::update(const std::vector<Pose>& poses, std::vector<ContactPoi
   for (auto& pair : pairs_) update_pair(pair, out);
 }
 
-float ContactScene::assembled_depth(const ContactPair& pair, const Member& owner, const Member& surface,
-                                    const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d p = surface.placed->rest.inverse() * (owner.placed->rest * point);
-  double depth = 0;
-  for (const SolidField& s : surface.placed->shape->solids)
-    if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
-  depth += std::min(0.5 * depth, slack_) + threshold_;
-  return depth > pair.everywhere ? static_cast<float>(std::min(depth, pair.allowed)) : 0.0F;
-}
-
-void ContactScene::measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
-                                      const Member& surface) const {
-  const ContactPoints& points = owner.placed->shape->points;
-  const Pose to_surface = surface.placed->rest.inverse() * owner.placed->rest;
-  set.own.assign(points.points.size(), 0.0F);
-  for (const PointBlock& block : points.blocks) {
-    if (surface.placed->shape->box.squared_distance(to_surface * block.center) > block.radius * block.radius) continue;
-    for (std::uint32_t i = block.first; i < block.first + block.count; ++i)
-      set.own[i] = assembled_depth(pair, owner, surface, points.points[i]);
-  }
-}
-
 ContactScene ContactScene::with_margin(double margin) const {
   ContactScene other = *this;
   other.margin_ = margin;
@@ -355,22 +371,6 @@ ContactScene ContactScene::with_margin(double margin) const {
     }
   }
   return other;
-}
-
-bool ContactScene::overlap_is_local() const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [](const ContactPair& p) { return p.everywhere < p.allowed; });
-}
-
-void ContactScene::allow_overlap_everywhere() {
-  rest_ = nullptr;
-  for (auto& pair : pairs_) {
-    pair.everywhere = pair.allowed;
-    // What was remembered kept away from edges by less.
-    for (DirectedContacts* set : {&pair.ab, &pair.ba}) {
-      std::fill(set->linear.begin(), set->linear.end(), 0U);
-      set->known.clear();
-    }
-  }
 }
 
 }  // namespace dismantle::sdf

@@ -7,8 +7,7 @@
 namespace dismantle::sdf {
 namespace {
 constexpr float kFar = 1e30f;
-constexpr int kPadding = 3;         // cells around the box: the band fits, and a ray from outside starts outside
-constexpr double kRounding = 1e-5;  // of distances stored as float, up to some tens
+constexpr int kPadding = 3;  // cells around the box: the band fits, and a ray from outside starts outside
 }  // namespace
 
 DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options)
@@ -33,6 +32,9 @@ DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, cons
   inverse_cell_ = cell_.cwiseInverse();
   origin_ = box.lo - padding * cell_;
   band_ = options.exact ? std::numeric_limits<double>::infinity() : 1.5 * cell_.maxCoeff();
+  last_ = (nodes_ - 1).cast<double>();
+  rounding_ = std::numeric_limits<float>::epsilon() * (last_ * cell_.array()).matrix().norm();
+  box_ = {origin_, origin_ + (last_ * cell_.array()).matrix()};
   const auto total = static_cast<std::size_t>(nodes_.cast<std::int64_t>().prod());
   values_.assign(total, kFar);
   if (options.exact) {
@@ -55,7 +57,7 @@ void DistanceGrid::fill(const SurfaceQuery& surface) {
       for (int i = 0; i < nodes_[0]; ++i) {
         const Sample s = surface.sample(origin_ + Eigen::Vector3d(i, j, k).cwiseProduct(cell_), limit, hint);
         values_[index(i, j, k)] = static_cast<float>(s.value);
-        limit = std::abs(s.value) + cell_[0] + kRounding;
+        limit = std::abs(s.value) + cell_[0] + rounding_;
         hint = s.triangle;
       }
     }
@@ -163,77 +165,67 @@ void DistanceGrid::sweep() {
   }
 }
 
+/// The cell of p, which lies in the grid, and where p is in it.
+inline DistanceGrid::Place DistanceGrid::locate(const Eigen::Vector3d& p) const {
+  const Eigen::Array3d g = ((p - origin_).array() * inverse_cell_.array()).max(0.0).min(last_);
+  const Eigen::Array3i base = g.cast<int>().min(nodes_ - 2);
+  return {index(base.x(), base.y(), base.z()), g - base.cast<double>()};
+}
+
+/// Trilinear. Pairs of values lie side by side, so that each operation does two of them: along x for the two rows of a
+/// slice, then along z for both, then along y.
+inline double DistanceGrid::interpolate(const Place& place, Eigen::Vector3d* gradient) const {
+  const float* v = values_.data() + place.first;
+  const std::size_t sy = static_cast<std::size_t>(nodes_[0]), sz = sy * static_cast<std::size_t>(nodes_[1]);
+  using Pair = Eigen::Array2d;
+  const auto pair = [&](std::size_t at) { return Pair(v[at], v[at + sy]); };
+  const double x = place.share.x(), y = place.share.y(), z = place.share.z();
+  const Pair near = pair(0), far = pair(sz);
+  const Pair near_x = pair(1) - near, far_x = pair(sz + 1) - far;
+  const Pair near_at = near + x * near_x, along_z = (far + x * far_x) - near_at;
+  const Pair at = near_at + z * along_z;
+  const double along_y = at[1] - at[0];
+  if (gradient != nullptr) {
+    const Pair along_x = near_x + z * (far_x - near_x);
+    *gradient =
+        Eigen::Vector3d((along_x[0] + y * (along_x[1] - along_x[0])) * inverse_cell_[0], along_y * inverse_cell_[1],
+                        (along_z[0] + y * (along_z[1] - along_z[0])) * inverse_cell_[2]);
+  }
+  return at[0] + y * along_y;
+}
+
 double DistanceGrid::value(const Eigen::Vector3d& p) const {
-  Eigen::Vector3d ignored;
-  return value(p, ignored);
+  const double inside = interpolate(locate(p), nullptr);
+  return box_.contains(p) ? inside : inside + std::sqrt(box_.squared_distance(p));
 }
 
 double DistanceGrid::value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const {
-  Eigen::Vector3d g = (p - origin_).cwiseProduct(inverse_cell_), outside = Eigen::Vector3d::Zero();
-  int base[3];
-  double f[3];
-  bool out = false;
-  for (int a = 0; a < 3; ++a) {
-    const double top = nodes_[a] - 1;
-    double x = g[a];
-    if (x < 0 || x > top) {
-      const double inner = x < 0 ? 0 : top;
-      outside[a] = (x - inner) * cell_[a];
-      x = inner;
-      out = true;
-    }
-    base[a] = std::min(static_cast<int>(x), nodes_[a] - 2);
-    f[a] = x - base[a];
-  }
-  const float* v = values_.data() + index(base[0], base[1], base[2]);
-  const std::size_t sy = static_cast<std::size_t>(nodes_[0]), sz = sy * static_cast<std::size_t>(nodes_[1]);
-  const double v000 = v[0], v100 = v[1], v010 = v[sy], v110 = v[sy + 1];
-  const double v001 = v[sz], v101 = v[sz + 1], v011 = v[sz + sy], v111 = v[sz + sy + 1];
-  const double x = f[0], y = f[1], z = f[2];
-  const double x00 = v000 + x * (v100 - v000), x10 = v010 + x * (v110 - v010);
-  const double x01 = v001 + x * (v101 - v001), x11 = v011 + x * (v111 - v011);
-  const double y0 = x00 + y * (x10 - x00), y1 = x01 + y * (x11 - x01);
-  const double value = y0 + z * (y1 - y0);
-  const double dx0 = (v100 - v000) + y * ((v110 - v010) - (v100 - v000));
-  const double dx1 = (v101 - v001) + y * ((v111 - v011) - (v101 - v001));
-  gradient =
-      Eigen::Vector3d((dx0 + z * (dx1 - dx0)) * inverse_cell_[0],
-                      ((x10 - x00) + z * ((x11 - x01) - (x10 - x00))) * inverse_cell_[1], (y1 - y0) * inverse_cell_[2]);
-  if (out) {
+  double value = interpolate(locate(p), &gradient);
+  if (!box_.contains(p)) {
     // Beyond the grid: straight on from where the grid ends.
-    gradient = gradient * std::max(value, 0.0) + outside;
-    const double total = value + outside.norm();
-    gradient.stableNormalize();
-    return total;
+    const Eigen::Vector3d beyond = p - p.cwiseMax(box_.lo).cwiseMin(box_.hi);
+    gradient = gradient * std::max(value, 0.0) + beyond;
+    value += beyond.norm();
   }
-  gradient.stableNormalize();
+  // Slopes of distances are at most some units: nothing overflows, and below the least the direction is noise.
+  constexpr double kNoSlope = 1e-30;
+  if (const double squared = gradient.squaredNorm(); squared > kNoSlope) gradient *= 1 / std::sqrt(squared);
   return value;
 }
 
 double DistanceGrid::lower_bound(const Eigen::Vector3d& p) const {
-  Eigen::Vector3d inside = p;
-  double beyond = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double hi = origin_[a] + (nodes_[a] - 1) * cell_[a];
-    inside[a] = std::clamp(p[a], origin_[a], hi);
-  }
-  beyond = (p - inside).norm();
-  if (beyond > 0) {
-    // The solid's box lies inside the grid: the distance to the grid is a true bound.
-    return std::max(beyond, 0.0);
-  }
+  // The solid's box lies inside the grid: the distance to the grid is a true bound.
+  if (!box_.contains(p)) return std::sqrt(box_.squared_distance(p));
+  const Place place = locate(p);
+  const double value = interpolate(place, nullptr);
+  // The distance grows no faster than the way: interpolated, the ways from the nodes are at most the root of their
+  // interpolated squares.
   if (exact_everywhere_) {
-    // The distance grows no faster than the way: interpolated, the ways from the nodes are at most the root of their
-    // interpolated squares.
-    double squared = 0;
-    for (int a = 0; a < 3; ++a) {
-      const double g = (p[a] - origin_[a]) * inverse_cell_[a], f = g - std::floor(g);
-      squared += f * (1 - f) * cell_[a] * cell_[a];
-    }
-    return std::max(0.0, value(p) - std::sqrt(squared) - kRounding);
+    const double squared = (place.share * (1 - place.share) * cell_.array().square()).sum();
+    return std::max(0.0, value - std::sqrt(squared) - rounding_);
   }
   // First-order sweeping overestimates; what it adds stays below a tenth of the way plus a cell's diagonal.
-  return std::max(0.0, 0.9 * value(p) - 1.5 * cell_.norm());
+  return std::max(0.0, 0.9 * value - 1.5 * cell_.norm());
 }
 
 }  // namespace dismantle::sdf

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "closest_on_triangle.h"
 #include "dismantle/sdf/surface_query.h"
 
 namespace dismantle::sdf {
@@ -92,8 +91,7 @@ void SurfaceQuery::find_convex_features(const Solid& solid) {
 int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const {
   const std::uint32_t t = sample.triangle, slot = slot_[t];
   const Corner& c = corners_[slot];
-  const Closest closest_point = closest(p, c.a, c.ab, c.ac);
-  const auto f = static_cast<std::size_t>(closest_point.feature);
+  const auto f = static_cast<std::size_t>(sample.feature);
   int count = 0;
   const auto add = [&](std::uint32_t face, const Eigen::Vector3d& on) {
     if (count == kMaxPlanes) return;
@@ -108,7 +106,7 @@ int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double 
     return count > 1 ? count : 0;
   }
   const Eigen::Vector3d corner[3] = {c.a, c.a + c.ab, c.a + c.ac};
-  const Eigen::Vector3d q = p - closest_point.offset;
+  const Eigen::Vector3d q = p - sample.offset;
   for (std::size_t k = 0; k < 3; ++k) {
     if (neighbor_[t][k] == kNoTriangle) continue;
     const Eigen::Vector3d along = corner[(k + 1) % 3] - corner[k];
@@ -126,7 +124,7 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
   constexpr double kBehind = 2e-4, kSticksOut = 1e-6;
   constexpr double kSmooth = 0.87, kBeside = 0.6, kFacing = 0.87;
   if (!cells_ || !cells_->covers(p)) return 0;
-  const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
+  const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center, 0); });
   if (!list.usable) return 0;
   const double off = (p - list.center).norm();
   double certain = std::min(reach, list.reach - off);
@@ -157,15 +155,12 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
     else
       certain = distance;
   };
-  const Eigen::Vector3f at = p.cast<float>();
-  for (const CandidateGroup& group : list.groups()) {
+  const PointLanes at(p);
+  for (const Candidate& candidate : list.candidates()) {
     if (certain <= 0) return 0;
-    if (group.from_center[0] - off >= certain) break;
-    const CandidateGroup::Floats squared = group.squared_distances(at);
-    for (int i = 0; i < CandidateGroup::kSize; ++i) {
-      if (squared[i] >= certain * certain) continue;
-      meet(group.slot[i]);
-    }
+    if (candidate.from_center - off >= certain) break;
+    if (slabs_[candidate.slot].squared_distance(at) > TriangleSlabs::filter(certain * certain)) continue;
+    meet(candidate.slot);
   }
   return certain;
 }

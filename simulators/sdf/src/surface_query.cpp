@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "closest_on_triangle.h"
-
 namespace dismantle::sdf {
 namespace {
 
@@ -20,15 +18,8 @@ constexpr double kCell = 0.05, kLeastCell = 0.01, kCellsPerEdge = 24;
 constexpr double kNearSurface = 0.12;
 /// More candidates than this are better looked for in the tree. Few of a long list are looked at: it is sorted.
 constexpr std::size_t kMostCandidates = 256;
-/// Room that a list has before it has to grow.
-constexpr std::size_t kLikely = 64;
-/// Rounding of distances and of their storage as float, for coordinates of up to some tens.
-constexpr double kRounding = 1e-5;
-/// Nobody stays linear for longer than this.
+/// Largest flat radius that is looked for.
 constexpr double kMostFlat = 0.1;
-
-/// What a squared distance from a box has to exceed for the triangle to be further away than the root of `squared`.
-float filter_of(double squared) { return static_cast<float>(squared * (1 + 2 * CandidateGroup::kRelative)); }
 
 }  // namespace
 
@@ -45,34 +36,48 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
   triangle_ = ids;
   slot_.resize(n);
   corners_.resize(n);
-  boxes_.resize(n);
+  slabs_.reserve(n);
+  Aabb reach = solid.mesh.box();
+  reach.inflate(kNearSurface);
+  bounded_within_ = 2 * reach.lo.cwiseAbs().cwiseMax(reach.hi.cwiseAbs()).norm();
   for (std::uint32_t s = 0; s < n; ++s) {
     slot_[ids[s]] = s;
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
-    for (int k = 0; k < 3; ++k) {
-      boxes_[s].lo[k] = below(std::min({a[k], b[k], c[k]}) - kRounding);
-      boxes_[s].hi[k] = above(std::max({a[k], b[k], c[k]}) + kRounding);
-    }
+    slabs_.emplace_back(a, b - a, c - a, bounded_within_);
   }
   find_faces(solid);
   find_convex_features(solid);
-  Aabb box = solid.mesh.box();
   if (n == 0) return;
-  const double cell = std::clamp(box.size().maxCoeff() / kCellsPerEdge, kLeastCell, kCell);
-  box.inflate(kNearSurface);
-  cells_ = std::make_unique<CandidateCells>(box, cell);
+  const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, kLeastCell, kCell);
+  cells_ = std::make_unique<CandidateCells>(reach, cell);
+}
+
+/// Of triangles that are as near the first one counts, so that the answer does not depend on where the search began.
+inline void SurfaceQuery::look_at(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const {
+  const Corner& k = corners_[slot];
+  const Closest c = closest(p, k.a, k.ab, k.ac);
+  if (c.squared < nearest.squared ||
+      (c.squared == nearest.squared && nearest.slot != kNoTriangle && slot < nearest.slot))
+    nearest = {c.squared, slot, c};
 }
 
 /// The triangle closest to a point of the cell is no further from the centre than the centre's own closest triangle
 /// and twice the half diagonal.
-CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const {
+CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::uint32_t near_slot) const {
   CandidateDraft list;
   list.center = center;
-  const Sample closest_to_center = sample(center);
-  const double reach = std::abs(closest_to_center.value) + 2 * cells_->half_diagonal() + kRounding;
-  list.reach = reach - kRounding;
-  list.candidates.reserve(kLikely);
+  Nearest nearest{std::numeric_limits<double>::infinity()};
+  look_at(center, near_slot, nearest);
+  look_in_tree(center, nearest);
+  list.distance = signed_sample(center, nearest).value;
+  const double reach = std::sqrt(nearest.squared) + 2 * cells_->half_diagonal();
+  list.reach = reach;
+  // No point of the cell is near the surface.
+  list.usable = std::abs(list.distance) <= kNearSurface + cells_->half_diagonal();
+  if (!list.usable) return list;
+  const PointLanes at(center);
+  const float filter = TriangleSlabs::filter(reach * reach);
   std::array<std::uint32_t, 64> todo;  // the tree is balanced: no deeper than the bits of a number
   std::size_t left = 0;
   todo[left++] = 0;
@@ -91,15 +96,15 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center) const 
       continue;
     }
     for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
-      const double d = std::sqrt(closest(center, corners_[s].a, corners_[s].ab, corners_[s].ac).squared);
-      if (d > reach) continue;
+      const float squared = slabs_[s].squared_distance(at);
+      if (squared > filter) continue;
       if (list.candidates.size() == kMostCandidates) {
         list.candidates.clear();
         list.candidates.shrink_to_fit();
         list.usable = false;
         return list;
       }
-      list.candidates.push_back({static_cast<float>(d - kRounding), s, boxes_[s]});
+      list.candidates.push_back({std::sqrt(squared * static_cast<float>(1 - TriangleSlabs::kRelative)), s});
     }
   }
   std::sort(list.candidates.begin(), list.candidates.end(), [](const Candidate& a, const Candidate& b) {
@@ -140,21 +145,26 @@ void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<s
   build(first + half, count - half, ids, boxes);
 }
 
-Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const {
-  const Closest c = closest(p, corners_[slot].a, corners_[slot].ab, corners_[slot].ac);
-  const std::uint32_t t = triangle_[slot];
-  const auto f = static_cast<std::size_t>(c.feature);
-  const Eigen::Vector3d& pseudo = f == 0 ? face_[t] : f <= 3 ? edge_[t][f - 1] : vertex_[indices_[t][f - 4]];
+Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& nearest) const {
+  const Closest& c = nearest.closest;
+  const std::uint32_t t = triangle_[nearest.slot];
   Sample s;
   s.triangle = t;
+  s.offset = c.offset;
+  s.feature = c.feature;
+  // On a face the normal is known better than p - q tells; on the surface itself p - q says nothing.
+  if (c.feature == Feature::face) {
+    const Plane& plane = planes_[face_of_[t]];
+    s.normal = plane.normal;
+    s.value = plane_distance(p, t);
+    return s;
+  }
+  const auto f = static_cast<std::size_t>(c.feature);
+  const Eigen::Vector3d& pseudo = f <= 3 ? edge_[t][f - 1] : vertex_[indices_[t][f - 4]];
   const double distance = std::sqrt(c.squared);
   const bool inside = c.offset.dot(pseudo) < 0;
   s.value = inside ? -distance : distance;
-  // On a face the normal is known better than p - q tells; on the surface itself p - q says nothing.
-  if (f == 0) {
-    s.normal = planes_[face_of_[t]].normal;
-    s.value = plane_distance(p, t);
-  } else if (distance > 1e-9)
+  if (distance > 1e-9)
     s.normal = (inside ? -1.0 : 1.0) / distance * c.offset;
   else
     s.normal = pseudo.stableNormalized();
@@ -164,81 +174,53 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, std::uint32_t slot)
 /// Where the closest point lies inside a face, it stays in the plane of that face until another one comes as near: not
 /// before the point has gone half of the difference between the two distances.
 double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
-                                 double from_edge) const {
-  const std::uint32_t slot = slot_[sample.triangle];
-  const Corner& own = corners_[slot];
-  if (closest(p, own.a, own.ab, own.ac).feature != Feature::face) return 0;
+                                 const FlatnessWanted& wanted) const {
+  if (sample.feature != Feature::face) return 0;
   const double distance = std::abs(sample.value), off = (p - list.center).norm();
-  const auto alone = [&](double other) { return 0.5 * (other - distance) - from_edge; };
+  const auto alone = [&](double other) { return 0.5 * (other - distance) - wanted.from_edge; };
   double radius = std::min(kMostFlat, alone(list.reach - off));
-  const Eigen::Vector3f at = p.cast<float>();
-  for (const CandidateGroup& group : list.groups()) {
-    if (radius <= 0) return 0;
-    if (alone(group.from_center[0] - off) >= radius) break;
-    const CandidateGroup::Floats squared = group.squared_distances(at);
-    for (int i = 0; i < CandidateGroup::kSize; ++i) {
-      const double limit = distance + 2 * (radius + from_edge);
-      if (squared[i] > filter_of(limit * limit)) continue;
-      const std::uint32_t other = group.slot[i];
-      if (other == slot || face_of_[triangle_[other]] == face_of_[sample.triangle]) continue;
-      const Corner& k = corners_[other];
-      radius = std::min(radius, alone(std::sqrt(closest(p, k.a, k.ab, k.ac).squared)));
-      if (radius <= 0) return 0;
-    }
+  double limit = distance + 2 * (radius + wanted.from_edge);
+  const PointLanes at(p);
+  const std::uint32_t own = face_of_[sample.triangle];
+  for (const Candidate& candidate : list.candidates()) {
+    if (radius <= wanted.least) return 0;
+    if (candidate.from_center - off >= limit) break;
+    const float squared = slabs_[candidate.slot].squared_distance(at);
+    if (squared > TriangleSlabs::filter(limit * limit) || face_of_[triangle_[candidate.slot]] == own) continue;
+    radius = std::min(radius, alone(std::sqrt(squared * (1 - TriangleSlabs::kRelative))));
+    limit = distance + 2 * (radius + wanted.from_edge);
   }
-  return std::max(radius, 0.0);
+  return radius > wanted.least ? radius : 0.0;
 }
 
-void SurfaceQuery::prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints) const {
-  if (!cells_) return;
+void SurfaceQuery::prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints,
+                            std::span<const CandidateList*> lists) const {
   std::array<const CandidateCells::Place*, kMostPrefetched> places;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    places[i] = cells_->prefetch_place(points[i]);
+    places[i] = cells_ ? cells_->place_of(points[i]) : nullptr;
+    if (places[i] != nullptr) __builtin_prefetch(places[i]);
     if (hints[i] < slot_.size()) __builtin_prefetch(&corners_[slot_[hints[i]]]);
   }
-  for (std::size_t i = 0; i < points.size(); ++i) CandidateCells::prefetch_list(places[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) lists[i] = CandidateCells::prefetch_list(places[i]);
 }
 
-Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint,
-                            const FlatnessWanted& flatness) const {
-  if (nodes_.empty()) return {};
-  double best = limit * limit;
-  std::uint32_t best_slot = kNoTriangle;
-  if (hint < slot_.size()) {
-    const std::uint32_t s = slot_[hint];
-    const Closest c = closest(p, corners_[s].a, corners_[s].ab, corners_[s].ac);
-    if (c.squared < best) {
-      best = c.squared;
-      best_slot = s;
-    }
+void SurfaceQuery::look_in_list(const Eigen::Vector3d& p, const CandidateList& list, Nearest& nearest) const {
+  const double off = (p - list.center).norm();
+  const PointLanes at(p);
+  const std::uint32_t first = nearest.slot;
+  double limit = std::sqrt(nearest.squared) + off;
+  for (const Candidate& candidate : list.candidates()) {
+    if (candidate.from_center > limit) break;
+    if (slabs_[candidate.slot].squared_distance(at) > TriangleSlabs::filter(nearest.squared)) continue;
+    if (candidate.slot == first) continue;
+    look_at(p, candidate.slot, nearest);
+    limit = std::sqrt(nearest.squared) + off;
   }
-  // The hint may tie with another triangle: keep a strict order so that the answer does not depend on it.
-  if (best_slot != kNoTriangle && best < kNearSurface * kNearSurface && cells_->covers(p)) {
-    const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center); });
-    if (list.usable) {
-      const double off = (p - list.center).norm();
-      const Eigen::Vector3f at = p.cast<float>();
-      for (const CandidateGroup& group : list.groups()) {
-        const double least = group.from_center[0] - off;
-        if (least > 0 && least * least > best) break;
-        const CandidateGroup::Floats squared = group.squared_distances(at);
-        if ((squared > filter_of(best)).all()) continue;
-        for (int i = 0; i < CandidateGroup::kSize; ++i) {
-          if (squared[i] > filter_of(best)) continue;
-          const std::uint32_t slot = group.slot[i];
-          const Corner& k = corners_[slot];
-          const Closest c = closest(p, k.a, k.ab, k.ac);
-          if (c.squared < best || (c.squared == best && slot < best_slot)) {
-            best = c.squared;
-            best_slot = slot;
-          }
-        }
-      }
-      Sample s = signed_sample(p, best_slot);
-      if (std::abs(s.value) < flatness.within) s.flat_radius = flat_radius(p, s, list, flatness.from_edge);
-      return s;
-    }
-  }
+}
+
+void SurfaceQuery::look_in_tree(const Eigen::Vector3d& p, Nearest& nearest) const {
+  const bool bounded = p.squaredNorm() < bounded_within_ * bounded_within_;
+  const PointLanes at(p);
   const double px = p.x(), py = p.y(), pz = p.z();
   const auto box_distance = [&](const Node& n) {
     const double dx = std::max({n.lo[0] - px, px - n.hi[0], 0.0});
@@ -255,16 +237,12 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
   std::uint32_t node = 0;
   double here = box_distance(nodes_[0]);
   while (true) {
-    if (here <= best) {
+    if (here <= nearest.squared) {
       const Node& n = nodes_[node];
       if (n.count > 0) {
-        for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
-          const Closest c = closest(p, corners_[s].a, corners_[s].ab, corners_[s].ac);
-          if (c.squared < best || (c.squared == best && s < best_slot && best_slot != kNoTriangle)) {
-            best = c.squared;
-            best_slot = s;
-          }
-        }
+        for (std::uint32_t s = n.first; s < n.first + n.count; ++s)
+          if (!bounded || slabs_[s].squared_distance(at) <= TriangleSlabs::filter(nearest.squared))
+            look_at(p, s, nearest);
       } else {
         std::uint32_t near = node + 1, far = n.first;
         double dn = box_distance(nodes_[near]), df = box_distance(nodes_[far]);
@@ -272,7 +250,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
           std::swap(near, far);
           std::swap(dn, df);
         }
-        if (df <= best) stack[top++] = {far, df};
+        if (df <= nearest.squared) stack[top++] = {far, df};
         node = near;
         here = dn;
         continue;
@@ -283,8 +261,34 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
     node = stack[top].node;
     here = stack[top].squared;
   }
-  if (best_slot == kNoTriangle) return {};
-  return signed_sample(p, best_slot);
+}
+
+double SurfaceQuery::lower_bound(const Eigen::Vector3d& p, std::uint32_t hint, const CandidateList* list) const {
+  if (!cells_ || !cells_->covers(p)) return 0;
+  if (list == nullptr)
+    list = &cells_->at(
+        p, [&](const Eigen::Vector3d& center) { return candidates_of(center, hint < slot_.size() ? slot_[hint] : 0); });
+  return std::max(0.0, list->distance - (p - list->center).norm());
+}
+
+Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint, const FlatnessWanted& flatness,
+                            const CandidateList* list) const {
+  if (nodes_.empty()) return {};
+  Nearest nearest{limit * limit};
+  if (hint < slot_.size()) look_at(p, slot_[hint], nearest);
+  if (nearest.slot != kNoTriangle && nearest.squared < kNearSurface * kNearSurface && cells_->covers(p)) {
+    if (list == nullptr)
+      list = &cells_->at(p, [&](const Eigen::Vector3d& center) { return candidates_of(center, nearest.slot); });
+    if (list->usable) {
+      look_in_list(p, *list, nearest);
+      Sample s = signed_sample(p, nearest);
+      if (std::abs(s.value) < flatness.within) s.flat_radius = flat_radius(p, s, *list, flatness);
+      return s;
+    }
+  }
+  look_in_tree(p, nearest);
+  if (nearest.slot == kNoTriangle) return {};
+  return signed_sample(p, nearest);
 }
 
 }  // namespace dismantle::sdf

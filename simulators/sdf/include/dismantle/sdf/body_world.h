@@ -59,6 +59,7 @@ class BodyWorld : public World {
   Eigen::Index dof() const { return static_cast<Eigen::Index>(bodies_.size()) * per_body_; }
   const std::vector<ContactPoint>& touching() const { return touching_; }
   const std::vector<ContactRow>& rows() const { return rows_; }
+  RowColumns& columns() { return columns_; }
   double deepest() const;  ///< of touching(), >= 0
 
   /// Contacts and rows at `state`, remembered: the next advance() often begins there too.
@@ -116,6 +117,7 @@ class BodyWorld : public World {
   bool rows_current_ = false;     // rows_ were built from touching_ as it is
   std::vector<ContactRow> rows_;  // scratch
   RowMerger merger_;              // scratch
+  RowColumns columns_;            // scratch of solvers
 };
 
 }  // namespace dismantle::sdf

@@ -41,7 +41,7 @@ struct LinearDistance {
 /// Where the distance of a point was last measured. It has changed by no more than the way from there.
 struct Anchor {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< frame of the surface
-  float distance = 0;                               ///< <= 0: not known
+  float distance = 0;                               ///< a lower bound; <= 0: not known
 };
 
 /// Points of one member against the solids of another.

@@ -80,8 +80,14 @@ class ContactScene {
                         const Eigen::Vector3d& point) const;
   void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
                           const Member& surface) const;
+  /// What is known of a point before it is asked for.
+  struct Near {
+    bool surely = false;  ///< bounds of its distance would not do, and its last closest triangle is known
+    double way = 0;       ///< from where it was last asked for
+    const CandidateList* list = nullptr;
+  };
   Sample signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
-                         const FlatnessWanted& flatness, std::uint32_t& hint);
+                         const FlatnessWanted& flatness, std::uint32_t& hint, const Near& near);
 
   DistanceModel model_;
   double margin_, threshold_, slack_;

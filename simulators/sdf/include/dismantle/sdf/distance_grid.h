@@ -39,7 +39,7 @@ class DistanceGrid {
   /// free of surface. 0 near the surface or inside.
   double lower_bound(const Eigen::Vector3d& p) const;
   /// How far value() may be off where its magnitude is below a cell's diagonal; anywhere, if all nodes are exact.
-  double error_near() const { return 0.5 * cell_.norm() + 1e-6; }
+  double error_near() const { return 0.5 * cell_.norm() + rounding_; }
 
   const Eigen::Vector3d& cell() const { return cell_; }
   const Eigen::Vector3d& origin() const { return origin_; }
@@ -54,6 +54,12 @@ class DistanceGrid {
                static_cast<std::size_t>(nodes_.x()) +
            static_cast<std::size_t>(i);
   }
+  struct Place {
+    std::size_t first;     ///< node with the least indices
+    Eigen::Array3d share;  ///< of a cell, from there
+  };
+  Place locate(const Eigen::Vector3d& p) const;
+  double interpolate(const Place& place, Eigen::Vector3d* gradient) const;
   void fill_band(const Solid& solid, const SurfaceQuery& surface);
   void propagate_signs();
   void sweep();
@@ -61,7 +67,10 @@ class DistanceGrid {
 
   Eigen::Vector3d origin_, cell_, inverse_cell_;
   Eigen::Array3i nodes_;
+  Eigen::Array3d last_;  ///< node, along each axis
+  Aabb box_;             ///< from the first node to the last
   double band_ = 0;
+  double rounding_ = 0;  ///< of distances within the grid, which are stored as float
   bool exact_everywhere_ = false;
   std::vector<float> values_;
   std::vector<std::uint8_t> exact_;  // only while building

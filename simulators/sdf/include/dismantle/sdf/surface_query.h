@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -9,7 +10,9 @@
 #include <vector>
 
 #include "dismantle/sdf/candidate_cells.h"
+#include "dismantle/sdf/closest_on_triangle.h"
 #include "dismantle/sdf/solid.h"
+#include "dismantle/sdf/triangle_slabs.h"
 
 namespace dismantle::sdf {
 
@@ -23,12 +26,15 @@ struct Sample {
   /// Within this distance of the point asked for, `value` is linear: its change is normal . displacement, and no convex
   /// edge is near. 0 where that is not known.
   double flat_radius = 0;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< the point asked for minus the closest one
+  Feature feature = Feature::face;                   ///< of the triangle, that the closest point lies on
 };
 
 /// Asks for Sample::flat_radius.
 struct FlatnessWanted {
   double within = 0;     ///< of points nearer to the surface than this; 0: of none
   double from_edge = 0;  ///< convex edges have to stay so far away
+  double least = 0;      ///< smaller radii are not worth looking for
 };
 
 /// Half-space whose plane passes through a face: a point is outside the solid near a convex edge or corner
@@ -46,9 +52,23 @@ class SurfaceQuery {
   explicit SurfaceQuery(const Solid& solid);
 
   /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle.
-  /// `hint`: a triangle that is probably close (from the last query of a moving point); only affects speed.
+  /// `hint`: a triangle that is probably close (from the last query of a moving point); `list`: as prefetch() found it.
+  /// Both only affect speed.
   Sample sample(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity(),
-                std::uint32_t hint = kNoTriangle, const FlatnessWanted& flatness = {}) const;
+                std::uint32_t hint = kNoTriangle, const FlatnessWanted& flatness = {},
+                const CandidateList* list = nullptr) const;
+
+  /// A distance that the true one is not below, from that of the middle of p's cell; 0 near the surface, inside, and
+  /// far away. `hint`, `list`: as in sample().
+  double lower_bound(const Eigen::Vector3d& p, std::uint32_t hint = kNoTriangle,
+                     const CandidateList* list = nullptr) const;
+
+  /// The same where p's cell has been asked for before, else 0: costs nothing but the way there.
+  double known_bound(const Eigen::Vector3d& p) const {
+    const CandidateCells::Place* place = cells_ ? cells_->place_of(p) : nullptr;
+    const CandidateList* list = place == nullptr ? nullptr : place->load(std::memory_order_acquire);
+    return list == nullptr ? 0.0 : std::max(0.0, list->distance - (p - list->center).norm());
+  }
 
   /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
   /// edge: the planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: none, the
@@ -71,8 +91,9 @@ class SurfaceQuery {
   }
 
   /// Brings what sample() will ask for at these points into the cache, for all of them at a time: a query waits for
-  /// memory more than it computes. Answers do not depend on it.
-  void prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints) const;
+  /// memory more than it computes. `lists`: for each point the list to ask with, nullptr where there is none yet.
+  void prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints,
+                std::span<const CandidateList*> lists) const;
   static constexpr std::size_t kMostPrefetched = 16;  ///< points in one call
 
   std::size_t triangle_count() const { return corners_.size(); }
@@ -94,14 +115,26 @@ class SurfaceQuery {
   void find_faces(const Solid& solid);
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes);
-  CandidateDraft candidates_of(const Eigen::Vector3d& center) const;
-  Sample signed_sample(const Eigen::Vector3d& p, std::uint32_t slot) const;
-  double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list, double from_edge) const;
+  /// `near_slot`: any triangle that is not far; only affects speed.
+  CandidateDraft candidates_of(const Eigen::Vector3d& center, std::uint32_t near_slot) const;
+  /// The closest triangle so far.
+  struct Nearest {
+    double squared;
+    std::uint32_t slot = kNoTriangle;
+    Closest closest{};
+  };
+  void look_at(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const;
+  void look_in_list(const Eigen::Vector3d& p, const CandidateList& list, Nearest& nearest) const;
+  void look_in_tree(const Eigen::Vector3d& p, Nearest& nearest) const;
+  Sample signed_sample(const Eigen::Vector3d& p, const Nearest& nearest) const;
+  double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
+                     const FlatnessWanted& wanted) const;
 
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;          // by slot: leaves are contiguous
-  std::vector<CandidateBox> boxes_;      // by slot
+  std::vector<TriangleSlabs> slabs_;     // by slot
+  double bounded_within_ = 0;            // slabs_ bound distances of points that are nearer to the origin than this
   std::vector<std::uint32_t> triangle_;  // slot -> triangle
   std::vector<std::uint32_t> slot_;      // triangle -> slot
   std::vector<Triangle> indices_;        // by triangle
