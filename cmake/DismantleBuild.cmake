@@ -117,6 +117,16 @@ function(dismantle_unity target)
   endforeach()
 endfunction()
 
+# dismantle_add_late_library(NAME SOURCES ... LIBRARIES ...): a library that a plugin or a program loads when it first needs it
+# (dismantle/plugin/late_library.h), with what only that needs. It lies where the other libraries are.
+function(dismantle_add_late_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE dismantle_settings ${ARG_LIBRARIES})
+  dismantle_precompile(${name})
+  install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+endfunction()
+
 # A program of Google Test. The libraries under test keep their optimisation; the tests themselves are compiled once and run once.
 function(dismantle_use_test_pch target)
   if(NOT TARGET dismantle_test_pch)

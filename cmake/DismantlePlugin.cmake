@@ -1,8 +1,9 @@
-# dismantle_add_plugin(NAME SOURCES ... [LIBRARIES ...])
-# A shared library in the plugin folder that exports nothing but its header. Installed with the package,
-# so that plugins out of tree are built the same way.
+# dismantle_add_plugin(NAME SOURCES ... [LIBRARIES ...] [OFFERS "KIND ID"...])
+# A shared library in the plugin folder that exports nothing but its header and, where OFFERS lists all that it registers,
+# in that order ("path_planner acme.rrt"), that list: then it is loaded only when one of these is asked for. Installed with
+# the package, so that plugins out of tree are built the same way.
 function(dismantle_add_plugin name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;OFFERS" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE dismantle::plugin_api ${ARG_LIBRARIES})
   set_target_properties(${name} PROPERTIES
@@ -21,6 +22,24 @@ function(dismantle_add_plugin name)
     dismantle_precompile(${name})
     install(TARGETS ${name} LIBRARY DESTINATION "${DISMANTLE_PLUGIN_INSTALL_DIR}")
   endif()
+  if(ARG_OFFERS)
+    dismantle_offers(${name} ${ARG_OFFERS})
+  endif()
+endfunction()
+
+# dismantle_offers(NAME "KIND ID"...): adds the list of what the plugin NAME registers, as a symbol that is read from the bytes
+# of the file.
+function(dismantle_offers name)
+  list(JOIN ARGN ", " offers)
+  set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}_offers.cpp")
+  file(CONFIGURE OUTPUT "${source}" @ONLY CONTENT
+    "extern \"C\" {
+extern __attribute__((visibility(\"default\"))) const char dismantle_plugin_types[];
+const char dismantle_plugin_types[] = \"@offers@\";
+}
+")
+  target_sources(${name} PRIVATE "${source}")
+  set_source_files_properties("${source}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 # dismantle_add_contract_test(NAME): a test of CTest that tries the laws of its kind on the plugin NAME, as `dismantle plugins

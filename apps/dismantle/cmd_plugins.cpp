@@ -36,6 +36,7 @@ int list(const Plugins& options) {
   Console console(ConsoleOptions{});
   Registry registry;
   scan(options, registry);
+  registry.load_all();
   std::string out;
   std::size_t width = 0;
   for (const PluginKind kind : kPluginKinds)

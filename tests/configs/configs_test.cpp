@@ -93,6 +93,7 @@ TEST(Configs, EachResolvedFileLoads) {
 TEST(Configs, EachPresetIsAType) {
   Registry registry;
   registry.scan();
+  registry.load_all();
   for (const auto& problem : registry.problems()) ADD_FAILURE() << problem.file << ": " << problem.message;
   const fs::path folder = fs::path(CONFIGS_FOLDER) / "presets";
   for (const PluginKind kind : kPluginKinds) {

@@ -1,6 +1,7 @@
 // Laws of the registry: what is found is what was registered; what is missing is explained.
 #include "dismantle/host/registry.h"
 
+#include <dlfcn.h>
 #include <elf.h>
 #include <gtest/gtest.h>
 #include <link.h>
@@ -63,6 +64,40 @@ TEST(Registry, ScanningAgainChangesNothing) {
   registry.scan();
   EXPECT_EQ(registry.files().size(), files);
   EXPECT_TRUE(registry.problems().empty());
+}
+
+// Law: a file that says what it offers is known by its header alone, and loaded when one of its types is asked for.
+TEST(Registry, LoadsWhatIsAskedFor) {
+  const fs::path file = fs::path(GOOD_FOLDER) / "late" / "libacme_offers.so";
+  const auto is_loaded = [&] { return dlopen(file.c_str(), RTLD_LAZY | RTLD_NOLOAD) != nullptr; };
+  Registry registry(kBuiltIn);
+  registry.add_search_path(file.parent_path());
+  registry.scan();
+  ASSERT_EQ(registry.files().size(), 2u);
+  EXPECT_EQ(registry.files().back().types, std::vector<std::string>{"acme.offered"});
+  EXPECT_EQ(registry.types(PluginKind::path_planner).size(), 8u);
+  EXPECT_EQ(registry.lookup(PluginKind::path_planner, "bfs")->file, &registry.files().front());
+  EXPECT_FALSE(is_loaded());
+  ASSERT_NE(registry.lookup(PluginKind::importer, "acme.offered"), nullptr);
+  EXPECT_TRUE(is_loaded());
+  EXPECT_EQ(registry.lookup("acme.offered"), registry.lookup(PluginKind::importer, "acme.offered"));
+  EXPECT_EQ(registry.lookup(PluginKind::path_planner, "acme.offered"), nullptr);
+  EXPECT_TRUE(registry.problems().empty());
+}
+
+// Law: what a file says wrongly of itself shows when it is loaded, once, and where its type is asked for.
+TEST(Registry, RefusesLateWhatSaysSomethingElse) {
+  Registry registry{fs::path()};
+  registry.add_search_path(fs::path(REFUSED_FOLDER) / "offers_other.so");
+  registry.scan();
+  EXPECT_TRUE(registry.problems().empty());
+  for (int time = 0; time < 2; ++time) {
+    EXPECT_NE(why(registry, PluginKind::importer, "acme.other").find("was refused: registers"), std::string::npos);
+    EXPECT_TRUE(registry.types(PluginKind::importer).empty());
+    registry.load_all();
+    EXPECT_EQ(registry.problems().size(), 1u);
+    EXPECT_THROW(registry.load(fs::path(REFUSED_FOLDER) / "offers_other.so"), PluginError);
+  }
 }
 
 TEST(Registry, ExplainsWhatIsMissing) {

@@ -58,6 +58,8 @@ const Case kCases[] = {
     {"other_alignment", {"eigen_max_align_bytes is 64 in the plugin, ", "EIGEN_MAX_ALIGN_BYTES"}},
     {"debug_library", {"stdlib_debug is on in the plugin, off here", "_GLIBCXX_DEBUG", "layout is "}},
     {"no_header", {"has no symbol 'dismantle_plugin_header'", "lacks DISMANTLE_PLUGIN"}},
+    {"offers_nonsense", {"'acme.offered' is no list of types"}},
+    {"offers_other", {"registers 'importer acme.offered', but its list of types is 'importer acme.other'"}},
     {"undefined_symbol", {"undefined symbol acme::missing_function", "link the library"}},
     {"throws", {"acme.bad_types", "no licence for today", "author"}},
     {"throws_int", {"an exception that is no std::exception"}},

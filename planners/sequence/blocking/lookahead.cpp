@@ -165,7 +165,6 @@ void Lookahead::add_waiting(const GroupState& group, unsigned depth, const Subas
 /// Proofs about pairs, the likeliest to be sought first: flat pieces of this group; pairs that only wait for proofs;
 /// parts that were searched to some depth and have one other in their way; other groups of two.
 std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) const {
-  using Kind = ImmobilityQuestion::Kind;
   std::vector<ImmobilityQuestion> all;
   if (immobility_ == nullptr) return all;
   for (const ImmobilityQuestion& q : immobility_->flat_questions(now))
@@ -177,7 +176,7 @@ std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) 
       if (!g->is_pair() || g->searches_finished != searched) continue;
       const SubassemblyId a = g->members[0], b = g->members[1];
       if (searched || history_.reached_depth_limit(a) || history_.reached_depth_limit(b))
-        immobility_->add_questions(Kind::confined_half, a, b, all);
+        immobility_->add_questions(ImmobilityQuestion::Kind::confined_half, a, b, all);
     }
   };
   add_pairs(true);
@@ -186,7 +185,7 @@ std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) 
       if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth < kDepthForProofInAdvance)
         continue;
       if (const auto blocker = immobility_->only_blocker(*g, s))
-        immobility_->add_questions(Kind::confined_full, s, *blocker, all);
+        immobility_->add_questions(ImmobilityQuestion::Kind::confined_full, s, *blocker, all);
     }
   add_pairs(false);
   std::erase_if(all, [&](const ImmobilityQuestion& q) { return immobility_->was_asked(q); });

@@ -1,60 +1,15 @@
-#include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/goals/GoalState.h>
-
-#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "dismantle/path/candidates.h"
 #include "dismantle/plugin.h"
-#include "dismantle/sampling/candidate_paths.h"
-#include "dismantle/sampling/connect_trees.h"
+#include "dismantle/plugin/late_library.h"
+#include "parameters.h"
 #include "straight.h"
+#include "trees.h"
 
 namespace dismantle::rrt_connect {
 namespace {
-
-namespace ob = ompl::base;
-using sampling::CheckBudget;
-using sampling::ConnectTrees;
-using sampling::SamplingProblem;
-
-/// State checks without turns where nothing else limits them.
-constexpr std::uint64_t kChecksWithoutTurns = 10'000;
-/// Paths that the verifier may refuse: where simulator and verifier differ, more paths of the same kind do not help.
-constexpr int kMostRefused = 10;
-
-struct Parameters {
-  bool straight_first = true;
-  double clearance = 0.1;
-  double range = 2;
-  double step = 0.05;
-  double tolerance_share = 0.4;
-  bool simplify = true;
-  std::int64_t max_checks = 30'000;
-
-  static void describe(Schema<Parameters>& s) {
-    s.add("straight_first", &Parameters::straight_first,
-          {.doc = "Try to lift the part, turn it, carry it over everything and put it down before any tree is grown."});
-    s.add("clearance", &Parameters::clearance,
-          {.unit = "unit", .min = 0, .doc = "What a part that is carried over others keeps off them."});
-    s.add("range", &Parameters::range,
-          {.unit = "unit", .min = 0, .min_open = true, .doc = "Longest extension of a tree."});
-    s.add("step", &Parameters::step,
-          {.unit = "unit",
-           .min = 1e-5,
-           .max = 1,
-           .doc = "Extensions are checked every so far; largest way of any point of the part."});
-    s.add("tolerance_share", &Parameters::tolerance_share,
-          {.unit = "1",
-           .min = 0,
-           .max = 1,
-           .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
-    s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
-    s.add("max_checks", &Parameters::max_checks,
-          {.unit = "1", .min = 0, .doc = "State checks for one transfer; 0 = no limit but those of the run."});
-  }
-};
 
 class RrtConnect final : public TransferPlanner {
  public:
@@ -77,7 +32,9 @@ class RrtConnect final : public TransferPlanner {
                   "no straight way, and trees need a simulator with distance queries for all moving parts");
       return result;
     }
-    grow(query, goal, context, result);
+    const auto grow =
+        late_function<decltype(dismantle_connect_by_trees)>(DISMANTLE_TRANSFER_TREES, "dismantle_connect_by_trees");
+    grow(parameters_, query, goal, context, result);
     return result;
   }
 
@@ -102,61 +59,6 @@ class RrtConnect final : public TransferPlanner {
                },
                [&](VerifiedPath path) { result.solve(std::move(path), static_cast<unsigned>(instants - 1)); })
         .accepted;
-  }
-
-  void grow(const TransferQuery& query, const Pose& goal, RunContext& context, PathResult& result) const {
-    PathQuery removal{query.assembly, query.simulator, query.prepared, query.scene,
-                      query.budget,   query.tolerance, query.checker};
-    const auto own = static_cast<std::uint64_t>(parameters_.max_checks);
-    std::uint64_t& most = removal.budget.max_steps;
-    if (own > 0) most = most > 0 ? std::min(most, own) : own;
-    CheckBudget budget(removal, context);
-    sampling::CandidatePaths candidates(query.checker, parameters_.simplify);
-
-    // Without a turn to make, a quarter of the budget goes to searching without turns.
-    const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
-    result.fail(Outcome::timeout);
-    for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
-      if (motion == MotionSpace::translation && turns) continue;
-      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kChecksWithoutTurns;
-      SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
-                              goal);
-      ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
-      auto definition = std::make_shared<ob::ProblemDefinition>(problem.information());
-      const auto start = problem.space().start();
-      const auto end = problem.state_after(goal);
-      definition->addStartState(&start);
-      auto target = std::make_shared<ob::GoalState>(problem.information());
-      target->setState(&end);
-      definition->setGoal(target);
-      trees.setProblemDefinition(definition);
-      const ob::PlannerTerminationCondition stop(
-          [&] { return budget.spent() || (limit > 0 && budget.checks >= limit); });
-      ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
-      for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
-        status = trees.solve(stop);
-        if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
-        std::size_t edge = 0;  // not used: both trees begin anew
-        if (candidates.accepts(problem, trees.solution(), result, edge, query.goal)) break;
-        trees.clear();
-      }
-      result.stats.nodes += trees.nodes();
-      if (result.outcome() == Outcome::solved) {
-        result.blocked_by.clear();
-        break;
-      }
-      result.blocked_by = problem.blockers();
-      if (status == ob::PlannerStatus::INVALID_START || status == ob::PlannerStatus::INVALID_GOAL) {
-        result.fail(Outcome::invalid_start, status == ob::PlannerStatus::INVALID_START
-                                                ? "the part collides where it lies in the layout"
-                                                : "the part collides where it is to be put in");
-        break;
-      }
-    }
-    if (result.outcome() == Outcome::timeout && context.cancel.cancelled()) result.fail(Outcome::cancelled);
-    result.stats.refused = candidates.refused();
-    result.stats.state_checks = budget.checks;
-    result.stats.cost = static_cast<double>(budget.checks);
   }
 
   Parameters parameters_;

@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
   try {
     dismantle::Registry registry(dismantle::built_in_plugin_folder());
     registry.scan();
+    registry.load_all();
     for (const auto& problem : registry.problems())
       std::cerr << problem.file.string() << ": " << problem.message << "\n";
     if (!registry.problems().empty()) return 1;

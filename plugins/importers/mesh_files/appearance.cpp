@@ -1,7 +1,5 @@
 #include "appearance.h"
 
-#include <assimp/material.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -31,19 +29,6 @@ std::optional<Rgba> rgba(double r, double g, double b, double a, bool linear) {
   const auto byte = [](double x) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0, 1.0))); };
   const auto channel = [&](double x) { return byte(linear ? encoded(std::clamp(x, 0.0, 1.0)) : x); };
   return Rgba{channel(r), channel(g), channel(b), byte(a)};
-}
-
-std::optional<Rgba> colour_of(const aiMaterial& material, bool linear) {
-  aiString name;
-  if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
-      std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
-    return std::nullopt;
-  aiColor4D colour;
-  if (material.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS &&
-      material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != aiReturn_SUCCESS)
-    return std::nullopt;
-  return rgba(static_cast<double>(colour.r), static_cast<double>(colour.g), static_cast<double>(colour.b),
-              static_cast<double>(colour.a), linear);
 }
 
 std::map<std::string, Rgba> read_material_library(const std::filesystem::path& file) {

@@ -1,7 +1,5 @@
-/// Colours and units as files give them: of scenes that assimp read, and of the material libraries of OBJ.
+/// Colours and units as files give them, and the material libraries of OBJ.
 #pragma once
-
-#include <assimp/scene.h>
 
 #include <filesystem>
 #include <map>
@@ -26,9 +24,6 @@ class OneColour {
 /// From [0, 1] per channel; values outside are cut off, what is not finite is no colour. `linear`: linear light, else
 /// sRGB.
 std::optional<Rgba> rgba(double r, double g, double b, double a, bool linear);
-
-/// The base colour of a material; nothing for the one that assimp makes up where a file has none.
-std::optional<Rgba> colour_of(const aiMaterial& material, bool linear);
 
 /// Kd and d (or Tr) of the materials in an .mtl file, by name. A file that cannot be read has none.
 std::map<std::string, Rgba> read_material_library(const std::filesystem::path& file);

@@ -1,5 +1,8 @@
 // glTF, 3MF and DAE through assimp.
+#include "assimp_reader.h"
+
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -13,7 +16,6 @@
 #include "appearance.h"
 #include "dismantle/errors.h"
 #include "names_3mf.h"
-#include "readers.h"
 #include "text_scan.h"
 
 namespace dismantle::mesh_files {
@@ -26,6 +28,20 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   Eigen::Matrix4d out;
   out << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
   return out;
+}
+
+/// The base colour of a material; nothing for the one that assimp makes up where a file has none.
+std::optional<Rgba> colour_of(const aiMaterial& material, bool linear) {
+  aiString name;
+  if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
+      std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
+    return std::nullopt;
+  aiColor4D colour;
+  if (material.Get(AI_MATKEY_BASE_COLOR, colour) != aiReturn_SUCCESS &&
+      material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) != aiReturn_SUCCESS)
+    return std::nullopt;
+  return rgba(static_cast<double>(colour.r), static_cast<double>(colour.g), static_cast<double>(colour.b),
+              static_cast<double>(colour.a), linear);
 }
 
 /// Ends the reading when the run is to stop.
@@ -141,7 +157,7 @@ class SceneReader {
 
 }  // namespace
 
-std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) {
+std::vector<RawPart> read_scene(const std::filesystem::path& file, const RunContext& context) {
   std::string ending = file.extension().string();
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -191,3 +207,8 @@ std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const R
 }
 
 }  // namespace dismantle::mesh_files
+
+void dismantle_read_scene(const std::filesystem::path& file, const dismantle::RunContext& context,
+                          std::vector<dismantle::RawPart>& parts) {
+  parts = dismantle::mesh_files::read_scene(file, context);
+}

@@ -4,7 +4,9 @@
 
 #include <new>
 
+#include "assimp_reader.h"
 #include "dismantle/errors.h"
+#include "dismantle/plugin/late_library.h"
 #include "readers.h"
 
 namespace dismantle::mesh_files {
@@ -19,6 +21,12 @@ std::string ending(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) {
+  std::vector<RawPart> parts;
+  late_function<decltype(dismantle_read_scene)>(DISMANTLE_ASSIMP_READER, "dismantle_read_scene")(file, context, parts);
+  return parts;
+}
 
 std::vector<std::string> MeshFiles::extensions() const {
   return {"obj", "stl", "off", "ply", "glb", "gltf", "3mf", "dae"};

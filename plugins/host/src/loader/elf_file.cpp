@@ -32,9 +32,11 @@ constexpr unsigned kMachine = EM_NONE;  // unknown: left to the dynamic linker
 constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
 constexpr unsigned char kEndian = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
 
-class ElfReader {
+}  // namespace
+
+class ElfFile::Reader {
  public:
-  explicit ElfReader(const std::filesystem::path& file) : file_(file), stream_(file, std::ios::binary) {
+  explicit Reader(const std::filesystem::path& file) : file_(file), stream_(file, std::ios::binary) {
     if (!stream_) fail("cannot be read");
     stream_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream_.tellg()));
@@ -46,7 +48,7 @@ class ElfReader {
     check_segments();
   }
 
-  std::vector<std::uint8_t> symbol(const std::string& name, std::size_t limit) {
+  std::optional<std::vector<std::uint8_t>> symbol(const std::string& name, std::size_t limit) {
     if (header_.e_shoff == 0 || header_.e_shnum == 0) fail("has no section table; do not strip it off");
     const auto sections = table<Section>(header_.e_shoff, header_.e_shnum, "section table");
     for (const auto& section : sections) {
@@ -54,10 +56,7 @@ class ElfReader {
       const auto found = find_in(section, sections, name);
       if (found) return content(*found, sections, limit);
     }
-    fail(
-        fmt::format("has no symbol '{}': it is a shared library, but no Dismantle plugin (or the plugin lacks "
-                    "DISMANTLE_PLUGIN)",
-                    name));
+    return std::nullopt;
   }
 
  private:
@@ -136,11 +135,12 @@ class ElfReader {
   Header header_{};
 };
 
-}  // namespace
+ElfFile::ElfFile(const std::filesystem::path& file) : reader_(std::make_unique<Reader>(file)) {}
 
-std::vector<std::uint8_t> read_elf_symbol(const std::filesystem::path& file, const std::string& name,
-                                          std::size_t limit) {
-  return ElfReader(file).symbol(name, limit);
+ElfFile::~ElfFile() = default;
+
+std::optional<std::vector<std::uint8_t>> ElfFile::symbol(const std::string& name, std::size_t limit) {
+  return reader_->symbol(name, limit);
 }
 
 }  // namespace dismantle

@@ -1,18 +1,29 @@
-/// Reads the plugin header out of a shared library's bytes, without loading the library.
+/// Reads what a plugin exports out of a shared library's bytes, without loading the library.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace dismantle {
 
-/// Bytes of the symbol `name` in the ELF library `file`: at most `limit` of them, fewer when the symbol is smaller.
-/// Also makes sure that every segment lies inside the file: the dynamic linker maps a truncated library
-/// without complaint and the process dies on first touch.
-/// @throws PluginError: unreadable, no ELF library, truncated, for another machine, or without the symbol.
-std::vector<std::uint8_t> read_elf_symbol(const std::filesystem::path& file, const std::string& name,
-                                          std::size_t limit);
+/// A shared library as bytes. Making one makes sure that every segment lies inside the file: the dynamic linker maps a
+/// truncated library without complaint and the process dies on first touch.
+class ElfFile {
+ public:
+  /// @throws PluginError: unreadable, no ELF library, truncated, for another machine.
+  explicit ElfFile(const std::filesystem::path& file);
+  ~ElfFile();
+  /// Bytes of a symbol that it exports: at most `limit` of them, fewer when the symbol is smaller; nothing when there
+  /// is none of that name. @throws PluginError: truncated, or without a table of symbols.
+  std::optional<std::vector<std::uint8_t>> symbol(const std::string& name, std::size_t limit);
+
+ private:
+  class Reader;
+  std::unique_ptr<Reader> reader_;
+};
 
 }  // namespace dismantle

@@ -6,13 +6,20 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <set>
+#include <string_view>
 
 #include "loader/elf_file.h"
 #include "loader/handshake.h"
 
 namespace dismantle {
 namespace {
+
+/// Optional: all that a plugin registers, in that order, as "KIND ID", separated by commas
+/// (cmake/DismantlePlugin.cmake).
+constexpr char kTypesSymbol[] = "dismantle_plugin_types";
+constexpr std::size_t kMostTypes = 65536;
 
 bool word(const std::string& s) {
   if (s.empty() || s[0] < 'a' || s[0] > 'z') return false;
@@ -61,12 +68,9 @@ std::string joined(const std::vector<std::string>& parts) {
   return all;
 }
 
-}  // namespace
-
-std::vector<std::string> problems_of_types(const std::vector<PluginType>& types, bool built_in) {
+std::vector<std::string> problems_of_ids(const std::vector<OfferedType>& types, bool built_in) {
   std::vector<std::string> problems;
   std::set<std::string> ids;
-  if (types.empty()) problems.emplace_back("registers no type: call r.add<...>(...) in the body of DISMANTLE_PLUGIN");
   for (const auto& type : types) {
     const auto add = [&](const std::string& problem) {
       problems.push_back(fmt::format("type '{}' {}", type.id, problem));
@@ -77,6 +81,55 @@ std::vector<std::string> problems_of_types(const std::vector<PluginType>& types,
     if (!built_in && !dotted)
       add(fmt::format("needs an id with a dot, such as 'acme.{}': bare ids belong to the built-in types", type.id));
     if (!ids.insert(type.id).second) add("is registered twice: give each type an id of its own");
+  }
+  return problems;
+}
+
+/// "KIND ID, KIND ID". Nothing when it is spelled in another way.
+std::optional<std::vector<OfferedType>> read_offers(std::string_view text) {
+  std::vector<OfferedType> offers;
+  while (!text.empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const std::string_view one = text.substr(0, comma);
+    const std::size_t blank = one.find(' ');
+    const auto* kind = std::find_if(std::begin(kPluginKinds), std::end(kPluginKinds),
+                                    [&](PluginKind k) { return to_string(k) == one.substr(0, blank); });
+    if (blank == std::string_view::npos || kind == std::end(kPluginKinds)) return std::nullopt;
+    offers.push_back({*kind, std::string(one.substr(blank + 1))});
+    text.remove_prefix(std::min(comma + 1, text.size()));
+    while (text.starts_with(' ')) text.remove_prefix(1);
+  }
+  return offers;
+}
+
+std::string text_of(const std::vector<OfferedType>& offers) {
+  std::string text;
+  for (const auto& type : offers)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(type.kind), type.id);
+  return text;
+}
+
+std::vector<std::string> ids_of(const std::vector<OfferedType>& offers) {
+  std::vector<std::string> ids;
+  for (const auto& type : offers) ids.push_back(type.id);
+  return ids;
+}
+
+}  // namespace
+
+std::vector<OfferedType> offers_of(const std::vector<PluginType>& types) {
+  std::vector<OfferedType> offers;
+  for (const auto& type : types) offers.push_back({type.kind, type.id});
+  return offers;
+}
+
+std::vector<std::string> problems_of_types(const std::vector<PluginType>& types, bool built_in) {
+  std::vector<std::string> problems = problems_of_ids(offers_of(types), built_in);
+  if (types.empty()) problems.emplace_back("registers no type: call r.add<...>(...) in the body of DISMANTLE_PLUGIN");
+  for (const auto& type : types) {
+    const auto add = [&](const std::string& problem) {
+      problems.push_back(fmt::format("type '{}' {}", type.id, problem));
+    };
     if (type.summary.empty()) add("has no summary: its second argument is one line for 'plugins list'");
     if (!type.create) add("cannot be made: it has no factory");
     for (const auto& problem : problems_of_schema(type.params)) add("has a bad declaration: " + problem);
@@ -84,8 +137,7 @@ std::vector<std::string> problems_of_types(const std::vector<PluginType>& types,
   return problems;
 }
 
-LoadedPlugin load_plugin(const std::filesystem::path& file, bool built_in) {
-  LoadedPlugin plugin;
+OfferedPlugin read_plugin(const std::filesystem::path& file, bool built_in) {
   PluginProblem so_far;
   so_far.file = file;
   const auto refuse = [&so_far](const std::string& message) {
@@ -94,14 +146,40 @@ LoadedPlugin load_plugin(const std::filesystem::path& file, bool built_in) {
   };
   const std::string path = file.string();
   PluginHeader header;
+  std::string types;
   try {
-    header = accept_header(read_elf_symbol(file, kPluginHeaderSymbol, sizeof(PluginHeader)), path);
+    ElfFile elf(file);
+    const auto bytes = elf.symbol(kPluginHeaderSymbol, sizeof(PluginHeader));
+    if (!bytes)
+      throw PluginError(path, fmt::format("has no symbol '{}': it is a shared library, but no Dismantle plugin (or the "
+                                          "plugin lacks DISMANTLE_PLUGIN)",
+                                          kPluginHeaderSymbol));
+    header = accept_header(*bytes, path);
+    if (const auto text = elf.symbol(kTypesSymbol, kMostTypes)) types.assign(text->begin(), text->end());
+    types.resize(std::min(types.find('\0'), types.size()));
   } catch (const PluginError& e) {
     const std::string what = e.what();
     refuse(what.starts_with(path + ": ") ? what.substr(path.size() + 2) : what);
   }
   so_far.plugin_id = header.id;
+  OfferedPlugin plugin{{file, header.id, header.version, header.licence, header.url, built_in, {}}, {}};
+  const auto offers = read_offers(types);
+  if (!offers) refuse(fmt::format("'{}' is no list of types, such as 'path_planner acme.rrt'", types));
+  plugin.types = *offers;
+  plugin.file.types = so_far.types = ids_of(plugin.types);
+  const auto problems = problems_of_ids(plugin.types, built_in);
+  if (!problems.empty()) refuse(joined(problems));
+  return plugin;
+}
 
+LoadedPlugin load_plugin(const OfferedPlugin& offered) {
+  LoadedPlugin plugin{offered.file, {}};
+  PluginProblem so_far{offered.file.path, offered.file.id, offered.file.types, {}};
+  const auto refuse = [&so_far](const std::string& message) {
+    so_far.message = message;
+    throw PluginRefused{so_far};
+  };
+  const std::string path = offered.file.path.string();
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr) refuse(linker_message(path));
   const auto* loaded = static_cast<const PluginHeader*>(dlsym(library, kPluginHeaderSymbol));
@@ -113,14 +191,18 @@ LoadedPlugin load_plugin(const std::filesystem::path& file, bool built_in) {
     message[sizeof(message) - 1] = '\0';
     refuse(fmt::format(
         "registration of plugin '{}' {} failed: {}; the plugin itself gave up, so its author has to say what it needs",
-        header.id, header.version, message));
+        offered.file.id, offered.file.version, message));
   }
   plugin.types = registrar.types();
-  for (const auto& type : plugin.types) so_far.types.push_back(type.id);
-  const auto problems = problems_of_types(plugin.types, built_in);
+  const auto registered = offers_of(plugin.types);
+  plugin.file.types = ids_of(registered);
+  for (const auto& id : plugin.file.types)
+    if (std::ranges::find(so_far.types, id) == so_far.types.end()) so_far.types.push_back(id);
+  const auto problems = problems_of_types(plugin.types, offered.file.built_in);
   if (!problems.empty()) refuse(joined(problems));
-
-  plugin.file = {file, header.id, header.version, header.licence, header.url, built_in, so_far.types};
+  if (!offered.types.empty() && registered != offered.types)
+    refuse(fmt::format("registers '{}', but its list of types is '{}'; both must be the same", text_of(registered),
+                       text_of(offered.types)));
   return plugin;
 }
 

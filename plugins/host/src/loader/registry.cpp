@@ -160,7 +160,15 @@ void Registry::read_presets_of(const fs::path& search_path) {
 
 void Registry::try_load(const fs::path& file) {
   try {
-    load_canonical(canonical_or_absolute(file));
+    const fs::path canonical = canonical_or_absolute(file);
+    if (known(canonical) != nullptr) return;
+    OfferedPlugin offered = read(canonical);
+    if (offered.types.empty()) {
+      accept(load_plugin(offered));
+      return;
+    }
+    const PluginFile& added = add(offered.file, offered.types);
+    unloaded_[&added] = std::make_unique<OfferedPlugin>(std::move(offered));
   } catch (const PluginRefused& refused) {
     problems_.push_back(refused.problem);
   }
@@ -173,7 +181,7 @@ const PluginFile& Registry::load(const fs::path& file) {
     for (const auto& id : loaded.types) {
       const auto& claim = claims_.at(id);
       if (claim.rivals.empty()) continue;
-      const auto* other = claim.type->file == &loaded ? claim.rivals.front() : claim.type->file;
+      const auto* other = claim.file == &loaded ? claim.rivals.front() : claim.file;
       conflicts += fmt::format("{}type id '{}' is also in {}", conflicts.empty() ? "" : "; ", id, other->path.string());
     }
     if (!conflicts.empty()) throw PluginError(loaded.path.string(), conflicts);
@@ -183,43 +191,96 @@ const PluginFile& Registry::load(const fs::path& file) {
   }
 }
 
-const PluginFile& Registry::load_canonical(const fs::path& file) {
-  for (const auto& known : files_) {
+const PluginFile* Registry::known(const fs::path& file) const {
+  const auto same = [&](const PluginFile& f) {
     std::error_code error;
-    if (known.path == file || fs::equivalent(known.path, file, error)) return known;
+    return f.path == file || fs::equivalent(f.path, file, error);
+  };
+  const auto found = std::find_if(files_.begin(), files_.end(), same);
+  return found == files_.end() ? nullptr : &*found;
+}
+
+OfferedPlugin Registry::read(const fs::path& file) const {
+  return read_plugin(file, !built_in_folder_.empty() && file.parent_path() == built_in_folder_);
+}
+
+const PluginFile& Registry::load_canonical(const fs::path& file) {
+  if (const PluginFile* found = known(file)) {
+    load_now(*found);
+    return *found;
   }
-  return accept(load_plugin(file, !built_in_folder_.empty() && file.parent_path() == built_in_folder_));
+  return accept(load_plugin(read(file)));
+}
+
+/// Nothing when it is loaded. A file that is refused stays unloaded. @throws PluginRefused
+void Registry::load_now(const PluginFile& file) const {
+  const auto waiting = unloaded_.find(&file);
+  if (waiting == unloaded_.end()) return;
+  fill(file, load_plugin(*waiting->second));
+  unloaded_.erase(waiting);
+}
+
+void Registry::try_load_now(const PluginFile& file) const {
+  try {
+    load_now(file);
+  } catch (const PluginRefused& refused) {
+    const bool told = std::ranges::any_of(problems_, [&](const PluginProblem& p) {
+      return p.file == refused.problem.file && p.message == refused.problem.message;
+    });
+    if (!told) problems_.push_back(refused.problem);
+  }
+}
+
+void Registry::load_all() const {
+  const std::lock_guard lock(mutex_);
+  for (const PluginFile& file : files_) try_load_now(file);
 }
 
 const PluginFile& Registry::accept(LoadedPlugin plugin) {
-  files_.push_back(std::move(plugin.file));
-  const PluginFile& added = files_.back();
+  const PluginFile& added = add(std::move(plugin.file), offers_of(plugin.types));
+  fill(added, std::move(plugin));
+  return added;
+}
+
+/// The types of ids that no other file claimed before.
+void Registry::fill(const PluginFile& file, LoadedPlugin plugin) const {
   for (auto& type : plugin.types) {
+    Claim& claim = claims_.at(type.id);
+    if (claim.file == &file) claim.type = std::make_unique<RegisteredType>(RegisteredType{std::move(type), &file});
+  }
+}
+
+const PluginFile& Registry::add(PluginFile file, const std::vector<OfferedType>& offers) {
+  files_.push_back(std::move(file));
+  const PluginFile& added = files_.back();
+  for (const OfferedType& type : offers) {
     if (presets_.contains(type.id))
       problems_.push_back({added.path,
                            added.id,
                            {type.id},
                            fmt::format("type id '{}' is the id of a preset, too: {}; remove one of them", type.id,
                                        presets_.at(type.id)->preset_file.string())});
-    Claim& claim = claims_[type.id];
-    if (claim.type == nullptr) {
-      claim.type = std::make_unique<RegisteredType>(RegisteredType{std::move(type), &added});
-      continue;
-    }
+    const auto [known, is_new] = claims_.try_emplace(type.id, Claim{type.kind, &added});
+    if (is_new) continue;
+    Claim& claim = known->second;
     claim.rivals.push_back(&added);
     problems_.push_back({added.path,
                          added.id,
                          {type.id},
                          fmt::format("type id '{}' is in two files: {} and {}; remove one of them", type.id,
-                                     claim.type->file->path.string(), added.path.string())});
+                                     claim.file->path.string(), added.path.string())});
   }
   return added;
 }
 
 std::vector<const RegisteredType*> Registry::types(PluginKind kind) const {
+  const std::lock_guard lock(mutex_);
   std::vector<const RegisteredType*> found;
-  for (const auto& [id, claim] : claims_)
-    if (claim.type->type.kind == kind && claim.rivals.empty()) found.push_back(claim.type.get());
+  for (const auto& [id, claim] : claims_) {
+    if (claim.kind != kind || !claim.rivals.empty()) continue;
+    try_load_now(*claim.file);
+    if (claim.type != nullptr) found.push_back(claim.type.get());
+  }
   for (const auto& [id, preset] : presets_)
     if (preset->type.kind == kind) found.push_back(preset.get());
   std::sort(found.begin(), found.end(), [](const auto* a, const auto* b) { return a->type.id < b->type.id; });
@@ -227,9 +288,12 @@ std::vector<const RegisteredType*> Registry::types(PluginKind kind) const {
 }
 
 const RegisteredType* Registry::lookup(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
   if (const auto preset = presets_.find(id); preset != presets_.end()) return preset->second.get();
   const auto it = claims_.find(id);
-  return it == claims_.end() || !it->second.rivals.empty() ? nullptr : it->second.type.get();
+  if (it == claims_.end() || !it->second.rivals.empty()) return nullptr;
+  try_load_now(*it->second.file);
+  return it->second.type.get();
 }
 
 const RegisteredType* Registry::lookup(PluginKind kind, const std::string& id) const {
@@ -238,6 +302,7 @@ const RegisteredType* Registry::lookup(PluginKind kind, const std::string& id) c
 }
 
 std::string Registry::refused_files_text(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
   std::string text;
   for (const auto& problem : problems_) {
     const bool known = std::find(problem.types.begin(), problem.types.end(), id) != problem.types.end();
@@ -250,10 +315,11 @@ std::string Registry::refused_files_text(const std::string& id) const {
 
 std::string Registry::missing_text(std::string_view what, const std::string& id,
                                    const std::vector<std::string>& known) const {
+  const std::lock_guard lock(mutex_);
   const auto it = claims_.find(id);
   if (it != claims_.end() && !it->second.rivals.empty())
     return fmt::format("{} '{}' is in two files: {} and {}; remove one of them", what, id,
-                       it->second.type->file->path.string(), it->second.rivals.front()->path.string());
+                       it->second.file->path.string(), it->second.rivals.front()->path.string());
   std::string text = fmt::format("unknown {} '{}'", what, id);
   if (const auto near = nearest(id, known))
     text += fmt::format("; did you mean '{}'?", *near);
@@ -274,6 +340,7 @@ std::string Registry::why_missing(PluginKind kind, const std::string& id) const 
 }
 
 std::string Registry::why_missing(const std::string& id) const {
+  const std::lock_guard lock(mutex_);
   std::vector<std::string> known;
   for (const auto& [name, claim] : claims_)
     if (claim.rivals.empty()) known.push_back(name);

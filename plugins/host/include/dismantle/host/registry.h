@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,15 +56,19 @@ DISMANTLE_API std::string sha256_of_file(const std::filesystem::path& file);
 
 struct PresetFile;
 struct LoadedPlugin;
+struct OfferedPlugin;
+struct OfferedType;
 
 /// A type that the program brings itself, not a plugin file: what a language binding registers. Every Registry that the
-/// default constructor makes from now on has it; one of the same id replaces the earlier one. `file`: where its source is,
-/// and what is said of the plugin in descriptions. May be called from any thread.
+/// default constructor makes from now on has it; one of the same id replaces the earlier one. `file`: where its source
+/// is, and what is said of the plugin in descriptions. May be called from any thread.
 /// @throws PluginError with everything that is wrong with the type (its id must carry a dot).
 DISMANTLE_API void add_program_type(PluginFile file, PluginType type);
 
-/// What there is to choose from. Libraries stay loaded to the end of the process. After the last
-/// scan() or load(), const functions may be called from several threads.
+/// What there is to choose from. A file that lists what it offers (OFFERS of dismantle_add_plugin) is loaded when one
+/// of its types is first asked for, since most runs use a third of the plugins and none of what the others are linked
+/// with. Libraries stay loaded to the end of the process. After the last scan() or load(), const functions may be
+/// called from several threads, but for problems(), which grows when a file turns out to be bad.
 class DISMANTLE_API Registry {
  public:
   /// Has the types of add_program_type(); searches the built-in folder, then the folders of `$DISMANTLE_PLUGIN_PATH`
@@ -77,10 +82,12 @@ class DISMANTLE_API Registry {
 
   /// Appends a folder (all its `*.so`, in name order) or one file. Adding a path twice changes nothing.
   void add_search_path(const std::filesystem::path& path);
-  /// Loads what the search paths hold and was not looked at before: plugin files, and presets, which are
+  /// Finds what the search paths hold and was not looked at before: plugin files, and presets, which are
   /// `presets/<kind>/<id>.yaml` in a search path (of the built-in plugins: preset_folder()). Never throws because of a
   /// bad file: see problems().
   void scan();
+  /// Loads all files that were found and not needed until now, so that problems() is complete.
+  void load_all() const;
   /// Loads one file. The same file again is no error. @throws PluginError saying why it is refused.
   const PluginFile& load(const std::filesystem::path& file);
 
@@ -112,12 +119,20 @@ class DISMANTLE_API Registry {
 
  private:
   struct Claim {
-    std::unique_ptr<RegisteredType> type;
-    std::vector<const PluginFile*> rivals;  // further files that claim the same id
+    PluginKind kind;
+    const PluginFile* file;
+    std::unique_ptr<RegisteredType> type{};   // null: not loaded yet, or refused
+    std::vector<const PluginFile*> rivals{};  // further files that claim the same id
   };
   std::shared_ptr<void> create_object(PluginKind kind, const std::string& id, const ParamSet& given) const;
   const PluginFile& load_canonical(const std::filesystem::path& file);
+  const PluginFile* known(const std::filesystem::path& file) const;
+  OfferedPlugin read(const std::filesystem::path& file) const;
   const PluginFile& accept(LoadedPlugin plugin);
+  const PluginFile& add(PluginFile file, const std::vector<OfferedType>& offers);
+  void fill(const PluginFile& file, LoadedPlugin plugin) const;
+  void load_now(const PluginFile& file) const;
+  void try_load_now(const PluginFile& file) const;
   void try_load(const std::filesystem::path& file);
   void read_presets_of(const std::filesystem::path& search_path);
   void resolve_presets();
@@ -128,9 +143,11 @@ class DISMANTLE_API Registry {
   std::filesystem::path built_in_folder_;
   std::vector<std::filesystem::path> search_paths_;
   std::size_t scanned_paths_ = 0;
-  std::deque<PluginFile> files_;  // addresses stay
-  std::map<std::string, Claim> claims_;
-  std::vector<PluginProblem> problems_;
+  std::deque<PluginFile> files_;        // addresses stay
+  mutable std::recursive_mutex mutex_;  // of what grows when a file is loaded late
+  mutable std::map<std::string, Claim> claims_;
+  mutable std::map<const PluginFile*, std::unique_ptr<OfferedPlugin>> unloaded_;
+  mutable std::vector<PluginProblem> problems_;
   std::map<std::string, std::unique_ptr<PresetFile>> open_presets_;  // by id; not resolved until now
   std::map<std::string, std::unique_ptr<RegisteredType>> presets_;
 };

@@ -1,0 +1,12 @@
+/// Two trees that grow towards each other, in a library of its own: most transfers need none, and loading OMPL takes
+/// longer than all of them in a small assembly.
+#pragma once
+
+#include "dismantle/transfer_planner.h"
+#include "parameters.h"
+
+/// What the library exports. `goal`: the displacement to find a way for; the simulator has distance queries for what
+/// moves.
+extern "C" __attribute__((visibility("default"))) void dismantle_connect_by_trees(
+    const dismantle::rrt_connect::Parameters& parameters, const dismantle::TransferQuery& query,
+    const dismantle::Pose& goal, dismantle::RunContext& context, dismantle::PathResult& result);
