@@ -118,7 +118,7 @@ class Results:
         self.trials = list(csv.DictReader(io.StringIO(self.report("csv"))))
 
     def report(self, form, *more):
-        return output_of(self.program, "report", self.folder, "--format", form, *more)
+        return output_of(self.program, "report", self.folder, "--time", "cpu", "--format", form, *more)
 
     def table(self, name):
         rows = list(csv.reader(io.StringIO(self.report("csv", "--table", name))))
@@ -187,11 +187,11 @@ tools/make_results.py --data DIR
 | run | one thread for each trial, {arguments.jobs} trial{"s" if arguments.jobs > 1 else ""} at a time; {trials} trials, {seconds / 60:.0f} minutes in all{"; " + arguments.note if arguments.note else ""} |
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
-finds the plan valid; {refused} trials were claimed and refused. In brackets: the 95 % interval of Wilson, then solved/trials. Limits are seconds of wall
-time (`limits` in the suites) and far smaller than the paper's, so that this page can be made in half an hour: a row here says what a planner solves within
+finds the plan valid; {refused} trials were claimed and refused. In brackets: the 95 % interval of Wilson, then solved/trials. Limits are CPU
+seconds (`limits` in the suites) and far smaller than the paper's, so that this page can be made in an hour: a row here says what a planner solves within
 seconds, not what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
 its own data set of thousands, with its limits, and are there for their form and for the order of the methods, not for the numbers.
-Times are of this machine. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
+Times are CPU seconds of this machine, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
 assembled, of an assembly scaled to size 10; the tolerance is 0.01.
 
 [benchmark.md](../benchmark.md) says how suites, limits and reports work; [planners](../planners/README.md) what the path planners do.

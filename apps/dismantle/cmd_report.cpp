@@ -14,7 +14,7 @@ namespace {
 
 struct ReportOptions {
   std::vector<std::string> inputs, tables;
-  std::string format = "text", output, arena;
+  std::string format = "text", time = "wall", output, arena;
   std::size_t row = 0;
   bool plans = false;
 };
@@ -54,7 +54,8 @@ std::string rendered(const bench::ReportData& data, const ReportOptions& options
 }
 
 int report(const ReportOptions& options) {
-  const bench::ReportData data = bench::read_results({options.inputs.begin(), options.inputs.end()});
+  bench::ReportData data = bench::read_results({options.inputs.begin(), options.inputs.end()});
+  if (options.time == "cpu") bench::use_cpu_time(data);
   if (options.row > 0) {
     if (options.output.empty()) throw Error("--row needs -o FOLDER: where should the plan and the configuration go?");
     if (options.row > data.rows.size())
@@ -88,6 +89,9 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("--format", options->format, "text, markdown, csv (the trials), svg (the curves), or html: one self-contained page")
       ->check(CLI::IsMember({"text", "markdown", "csv", "svg", "html"}))
       ->option_text("text|markdown|csv|svg|html");
+  command->add_option("--time", options->time, "What times are: wall time of planning (default), or CPU time, for trials on a busy machine")
+      ->check(CLI::IsMember({"wall", "cpu"}))
+      ->option_text("wall|cpu");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");
   command->add_option("--table", options->tables, "Just this table; may be repeated")
       ->check(CLI::IsMember({"success", "sizes", "time", "precision", "pairs", "outcomes", "curves", "trials"}))

@@ -71,6 +71,11 @@ class Report(BenchTest):
         mean = sum(float(r["seconds"]) / float(r["removed"]) for r in solved) / len(solved)
         self.assertIn(f"{mean:.3g} ({len(solved)})", self.report("out", "--table", "time"))
 
+        cpu = list(csv.DictReader(io.StringIO(self.report("out", "--time", "cpu", "--format", "csv"))))
+        for row in cpu:
+            self.assertAlmostEqual(float(row["seconds"]), float(row["cpu s"]), delta=0.001 + 0.01 * float(row["cpu s"]))
+        self.assertNotEqual([r["seconds"] for r in cpu], [r["seconds"] for r in rows])
+
         depths = sorted(float(r["deepest"]) for r in solved)
         cells = self.report("out", "--table", "precision", "--format", "csv").splitlines()[1].split(",")
         self.assertEqual(cells[:2], ["t_rrt", str(len(solved))])

@@ -42,6 +42,11 @@ struct ReportData {
 /// different configurations under one name.
 DISMANTLE_API ReportData read_results(const std::vector<std::filesystem::path>& paths);
 
+/// Times of `data` are CPU seconds of the planning processes from here on, reading the input included, in place of the wall time of
+/// planning: for trials that ran beside other work on a busy machine. A trial that `limits.timeout` stopped is censored at the CPU
+/// time that it had had by then.
+DISMANTLE_API void use_cpu_time(ReportData& data);
+
 struct TableCell {
   std::string text;
   std::optional<double> value = {};  ///< to sort by
