@@ -29,7 +29,7 @@ std::string facts(const samples::Sample& sample) {
   const char* overlap = sample.clean ? "" : "parts overlap; ";
   if (!sample.solvable) return fmt::format("{}cannot be taken apart", overlap);
   return fmt::format("{}{}{}", overlap, sample.translation_only ? "straight motions" : "needs turning",
-                     sample.one_at_a_time ? "" : ", several parts at once");
+                     sample.one_at_a_time ? "" : ", several parts simultaneously");
 }
 
 std::string list_text() {

@@ -23,7 +23,7 @@ struct Verify {
 
 constexpr double kUsualSize = PrepareOptions{}.size;
 
-/// The tolerance by which to judge: that of the plan, but not more than what makes a plan valid. A plan states the scale of its
+/// The tolerance of the verification: that of the plan, but not more than what makes a plan valid. A plan states the scale of its
 /// units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny gains nothing.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration;

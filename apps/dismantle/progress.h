@@ -1,5 +1,5 @@
-/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. How long it still takes is said only
-/// where it is known: in phases whose items are alike. Of the parts that are left nobody knows that; there the limit is said.
+/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. The remaining time is shown only
+/// where it can be estimated: in phases whose items are alike. For the parts that are left it cannot; there the limit is shown.
 #pragma once
 
 #include <chrono>

@@ -13,7 +13,7 @@ namespace dismantle {
 World::~World() = default;
 bool World::body_separated(const State& state, std::size_t body) {
   if (scene().moving.size() != 1 || body != 0)
-    throw std::logic_error("a simulator that moves several parts at once has to override World::body_separated");
+    throw std::logic_error("a simulator that moves several parts simultaneously has to override World::body_separated");
   return separated(state);
 }
 PreparedAssembly::~PreparedAssembly() = default;

@@ -26,7 +26,7 @@ class NearestPoint {
   /// Adds a constraint with zero normal and returns its index.
   Eigen::Index add();
   Eigen::Index count() const { return count_; }
-  /// Of constraint i; whoever writes it sees to it that its length is 1.
+  /// Normal of constraint i. The caller keeps its length at 1.
   auto normal(Eigen::Index i) { return normals_.col(i); }
   double& offset(Eigen::Index i) { return offsets_[i]; }
 

@@ -1,4 +1,4 @@
-// Path planners as nobody wants them, and one that gives up at once.
+// Path planners that misbehave, and one that gives up immediately.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -164,7 +164,7 @@ TEST_F(Config, Capabilities) {
             "have\n");
   EXPECT_EQ(
       errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: pairs}\n"),
-      "run.yaml:3:22: error: path_planner 'pairs' needs a simulator with 2 parts moving at once, which 'geometry_only' "
+      "run.yaml:3:22: error: path_planner 'pairs' needs a simulator with 2 parts moving simultaneously, which 'geometry_only' "
       "does not have\n");
   EXPECT_EQ(errors_of("schema: 1\nsimulator: {type: geometry_only}\npath_planner: {type: t_rrt}\n"), "");
 }

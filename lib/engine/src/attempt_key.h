@@ -23,7 +23,7 @@ struct AttemptKey {
 
 /// Moving and fixed parts by ascending id, those of the goal too, quaternions with the sign that makes them unique, no
 /// negative zeros.
-/// @throws std::invalid_argument when nobody moves, a part is listed twice or unknown, a pose is not
+/// @throws std::invalid_argument when no part moves, a part is listed twice or unknown, a pose is not
 /// finite, or one of the goal does not move or moves alone.
 Attempt canonical(const Attempt& attempt, std::size_t part_count);
 
@@ -37,7 +37,7 @@ SceneDigest digest_of(const AttemptKey& key);
 SceneDigest digest_of_moving(const Attempt& canonical_attempt);
 
 /// May the search for `now` go on from what the one for `earlier` has reached? Both canonical: the same parts move from
-/// the same places, to the same end, and whoever stay fixed now stood there then.
+/// the same places, to the same end, and every part that is fixed now was fixed there then.
 bool may_follow(const Attempt& now, const Attempt& earlier);
 
 /// Number of the random stream that belongs to the question: the same on every machine and in any order of asking, and

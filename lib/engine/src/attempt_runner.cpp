@@ -107,7 +107,7 @@ std::string AttemptRunner::lacking(const Capabilities& needs, std::size_t moving
   if (needs.contacts && !has.contacts) missing.emplace_back("contacts");
   if (needs.distance && !has.distance) missing.emplace_back("distance");
   if (moving > has.max_moving)
-    missing.push_back(fmt::format("{} parts moving at once (it allows {})", moving, has.max_moving));
+    missing.push_back(fmt::format("{} parts moving simultaneously (it allows {})", moving, has.max_moving));
   if (missing.empty()) return {};
   return fmt::format("the simulator does not offer what path planner '{}' needs: {}", planner_id_,
                      fmt::join(missing, ", "));
@@ -274,7 +274,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
         result.fail(Outcome::timeout);
       } else {
         result.fail(Outcome::crashed,
-                    fmt::format("path planner '{}' stopped although nobody asked it to", planner_id_));
+                    fmt::format("path planner '{}' stopped although no limit was reached and the run was not cancelled", planner_id_));
         context.log(LogLevel::error, result.message);
       }
     }

@@ -37,8 +37,8 @@ class PlanBuilder {
  public:
   PlanBuilder(const Assembly& assembly, const Oracle& oracle, const RunOptions& options, std::string planner_id);
 
-  /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: to
-  /// whoever follows the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
+  /// Appends one step to the plan, or, when the last one left the very same parts part-way, goes on with that one: for
+  /// the reader of the plan it is one motion. @throws std::logic_error saying what is wrong with the removal; nothing
   /// has changed then.
   void record(const Removal& removal);
 

@@ -13,7 +13,7 @@ namespace dismantle {
 
 /// Step b needs the earlier step a when it moves a part that a moved, or when its way would cut into the parts of a
 /// where they were before a, as far as the verifier can tell with little effort, pair by pair. Steps that do not need
-/// each other may be done in either order or at once; only how far a part has to be taken until its hull is apart
+/// each other may be done in either order or simultaneously; only how far a part has to be taken until its hull is apart
 /// depends on what is still there. [b]: those that it needs, ascending, without those that follow from others. Steps
 /// from the one on at which `context` says to stop are taken to need all before them.
 std::vector<std::vector<std::size_t>> needed_steps(const std::vector<RecordedStep>& steps, const Assembly& assembly,

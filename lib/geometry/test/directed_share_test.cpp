@@ -1,4 +1,4 @@
-// The check of one solid against another with idle threads, which nobody can tell by its answer.
+// The check of one solid against another with idle threads, which do not change its answer.
 #include <gtest/gtest.h>
 
 #include <array>

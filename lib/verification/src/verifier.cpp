@@ -143,7 +143,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
 
   const std::size_t last = rungs.size() - 1;
-  // Ways out of many segments are close fits, of which low rungs are tried in vain: samples first.
+  // Paths of many segments are close fits, on which the low rungs fail: samples first.
   bool sampled = forward.segments() >= kManySegments &&
                  geometry::box_under(x.box, poses_b.front().inverse() * poses_a.front()).overlaps(y.box);
   bool sample_tells = false;

@@ -298,7 +298,7 @@ TEST(Verifier, MovingPartsAreJudgedAgainstEachOther) {
   const std::vector<PlacedPart> base = {{2, Pose{}}};
   const Path together = {{Pose{}, Pose{}}, {shift({0, 0, 3}), shift({0, 0, 3})}};
   EXPECT_TRUE(verifier.check_motion({0, 1}, base, together).valid);
-  // The two overlap, but do not move relative to each other: no pair to judge. Also while they turn.
+  // The two overlap, but do not move relative to each other: no pair to check. Also while they turn.
   const Verifier overlapping(assembly_of({left, kCube, shapes::box({-1, -1, -2}, {1, 1, -.5})}), {0.01});
   EXPECT_TRUE(overlapping.check_motion({0, 1}, base, together).valid);
   const Pose lift = shift({0, 0, 3}), twist = turn(1.0, Vec3::UnitY()) * lift;

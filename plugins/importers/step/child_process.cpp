@@ -169,7 +169,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
     return end;
   }
   if (id == 0) become(argv.data(), limits, output.write.get(), messages.write.get(), failure.write.get());
-  ::setpgid(id, id);  // in both, whoever is first
+  ::setpgid(id, id);  // in both processes, since either may run first
   Child child(id);
   output.write.close();
   messages.write.close();

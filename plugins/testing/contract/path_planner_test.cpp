@@ -102,8 +102,8 @@ TEST_P(PathPlannerContract, ABoxInAClosedBoxIsNeverSolved) {
   }
 }
 
-/// What a search in vain has reached may be gone on from when a blocker has left, by any object with the same
-/// parameters; what is none of its own is ignored. All laws hold as for a search from the start.
+/// A planner may resume an unsuccessful search from its state when a blocker has left, also in another object with the same
+/// parameters. A state that it has not made itself is ignored. All laws hold as for a search from the start.
 TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
   const std::size_t which = 2;
   const Small& small = small_assemblies()[which];

@@ -52,7 +52,7 @@ BodyWorld::BodyWorld(const PreparedShapes& prepared, const Scene& scene, MotionS
                      const ContactOptions& options)
     : scene_(scene), space_(space), options_(options), contact_scene_(make_scene(prepared, scene, options)) {
   if (scene.moving.empty() || scene.moving.size() > kMaxBodies)
-    throw std::invalid_argument("1 to " + std::to_string(kMaxBodies) + " parts can move at once, not " +
+    throw std::invalid_argument("1 to " + std::to_string(kMaxBodies) + " parts can move simultaneously, not " +
                                 std::to_string(scene.moving.size()));
   if (options.surroundings) contact_scene_.see_surroundings();
   per_body_ = space == MotionSpace::translation ? 3 : 6;

@@ -66,7 +66,7 @@ Child::Child(const ChildSpec& spec) : wall_(spec.wall), cpu_(spec.cpu), begin_(s
     if (ends[0] >= 0) ::close(ends[0]);
     throw Error(fmt::format("cannot start {}: {}", spec.command.front(), std::generic_category().message(problem)));
   }
-  ::setpgid(pid_, pid_);  // both sides do it: whoever comes first
+  ::setpgid(pid_, pid_);  // in both processes, since either may run first
   stream_ = ends[0];
   ::fcntl(stream_, F_SETFL, O_NONBLOCK);
 }

@@ -62,7 +62,7 @@ std::vector<double> round_times(double end) {
   return out;
 }
 
-/// Stopped by a limit of the trial, so that nobody knows what would have come later. One whose attempts all ended
+/// Stopped by a limit of the trial, so that it is not known what would have come later. One whose attempts all ended
 /// earlier (by limits.path_timeout too) would not have gone on.
 bool out_of_time(const ReportRow& row) {
   if (row.outcome == "wall_limit" || row.outcome == "cpu_limit") return true;

@@ -118,7 +118,7 @@ std::optional<std::size_t> Results::next_waiting(std::size_t from) {
 std::optional<std::size_t> Results::claim() {
   Transaction transaction(db_);
   {
-    // Those who died on this machine are known at once; of others only that they have been silent.
+    // Dead processes of this machine are known immediately; of other machines only that a lease has run out.
     auto orphans = db_.prepare(
         "SELECT DISTINCT owner, owner_host, max(lease_until) FROM trials WHERE state = 'running' "
         "GROUP BY owner, owner_host");

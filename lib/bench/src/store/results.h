@@ -70,7 +70,7 @@ class Results {
   /// Adds what is missing of the suite, and remembers what this process is to run.
   /// @throws Error when a row that is there was made with another configuration.
   void enlist(const Suite& suite, const std::vector<TrialPlan>& trials, const std::vector<ConfigRecord>& configs);
-  /// Takes a trial that nobody runs; an index into what was enlisted. Nothing when there is none.
+  /// Claims a trial that no process runs: its index into what was enlisted. Nothing when there is none.
   std::optional<std::size_t> claim();
   /// Other processes on other machines take a trial over when its owner has not been heard of for a while.
   void renew(std::size_t trial);

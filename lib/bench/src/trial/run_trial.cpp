@@ -71,7 +71,7 @@ class Recorder {
   bool saved_ = false;
 };
 
-/// Why parts are still there, for whoever reads the row.
+/// Why parts are still there, for the reader of the row.
 std::string reasons_of(const Plan& plan) {
   std::string text;
   for (const auto& u : plan.unsolved)

@@ -15,8 +15,8 @@ namespace {
 /// sRGB component to the linear one that glTF wants.
 double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
-/// Colour of the part that leaves as number `rank` of `count`: along the rainbow from red to violet, light and
-/// dark by turns so that neighbours differ.
+/// Colour of the part that leaves as number `rank` of `count`: along the rainbow from red to violet, alternately light and
+/// dark so that neighbours differ.
 GlbJson colour_of(std::size_t rank, std::size_t count) {
   const double hue = 0.8 * 6.0 * (count > 1 ? double(rank) / double(count - 1) : 0.0);  // sixths of a turn
   const double value = rank % 2 == 0 ? 0.95 : 0.7, saturation = 0.7;

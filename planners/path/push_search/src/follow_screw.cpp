@@ -15,8 +15,9 @@ namespace {
 /// and the shortest tried before giving up (assembly units). What is thinner than a step may be jumped; the verifier
 /// sees it, and from then on steps do not grow.
 constexpr double kGlideStep = 0.1, kMostGlideStep = 2.4, kLeastGlideStep = 0.0125;
-/// Steps grow to this share of the way that was clear. Who has come round has shown all sides of himself to all
-/// sides of what guides him: then steps are measured by turns, and the end of a way is known to a share of it.
+/// Steps grow to this share of the way that was clear. After one full turn every
+/// side of the part has passed every side of its guide: from then on steps are shares of a turn, and the end of the motion is
+/// found to a share of it.
 constexpr double kGlideShare = 0.125, kTurnsShare = 0.25, kEndShare = 1.0 / 32;
 /// Penetration that counts as none, as a share of the tolerance.
 constexpr double kGlideDepthShare = 0.1;

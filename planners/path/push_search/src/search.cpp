@@ -295,7 +295,7 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
     for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage]))
       if (over(end = follow(id, action, stages_[stage], depth, result))) break;
   }
-  if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // whoever goes on makes up for the rest
+  if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // a resumed search does the rest
   if (over(end)) return end == RunEnd::blocked ? RunEnd::refused : end;
   nodes_[static_cast<std::size_t>(id)].work += steps_ + looks_ - before;
   if (stage + 1 < stages_.size()) enqueue(id);

@@ -13,7 +13,7 @@ constexpr double kSmooth = 2e-3;
 
 }  // namespace
 
-/// Has one come apart from all others, or where nobody is to leave the group, the group from the rest?
+/// Is one part separated from all others, or, without a goal of single parts, the group from the rest?
 bool Search::out(const State& state) {
   if (query_.goal.any_of.empty()) return world_->separated(state);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

@@ -142,7 +142,7 @@ void Binder::bind_parts(std::vector<Part>& parts, const ConfigNode* node, const 
   }
 }
 
-/// A value that nobody set. Plugins that a type holds by default are named there without their parameters.
+/// A value that no layer sets. Plugins that a type holds by default are named there without their parameters.
 ParamValue Binder::defaulted(const ParamSpec& spec, const ParamValue& value, const ConfigNode& untouched,
                              const std::string& name, const std::string& origin) {
   if (const auto* one = std::get_if<PluginChoice>(&value))

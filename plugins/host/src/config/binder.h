@@ -22,7 +22,7 @@ TypeSource types_of(const Registry& registry);
 
 /// "bfs 0.1.0, libbfs.so", for messages.
 std::string source_text(const RegisteredType& type);
-/// What a value that nobody set is said to come from: "default", or "preset guided".
+/// The stated origin of a value that no layer sets: "default", or "preset guided".
 std::string default_origin(const RegisteredType& type);
 
 class Binder {

@@ -195,7 +195,7 @@ class Loader {
   void bind_plugin(const PluginSection& section) {
     const ConfigNode* map = node(section.name);
     const auto* type = chosen_[section.name].type;
-    if (type == nullptr) {  // its keys cannot be judged; that the section is no map can
+    if (type == nullptr) {  // its keys cannot be checked, but that the section is no map can
       if (map != nullptr && !map->is_map())
         problems_.push_back(
             map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
@@ -252,7 +252,7 @@ class Loader {
     if (needs.dynamics && !has.dynamics) report("dynamics");
     if (needs.contacts && !has.contacts) report("contacts");
     if (needs.distance && !has.distance) report("distance queries");
-    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving at once", needs.max_moving));
+    if (needs.max_moving > has.max_moving) report(fmt::format("{} parts moving simultaneously", needs.max_moving));
     for (const ParamSpec& spec : type->type.params) {
       const auto held = chosen.parameters.find(spec.name);
       if (held == chosen.parameters.end()) continue;

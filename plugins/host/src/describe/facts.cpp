@@ -52,9 +52,9 @@ std::vector<std::string> capability_words(const Capabilities& c) {
   if (c.contacts) words.emplace_back("contacts");
   if (c.distance) words.emplace_back("distance");
   if (c.max_moving == static_cast<unsigned>(-1))
-    words.emplace_back("any number of parts moving at once");
+    words.emplace_back("any number of parts moving simultaneously");
   else if (c.max_moving > 1)
-    words.push_back(fmt::format("{} parts moving at once", c.max_moving));
+    words.push_back(fmt::format("{} parts moving simultaneously", c.max_moving));
   return words;
 }
 

@@ -15,7 +15,7 @@ std::string type_name(const ParamSpec& spec);
 std::string default_text(const ParamSpec& spec);
 /// Range or choices: ">= 0", "translation | rotation | auto".
 std::string limits_text(const ParamSpec& spec);
-/// "dynamics, contacts", "2 parts moving at once"; empty when nothing is said.
+/// "dynamics, contacts", "2 parts moving simultaneously"; empty when nothing is said.
 std::vector<std::string> capability_words(const Capabilities& c);
 /// The declarations, each followed by those of the options of its items, as `of[].after`.
 std::vector<ParamSpec> with_options(const std::vector<ParamSpec>& specs);

@@ -20,7 +20,7 @@ struct Body {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Ends the process when nobody reads any more.
+/// Ends the process when the reading end is closed.
 class StreamWriter {
  public:
   explicit StreamWriter(int descriptor);

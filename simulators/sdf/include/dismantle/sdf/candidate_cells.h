@@ -54,7 +54,7 @@ class CandidateList {
 };
 
 /// Sparse grid of lists, made when they are first asked for and kept: contacts return to the same places again and
-/// again, in every attempt. Thread-safe; whoever comes first makes a list, and every maker makes the same.
+/// again, in every attempt. Thread-safe; the first thread that asks makes a list, and every thread would make the same.
 class CandidateCells {
  public:
   /// `box` holds all points that are asked for.

@@ -22,8 +22,8 @@ struct ContactPoint {
   Eigen::Vector3d point;   ///< world
   /// Moved by less than this, the point meets no surface but the ones listed here.
   double certain = 0;
-  int owner = -1;    ///< moving body that carries the point, -1 = a part that stay fixed
-  int surface = -1;  ///< moving body that carries the surface, likewise
+  int owner = -1;    ///< moving body that carries the point, -1 = a fixed part
+  int surface = -1;  ///< moving body that carries the surface, -1 = a fixed part
   PartId owner_part = 0, surface_part = 0;
   /// At convex edges and corners of the surface: the faces that meet there. The point is free as soon as
   /// it is outside of one of them: gap(x) is the largest of all.
@@ -48,7 +48,7 @@ struct Anchor {
 struct DirectedContacts {
   bool ready = false;
   std::vector<double> wake;            ///< per block: odometer reading at which it may matter
-  std::vector<double> point_wake;      ///< per point: likewise
+  std::vector<double> point_wake;      ///< per point: odometer reading at which it may matter
   std::vector<Anchor> anchor;          ///< per point
   std::vector<std::uint32_t> hint;     ///< per point and solid: last closest triangle
   std::vector<std::uint32_t> linear;   ///< per point and solid: 1 + place in `known`; 0 = nowhere
@@ -72,7 +72,7 @@ class RestContacts {
     ContactPair pair;  ///< a = 0 moves, b = 1 stay fixed; odometer 0
     std::vector<ContactPoint> points;
   };
-  /// `measure(entry)` is called once for each (moving, other), whoever asks first.
+  /// `measure(entry)` is called once for each (moving, other), by the first thread that asks.
   template <class Measure>
   const Entry& of(PartId moving, PartId other, const Measure& measure) {
     Slot* slot = nullptr;
