@@ -1,6 +1,7 @@
 // Path planners that misbehave, and one that gives up immediately.
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <vector>
 
@@ -34,7 +35,7 @@ PathResult abort_at_once() {
 }
 
 PathResult spin() {
-  for (volatile unsigned i = 0;; i = i + 1) {
+  for (std::atomic<unsigned> i = 0;; ++i) {
   }
 }
 

@@ -103,7 +103,9 @@ TEST(Configs, EachPresetIsAType) {
       ASSERT_NE(type, nullptr) << entry.path();
       EXPECT_FALSE(type->preset_of.empty()) << entry.path();
       EXPECT_TRUE(fs::equivalent(type->preset_file, entry.path())) << type->preset_file;
-      if (kind == PluginKind::path_planner) EXPECT_NE(registry.create<PathPlanner>(type->type.id), nullptr);
+      if (kind == PluginKind::path_planner) {
+        EXPECT_NE(registry.create<PathPlanner>(type->type.id), nullptr);
+      }
     }
   }
 }

@@ -123,7 +123,7 @@ run.yaml:12:9: error: verify must be a map of keys, not a value
 TEST_F(Config, Constraints) {
   const RunConfig config = load_text(
       "schema: 1\nconstraints: {base: [a], together: [[b, c]], before: [[d, e, f]], target: g, ignore: [h, i]}\n");
-  const NamedConstraints expected{{"a"}, {{"b", "c"}}, {{"d", "e", "f"}}, "g", {"h", "i"}};
+  const NamedConstraints expected{{"a"}, {{"b", "c"}}, {{"d", "e", "f"}}, "g", {"h", "i"}, {}, {}};
   EXPECT_EQ(config.constraints, expected);
   Assembly assembly;
   for (const char* name : {"a", "b", "c", "d", "e", "f", "g"}) {

@@ -181,7 +181,7 @@ TEST(Examples, StraightPlannerOnStepper) {
     box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     const auto mesh = std::make_shared<const Mesh>(std::move(box));
-    assembly.parts.push_back({id, "box" + std::to_string(id), "", mesh, mesh, 1.0});
+    assembly.parts.push_back({id, "box" + std::to_string(id), "", mesh, mesh, 1.0, {}, {}});
   }
   assembly.overlaps.push_back({0, 1, 0.01});
   const auto simulator = registry.create<Simulator>("acme.stepper");
