@@ -19,6 +19,7 @@ export async function launch({webgl = true} = {}) {
 /** Opens a page from the disk and waits for its first picture. `complaints` collects what the console says against it. */
 export async function open(browser, file, options = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 800}, ...options});
+  page.setDefaultTimeout(300_000);  // software rendering on a busy machine takes its time; ctest has a limit of its own
   page.complaints = [];
   page.requests = [];
   page.on('console', message => {
