@@ -6,6 +6,9 @@ from program import CliTest
 # Sample, forced steps, and the class of the contact that decides.
 SAMPLES = [
     ("pressed_pin", 0, "uniform_interference"),
+    ("plain_bore_screw", 0, "uniform_interference"),
+    ("snap_fit", 1, "local_interference"),
+    ("same_plate_twice", 1, "duplicate"),
     ("spring_between_seats", 0, "local_interference"),
     ("gear_pair", 0, "local_interference"),
     ("o_ring", 1, None),

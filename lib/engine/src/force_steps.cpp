@@ -27,7 +27,6 @@ constexpr std::uint64_t kFinePoses = 400;
 constexpr std::size_t kFinalists = 4;            // measured again, more exactly
 constexpr double kAlike = 0.9;                   // cosine: directions of one set of parts differ by 25 degrees
 constexpr std::size_t kOfOneSet = 4;             // motions of the same parts that are measured, at least
-constexpr double kShareOfPlanning = 0.5;         // of the time that is left, for verified steps between forced ones
 constexpr std::uint64_t kStream = 0x666f726365;  // "force"
 
 /// Passes removals of a group on as removals of the whole.
@@ -76,65 +75,111 @@ std::vector<const ForcedMotion*> ForceSteps::chosen(const std::vector<ForcedMoti
   return list;
 }
 
-/// The motion that cuts in least: all roughly, then those that may be the best. Null when told to stop.
-const ForcedMotion* ForceSteps::best_of(const std::vector<const ForcedMotion*>& list, const RunContext& context) {
+/// The motion that cuts in least: all roughly, then those that may be the best. Told to stop: the best of those that
+/// were compared; nothing when there are none.
+std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const ForcedMotion*>& list,
+                                                      const RunContext& context) {
   const double tolerance = verifier_.options().max_penetration;
   MotionDepthOptions options{kCoarse * tolerance, kCoarseShare, std::numeric_limits<double>::infinity(), kCoarsePoses};
   const auto unsure = [&](double excess) { return excess + std::max(options.absolute, options.relative * excess); };
-  std::vector<std::pair<double, const ForcedMotion*>> measured;
+  std::vector<std::pair<Choice, std::size_t>> measured;  // with the place in the list
   double least = std::numeric_limits<double>::infinity();
   for (const ForcedMotion* m : list) {
     const auto found = motions_.depth(*m, options, context);
-    if (context.should_stop()) return nullptr;
-    measured.emplace_back(found ? found->excess() : 0, m);
-    least = std::min(least, measured.back().first);
+    if (context.should_stop()) break;
+    measured.push_back({{*m, found}, measured.size()});
+    least = std::min(least, measured.back().first.excess());
     options.stop_above = unsure(least);
   }
-  std::stable_sort(measured.begin(), measured.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(measured.begin(), measured.end(),
+                   [](const auto& a, const auto& b) { return a.first.excess() < b.first.excess(); });
+  if (measured.empty()) return std::nullopt;
   const double worth_a_look = unsure(least);
-  options = {2 * tolerance, kFineShare, std::numeric_limits<double>::infinity(), kFinePoses};
-  const ForcedMotion* best = nullptr;
-  for (std::size_t k = 0; k < measured.size() && k < kFinalists && measured[k].first <= worth_a_look; ++k) {
-    const auto found = motions_.depth(*measured[k].second, options, context);
-    if (context.should_stop()) return nullptr;
-    const double excess = found ? found->excess() : 0;
-    if (best != nullptr && excess >= options.stop_above) continue;
-    best = measured[k].second;
-    options.stop_above = excess;
-    if (excess <= tolerance) break;
+  options = {tolerance, kFineShare, std::numeric_limits<double>::infinity(), kFinePoses};
+  std::optional<Choice> best;
+  for (std::size_t k = 0; k < measured.size() && k < kFinalists && measured[k].first.excess() <= worth_a_look; ++k) {
+    Choice now{measured[k].first.motion, motions_.depth(measured[k].first.motion, options, context)};
+    if (context.should_stop()) break;
+    if (best && now.excess() >= options.stop_above) continue;
+    now.exact = !now.depth || now.depth->proved;
+    best = std::move(now);
+    options.stop_above = best->excess();
+    if (best->excess() <= tolerance) break;
   }
-  return best;
+  return best ? best : measured.front().first;
 }
 
-bool ForceSteps::force_one(const RunContext& context) {
-  const auto begin = std::chrono::steady_clock::now();
+/// All motions that may be the best are compared, as long as there is time.
+std::optional<ForceSteps::Choice> ForceSteps::measured_choice(const RunContext& context) {
   std::vector<ForcedMotion> all;
   for (const Placed& group : builder_.open_groups())
     for (ForcedMotion& m : motions_.candidates(group, context)) all.push_back(std::move(m));
-  if (all.empty() || context.should_stop()) return false;
   std::stable_sort(all.begin(), all.end(),
                    [](const ForcedMotion& a, const ForcedMotion& b) { return a.thickness < b.thickness; });
-  const ForcedMotion* best = best_of(chosen(all), context);
-  if (best == nullptr) return false;
-  NormalizedPath written = normalizer_.normalize(motions_.path(*best), best->moving);
+  return best_of(chosen(all), context);
+}
+
+/// The most promising of few motions, and what rays say of its depth.
+std::optional<ForceSteps::Choice> ForceSteps::quick_choice() {
+  std::optional<ForcedMotion> best;
+  for (const Placed& group : builder_.open_groups()) {
+    std::optional<ForcedMotion> m = motions_.quick_candidate(group);
+    if (m && (!best || more_promising(*m, *best))) best = std::move(m);
+  }
+  if (!best) return std::nullopt;
+  const std::optional<MotionDepth> depth = motions_.least_depth(*best);
+  return Choice{std::move(*best), depth};
+}
+
+/// What cuts in nowhere beyond the tolerance may be a verified step, which is then recorded.
+bool ForceSteps::is_valid(const Choice& choice, RunContext& context) {
+  if (choice.excess() > verifier_.options().max_penetration) return false;
+  const Attempt question{choice.motion.moving, choice.motion.fixed};
+  const AttemptResult& answer = oracle_.propose(question, motions_.path(choice.motion), context);
+  if (!is_success(answer.result.outcome())) return false;
+  observer_.removed({ids_of_placed(choice.motion.moving), &answer}, steps_left());
+  return true;
+}
+
+bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::optional<Choice> choice;
+  if (budget.limited()) choice = quick_choice();
+  double least_time = seconds_since(begin);
+  RunContext own = context;
+  own.deadline = budget.for_measuring(steps_left());
+  if (!own.should_stop())
+    if (std::optional<Choice> better = measured_choice(own)) choice = std::move(better);
+  if (!choice || context.cancel.cancelled()) return false;
+  RunContext to_the_end = context;  // a step that is verified is worth the time of others
+  if (is_valid(*choice, to_the_end)) return true;
+  const ForcedMotion& motion = choice->motion;
+  NormalizedPath written = normalizer_.normalize(motions_.path(motion), motion.moving);
   if (!written.problem.empty()) throw std::logic_error("a forced path is unusable: " + written.problem);
-  const auto worst = motions_.depth(*best, written.path, {verifier_.options().max_penetration, kFineShare}, context);
-  if (context.should_stop()) return false;  // nothing is stated that was not measured to its end
-  const std::vector<PartId> parts = ids_of_placed(best->moving);
-  const MotionDepth stated = worst.value_or(MotionDepth{parts.front(), best->fixed.front().part});
-  context.log(LogLevel::info,
-              fmt::format("forced: '{}' past '{}', {:.4g} deep", assembly_.parts[stated.part].name,
-                          assembly_.parts[stated.other].name, stated.depth / assembly_.normalization.scale));
-  builder_.force(parts, written.path, stated, seconds_since(begin));
+  if (!choice->exact) {
+    const auto from = std::chrono::steady_clock::now();
+    const auto found =
+        motions_.depth(motion, written.path, {verifier_.options().max_penetration, kFineShare}, to_the_end);
+    if (!choice->depth || (found && found->excess() >= choice->excess())) choice->depth = found;
+    choice->exact = !to_the_end.should_stop();
+    least_time += seconds_since(from);
+  }
+  budget.took(least_time);
+  if (context.cancel.cancelled()) return false;
+  const std::vector<PartId> parts = ids_of_placed(motion.moving);
+  const MotionDepth stated = choice->depth.value_or(MotionDepth{parts.front(), motion.fixed.front().part});
+  context.log(LogLevel::info, fmt::format("forced: '{}' past '{}', {}{:.4g} deep", assembly_.parts[stated.part].name,
+                                          assembly_.parts[stated.other].name, choice->exact ? "" : "at least ",
+                                          stated.depth / assembly_.normalization.scale));
+  builder_.force(parts, written.path, stated, choice->exact, seconds_since(begin));
   return true;
 }
 
 /// Verified removals from the groups that are left, by the sequence planner, in searches of little depth.
-void ForceSteps::take_apart(RunContext& context) {
+void ForceSteps::take_apart(const ForceBudget& budget, RunContext& context) {
   RunContext own = context;
-  if (const double left = context.deadline.seconds_left(); std::isfinite(left))
-    own.deadline = context.deadline.earlier(Deadline::after_seconds(kShareOfPlanning * left));
   for (const Placed& group : builder_.open_groups()) {
+    own.deadline = budget.for_planning(steps_left());
     if (own.should_stop()) return;
     if (!tried_.insert(ids_of_placed(group)).second) continue;
     GroupOracle oracle(assembly_, oracle_, group, options_.force.retry_depth);
@@ -148,12 +193,18 @@ void ForceSteps::take_apart(RunContext& context) {
   }
 }
 
-void ForceSteps::run(bool unfinished, RunContext& context) {
-  if (unfinished)
-    take_apart(context);
-  else
-    for (const Placed& group : builder_.open_groups()) tried_.insert(ids_of_placed(group));
-  while (!context.should_stop() && !builder_.fulfilled() && force_one(context)) take_apart(context);
+/// At most: what the constraints keep together takes fewer. At least one.
+std::size_t ForceSteps::steps_left() const {
+  std::size_t steps = 0;
+  for (const Placed& group : builder_.open_groups()) steps += group.size() - 1;
+  return std::max<std::size_t>(1, steps);
+}
+
+void ForceSteps::run(bool searches, RunContext& context) {
+  ForceBudget budget(context.deadline);
+  for (const Placed& group : builder_.open_groups()) tried_.insert(ids_of_placed(group));
+  while (!context.cancel.cancelled() && !builder_.fulfilled() && force_one(budget, context))
+    if (searches && !builder_.fulfilled()) take_apart(budget, context);
 }
 
 }  // namespace dismantle

@@ -18,11 +18,11 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 constexpr std::size_t kAxes = 6;                                // of one part's faces, those of most area
 constexpr std::size_t kGroupAxes = 16;                          // of all parts of a group
+constexpr std::size_t kFewAxes = 4;                             // the same where there is no time for more
 constexpr double kAlways = std::numeric_limits<double>::max();  // area of an axis that is tried whatever the others are
 constexpr double kSameAxis = 0.9998;                            // cosine: about a degree
 constexpr std::size_t kRays = 24;                               // from each part, spread over its vertices
 constexpr double kClearance = 2;                                // between hulls at the end of the path, in tolerances
-constexpr double kInTheWay = 0.02;       // of the rays: less are taken for a small overlap that can be cut through
 constexpr double kFirmlyInTheWay = 0.3;  // of the rays: parts that block more than this move along
 constexpr double kMostTurns = 100;
 constexpr double kTurnStep = std::numbers::pi / 8;  // between two poses of a screw motion
@@ -55,6 +55,11 @@ Placed without(const Placed& group, const Placed& gone) {
 }
 
 }  // namespace
+
+bool more_promising(const ForcedMotion& a, const ForcedMotion& b) {
+  if (a.thickness != b.thickness) return a.thickness < b.thickness;
+  return a.duration * a.twist.linear.norm() < b.duration * b.twist.linear.norm();
+}
 
 std::vector<PartId> ids_of_placed(const Placed& parts) {
   std::vector<PartId> list;
@@ -131,18 +136,19 @@ bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
   });
 }
 
-std::vector<Vec3> ForcedMotions::directions(const Placed& group) {
+std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety) {
   std::vector<geometry::FaceAxis> lines;
   for (const PlacedPart& p : group)
     for (const geometry::FaceAxis& a : axes(p.part)) geometry::add_face(lines, {p.pose.q * a.axis, a.area}, kSameAxis);
-  geometry::sort_by_area(lines, kGroupAxes);
+  geometry::sort_by_area(lines, variety == Variety::all ? kGroupAxes : kFewAxes);
   for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, kSameAxis);
   std::vector<Vec3> list;
   for (const geometry::FaceAxis& a : lines) {
     list.push_back(a.axis.normalized());
     list.push_back(-a.axis.normalized());
   }
-  for (const Vec3& d : sphere(options_.directions)) list.push_back(d);
+  if (variety == Variety::all)
+    for (const Vec3& d : sphere(options_.directions)) list.push_back(d);
   return list;
 }
 
@@ -166,6 +172,14 @@ double ForcedMotions::reach(const PlacedPart& part, const Vec3& along) const {
   return most;
 }
 
+/// By boxes alone: may the one meet the other on its way?
+bool ForcedMotions::in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
+                             double distance) const {
+  const geometry::SweptBoxes swept({moving.pose, {moving.pose.t + distance * along, moving.pose.q}},
+                                   assembly_.parts[moving.part].mesh->box());
+  return swept.meets(geometry::SweptBoxes({fixed.pose}, assembly_.parts[fixed.part].mesh->box()), 0);
+}
+
 /// Rays along the motion from the one, and against it from the other, that enter the other side, and how long they stay
 /// in it. A surface that is a little inside the other when it starts and slides along does not enter it.
 void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
@@ -173,9 +187,7 @@ void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed,
   const double skin = verifier_.options().max_penetration + assembly_.initial_overlap(moving.part, fixed.part);
   const double distance = reach(fixed, along) + reach(moving, -along);
   if (distance <= skin) return;
-  const Aabb& box = assembly_.parts[moving.part].mesh->box();
-  const geometry::SweptBoxes swept({moving.pose, {moving.pose.t + distance * along, moving.pose.q}}, box);
-  if (!swept.meets(geometry::SweptBoxes({fixed.pose}, assembly_.parts[fixed.part].mesh->box()), 0)) return;
+  if (!in_reach(moving, fixed, along, distance)) return;
   const auto send = [&](const PlacedPart& from, const PlacedPart& to, const Vec3& d) {
     const auto& vertices = assembly_.parts[from.part].mesh->vertices;
     const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kRays);
@@ -280,86 +292,26 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
 std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const RunContext& context) {
   const std::vector<Placed> all = units(group);
   std::vector<ForcedMotion> list;
-  for (const Vec3& d : directions(group))
+  for (const Vec3& d : directions(group, Variety::all))
     for (const Placed& unit : all) {
       if (!list.empty() && context.should_stop()) return list;
       add_straight(unit, all, group, d, list);
     }
   for (const Placed& unit : all) add_screws(unit, group, list);
-  std::stable_sort(list.begin(), list.end(), [](const ForcedMotion& a, const ForcedMotion& b) {
-    if (a.thickness != b.thickness) return a.thickness < b.thickness;
-    return a.duration * a.twist.linear.norm() < b.duration * b.twist.linear.norm();
-  });
+  std::stable_sort(list.begin(), list.end(), more_promising);
   return list;
 }
 
-std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const Path& path,
-                                                const MotionDepthOptions& options, const RunContext& context) {
-  return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
-}
-
-/// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
-/// than `enough`; nothing when there is none among those that were tried. Measuring a deep overlap to its end takes
-/// seconds for large parts, and a motion that cuts in deeper than another needs no more than a witness.
-std::optional<MotionDepth> ForcedMotions::sampled_depth(const ForcedMotion& motion, double enough) const {
-  constexpr std::size_t kInstants = 6;
-  const Path all = path(motion);
-  const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
-    const double allowed = assembly_.initial_overlap(of.part, in.part);
-    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / (2 * kRays));
-    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
-      const Pose back = (in.pose * solid.frame).inverse() * of.pose;
-      for (std::size_t v = 0; v < vertices.size(); v += stride) {
-        const Vec3 x = back * vertices[v];
-        if ((x - x.cwiseMax(solid.box.lo).cwiseMin(solid.box.hi)).squaredNorm() > 0) continue;
-        const double depth = -solid.bvh.signed_distance(x);
-        if (depth > allowed + enough)
-          return MotionDepth{of.part, in.part, depth, allowed, of.pose * vertices[v], false};
-      }
+std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group) {
+  std::vector<Placed> leaving = units(group);
+  std::erase_if(leaving, [&](const Placed& unit) { return !allowed(unit, group); });
+  std::optional<ForcedMotion> best;
+  for (const Vec3& d : directions(group, Variety::few))
+    for (const Placed& unit : leaving) {
+      ForcedMotion m = straight(unit, group, d);
+      if (!best || more_promising(m, *best)) best = std::move(m);
     }
-    return {};
-  };
-  for (std::size_t k = 1; k < kInstants; ++k) {
-    const double at = static_cast<double>(k * (all.size() - 1)) / kInstants;
-    const auto i = static_cast<std::size_t>(at);
-    for (std::size_t m = 0; m < motion.moving.size(); ++m) {
-      const PlacedPart now{motion.moving[m].part,
-                           screw_interpolate(all[i][m], all[i + 1][m], at - static_cast<double>(i))};
-      for (const PlacedPart& other : motion.fixed) {
-        if (auto found = try_points(now, other)) return found;
-        if (auto found = try_points(other, now)) return found;
-      }
-    }
-  }
-  return {};
-}
-
-std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
-                                                const RunContext& context) {
-  if (std::isfinite(options.stop_above))
-    if (auto found = sampled_depth(motion, options.stop_above)) return found;
-  if (!motion.straight()) return depth(motion, path(motion), options, context);
-  std::optional<MotionDepth> worst;
-  const auto take = [&](const std::optional<MotionDepth>& found) {
-    if (found && (!worst || found->excess() > worst->excess())) worst = found;
-  };
-  for (const PlacedPart& p : motion.moving)
-    for (const PlacedPart& q : motion.fixed) {
-      Known& pair = known(p, q, motion.twist.linear);
-      if (pair.resolution > options.absolute) {
-        if (context.should_stop()) return worst;
-        const double distance = reach(q, motion.twist.linear) + reach(p, -motion.twist.linear);
-        if (distance <= 0) continue;
-        const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
-        pair.depth = meter_.deepest({p.part}, {q}, {{p.pose}, {end}}, options, context);
-        const bool to_the_end = !pair.depth || pair.depth->excess() <= options.stop_above;
-        if (to_the_end) pair.resolution = options.absolute;
-      }
-      take(pair.depth);
-      if (worst && worst->excess() > options.stop_above) return worst;
-    }
-  return worst;
+  return best;
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {

@@ -31,6 +31,9 @@ struct ForcedMotion {
   bool straight() const { return twist.angular.isZero(); }
 };
 
+/// By what is in the way, then by the length of the way.
+bool more_promising(const ForcedMotion& a, const ForcedMotion& b);
+
 /// Remembers what it has measured of pairs of parts, as long as they are not moved. Not safe to share between threads.
 class ForcedMotions {
  public:
@@ -41,8 +44,16 @@ class ForcedMotions {
   /// Motions out of a group (two parts or more, ascending) that the constraints allow, the most promising first:
   /// translations of parts alone and of those that are in each other's way, and screws of threaded parts.
   std::vector<ForcedMotion> candidates(const Placed& group, const RunContext& context);
+  /// The most promising of few: each part alone, along few directions. Its cost does not depend on how deep anything
+  /// cuts in. Nothing when the constraints let no part leave.
+  std::optional<ForcedMotion> quick_candidate(const Placed& group);
+  /// A lower bound of how deep a straight motion cuts in, from rays, until more than `enough` is found; nothing where
+  /// they meet nothing.
+  std::optional<MotionDepth> least_depth(const ForcedMotion& motion,
+                                         double enough = std::numeric_limits<double>::infinity()) const;
   /// How deep the motion cuts in. Cut short once it is known to be worse than options.stop_above.
-  /// Nothing when told to stop before anything was measured, or when no two parts come near each other.
+  /// Told to stop: what was found until then, not `proved`; nothing when nothing was measured. Nothing, too, when no
+  /// two parts come near each other.
   std::optional<MotionDepth> depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                    const RunContext& context);
   /// Along the whole path, as it is written.
@@ -60,12 +71,15 @@ class ForcedMotions {
     std::optional<MotionDepth> depth{};
     double resolution = std::numeric_limits<double>::infinity();  // by which `depth` was measured; none yet
   };
+  enum class Variety { few, all };
+  static constexpr double kInTheWay = 0.02;  // of the rays: less are taken for a small overlap that can be cut through
   std::vector<Placed> units(const Placed& group) const;
-  std::vector<Eigen::Vector3d> directions(const Placed& group);
+  std::vector<Eigen::Vector3d> directions(const Placed& group, Variety variety);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
   const std::vector<geometry::Twist>& turns(PartId part);
-  std::optional<MotionDepth> sampled_depth(const ForcedMotion& motion, double enough) const;
+  std::optional<MotionDepth> depth_at_instants(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
+  bool in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, double distance) const;
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
   bool allowed(const Placed& moving, const Placed& group) const;

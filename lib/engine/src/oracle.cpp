@@ -254,6 +254,7 @@ SearchEffort Oracle::effort_on(PartId part) const {
     ++effort.attempts;
     effort.depth = std::max({effort.depth, answer.result.depth, answer.attempt.max_depth});
     effort.seconds += answer.seconds;
+    effort.cost += answer.result.stats.cost;
   }
   return effort;
 }

@@ -31,6 +31,7 @@ struct SearchEffort {
   unsigned attempts = 0;
   unsigned depth = 0;  ///< the largest depth that was allowed; 0: none of them had a limit
   double seconds = 0;
+  double cost = 0;  ///< as SearchStats::cost: the same on every machine
 };
 
 class Oracle final : public PathOracle {

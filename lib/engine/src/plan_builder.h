@@ -44,8 +44,9 @@ class PlanBuilder {
 
   const Plan& plan() const { return plan_; }
   /// Records a step that no oracle has accepted: `parts`, which are together in a group, leave the rest of it along
-  /// `path` (columns as `parts`). `worst`: what was measured along it. @throws std::logic_error as record().
-  void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, double seconds);
+  /// `path` (columns as `parts`). `worst`: what was measured along it, to the end when `exact`. @throws
+  /// std::logic_error as record().
+  void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact, double seconds);
   /// Groups of several parts that are asked to come apart, each with where its parts are.
   std::vector<std::vector<PlacedPart>> open_groups() const;
   std::size_t forced() const { return forced_; }
@@ -70,6 +71,9 @@ class PlanBuilder {
   void set_assembly(std::vector<PlanStep> steps, AssemblyStatus status, std::string message);
 
  private:
+  std::optional<std::size_t> proof_against(const std::vector<PartId>& moving, const std::vector<PartId>& rest,
+                                           const MotionDepth& worst) const;
+  std::string why_forced(const std::vector<PartId>& parts, std::optional<std::size_t> proof) const;
   void check_constraints(const Removal& removal, const std::vector<PartId>& rest) const;
   bool stays_together(const std::vector<PartId>& group) const;
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);

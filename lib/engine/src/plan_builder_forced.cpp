@@ -1,4 +1,6 @@
 // Forced steps of a plan: what no oracle has accepted.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -7,7 +9,65 @@
 
 namespace dismantle {
 
-void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, double seconds) {
+namespace {
+
+bool has_name(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+/// The proof that says why `moving` cannot leave `rest`: of all that are about parts of both and of no others, the one
+/// about the pair that is worst off, else the first.
+std::optional<std::size_t> PlanBuilder::proof_against(const std::vector<PartId>& moving,
+                                                      const std::vector<PartId>& rest, const MotionDepth& worst) const {
+  std::vector<std::string> these, those;
+  for (const PartId id : moving) these.push_back(assembly_.parts[id].name);
+  for (const PartId id : rest) those.push_back(assembly_.parts[id].name);
+  const auto in = [](const std::vector<std::string>& names) {
+    return [&names](const std::string& name) { return has_name(names, name); };
+  };
+  std::optional<std::size_t> best;
+  for (std::size_t k = 0; k < plan_.certificates.size(); ++k) {
+    const std::vector<std::string>& about = plan_.certificates[k].parts;
+    const bool divided =
+        std::any_of(about.begin(), about.end(), in(these)) && std::any_of(about.begin(), about.end(), in(those)) &&
+        std::all_of(about.begin(), about.end(), [&](const std::string& n) { return in(these)(n) || in(those)(n); });
+    if (!divided) continue;
+    if (!best) best = k;
+    if (about.size() == 2 && has_name(about, assembly_.parts[worst.part].name) &&
+        has_name(about, assembly_.parts[worst.other].name))
+      return k;
+  }
+  return best;
+}
+
+/// Why no verified path is known: a proof, or what the searches said and what they cost, in counts that are the same on
+/// every machine.
+std::string PlanBuilder::why_forced(const std::vector<PartId>& parts, std::optional<std::size_t> proof) const {
+  std::string text = proof ? plan_.certificates[*proof].text : std::string();
+  if (proof && plan_.certificates[*proof].full_tolerance) return text;
+  SearchEffort effort;
+  for (const PartId id : parts) {
+    const std::string& name = assembly_.parts[id].name;
+    const auto u = std::find_if(plan_.unsolved.begin(), plan_.unsolved.end(),
+                                [&](const PlanUnsolved& left) { return left.part == name; });
+    if (u != plan_.unsolved.end() && !u->certificate && text.empty()) text = u->message;
+    const SearchEffort own = oracle_.effort_on(id);
+    effort.attempts += own.attempts;
+    effort.depth = std::max(effort.depth, own.depth);
+    effort.cost += own.cost;
+  }
+  if (!text.empty()) text += "; ";
+  if (effort.attempts == 0) return text + "no straight motion was found to be valid, and no search came to its end";
+  return text + fmt::format("{} of '{}'{}, {:.0f} steps and state checks, found no path",
+                            effort.attempts == 1 ? "1 search" : fmt::format("{} searches", effort.attempts),
+                            planner_id_, effort.depth == 0 ? "" : fmt::format(" to depth {}", effort.depth),
+                            effort.cost);
+}
+
+void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact,
+                        double seconds) {
   std::vector<PartId>& group = group_of(parts);
   const auto moves = [&](PartId id) { return std::find(parts.begin(), parts.end(), id) != parts.end(); };
   std::vector<PartId> rest;
@@ -37,13 +97,10 @@ void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, cons
                            worst.depth / to.scale,
                            (overlap == nullptr ? 0 : overlap->depth) / to.scale,
                            to.to_input(worst.point),
-                           {}};
-  for (const PlanUnsolved& u : plan_.unsolved)
-    if (std::any_of(parts.begin(), parts.end(), [&](PartId id) { return assembly_.parts[id].name == u.part; })) {
-      step.forced->reason = u.message.empty() ? std::string(to_string(u.outcome)) : u.message;
-      step.forced->certificate = u.certificate;
-      if (u.certificate) break;
-    }
+                           {},
+                           proof_against(parts, rest, worst)};
+  step.forced->reason = why_forced(parts, step.forced->certificate);
+  if (!exact) step.forced->reason += "; the time was up before the depth was measured to its end: it is at least that";
 
   const auto from = static_cast<std::size_t>(&group - groups_.data());
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));

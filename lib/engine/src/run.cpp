@@ -275,9 +275,10 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     prove_left(unsolved, builder.left(), oracle, options.proofs, own);
     builder.set_unsolved(unsolved, places);
     own.deadline = context.deadline;
-    if (forces && prepared && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
+    if (forces && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
       ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options)
-          .run(sequence.outcome == Outcome::timeout, own);
+          .run(prepared != nullptr, own);
+      if (builder.fulfilled() && builder.forced() == 0) result.outcome = Outcome::solved;
       builder.drop_solved();
     }
   }

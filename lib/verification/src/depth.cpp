@@ -13,6 +13,7 @@
 #include "dismantle/geometry/starts_off.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
+#include "interruptible_depth.h"
 
 namespace dismantle {
 
@@ -26,23 +27,27 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 constexpr std::uint64_t kMostPatches = 100'000;  // per pair of solids and direction
+constexpr std::uint64_t kPatchesPerPoll = 64;
 
 /// Surface of A in B; `place` takes A to the frame of B, `frame` takes that frame to the world.
 class Descent {
  public:
   Descent(const Solid& a, const Solid& b, const Placement& place, double tolerance, const Pose& frame,
-          Penetration& deepest)
-      : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest) {}
+          Penetration& deepest, const RunContext& context)
+      : a_(a), b_(b), place_(place), tolerance_(tolerance), frame_(frame), deepest_(deepest), context_(context) {}
 
   /// True when one shrunken copy of all of A keeps off the surface of B.
   bool run() {
     if (first_round()) return true;
+    std::uint64_t sampled = 0;
     for (const Patch& patch : open_) {
       for (const auto& p : patch.p) sample(place_ * p);
       sample(place_ * patch.center());
+      if (told_to_stop(++sampled)) return false;
     }
     std::uint64_t left = kMostPatches;
     while (!open_.empty() && left-- > 0) {
+      if (told_to_stop(left)) return false;
       const Patch patch = open_.front();
       open_.pop_front();
       std::optional<Ridge> ridge;
@@ -57,6 +62,7 @@ class Descent {
   }
 
  private:
+  bool told_to_stop(std::uint64_t count) const { return count % kPatchesPerPoll == 0 && context_.should_stop(); }
   double level() const { return deepest_.depth + tolerance_ * (1 - 1e-9); }
 
   /// `x` in the frame of B.
@@ -147,6 +153,7 @@ class Descent {
   double tolerance_;
   const Pose& frame_;
   Penetration& deepest_;
+  const RunContext& context_;
   std::deque<Patch> open_;
 };
 
@@ -155,6 +162,11 @@ class Descent {
 
 Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
                                 double tolerance) {
+  return deepest_penetration(a, pose_a, b, pose_b, tolerance, RunContext{});
+}
+
+Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const DepthBody& b, const Pose& pose_b,
+                                double tolerance, const RunContext& context) {
   if (!(tolerance > 0)) throw std::invalid_argument("penetration_depth: tolerance must be > 0");
   using verify::Placement;
   Penetration deepest;
@@ -169,10 +181,11 @@ Penetration deepest_penetration(const DepthBody& a, const Pose& pose_a, const De
       const Placement &there = swap ? b_in_a : a_in_b, &back = swap ? a_in_b : b_in_a;
       const Pose &first_frame = swap ? place_y : place_x, &second_frame = swap ? place_x : place_y;
       const double before = deepest.depth;
-      const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest).run();
+      const bool shrunken = verify::Descent(first, second, there, tolerance, second_frame, deepest, context).run();
       // As in pair_check.cpp: then nothing of the second is deeper in the first either.
       if (shrunken && verify::starts_off(second, first, back, before + tolerance)) continue;
-      verify::Descent(second, first, back, tolerance, first_frame, deepest).run();
+      if (context.should_stop()) return deepest;
+      verify::Descent(second, first, back, tolerance, first_frame, deepest, context).run();
     }
   return deepest;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dismantle/geometry/swept_boxes.h"
+#include "interruptible_depth.h"
 
 namespace dismantle {
 namespace {
@@ -57,7 +58,7 @@ struct MotionDepthMeter::Impl {
     const auto measure = [&](double u) {
       const Pose pose = pose_at(u);
       const Penetration found =
-          deepest_penetration(body(part), pose, body(other.part), other.pose, kMeasured * resolution());
+          deepest_penetration(body(part), pose, body(other.part), other.pose, kMeasured * resolution(), context);
       const MotionDepth here{part, other.part, found.depth, allowed, found.point, false};
       if (!worst || here.excess() > worst->excess() || (here.excess() == worst->excess() && here.depth > worst->depth))
         worst = here;
@@ -122,14 +123,15 @@ std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& 
       if (!swept.meets(geometry::SweptBoxes({other.pose}, impl_->assembly.parts.at(other.part).mesh->box()), 0))
         continue;
       if (context.should_stop()) return worst ? worst : std::nullopt;
-      if (!valid_ones && impl_->verifier.passes(moving[i], other.part, other.pose, way)) continue;
+      if (!valid_ones && !options.known_invalid && impl_->verifier.passes(moving[i], other.part, other.pose, way))
+        continue;
       proved = impl_->pair(moving[i], way, other, options, context,
                            valid_ones ? 0 : impl_->assembly.initial_overlap(moving[i], other.part), worst) &&
                proved;
       if (worst && worst->excess() > options.stop_above) return worst;
     }
   }
-  if (worst) worst->proved = proved;
+  if (worst) worst->proved = proved && !context.should_stop();  // a measurement may have been cut short
   return worst;
 }
 

@@ -27,13 +27,22 @@ double first_hit(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eige
     return b;
   };
   Aabb segment = segment_box(reach);
+  // Boxes that the box around an oblique ray meets, and the ray does not.
+  const Vec3 size = direction.cwiseAbs();
+  const auto passed_by = [&](const Aabb& box) {
+    const Vec3 to = from - box.center(), half = 0.5 * box.size(), off = to.cross(direction).cwiseAbs();
+    const double rounding = 1e-9 * (to.norm() + half.norm());
+    return off.x() > half.y() * size.z() + half.z() * size.y() + rounding ||
+           off.y() > half.x() * size.z() + half.z() * size.x() + rounding ||
+           off.z() > half.x() * size.y() + half.y() * size.x() + rounding;
+  };
   std::array<std::uint32_t, 192> stack;
   std::size_t top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const std::uint32_t id = stack[--top];
     const TriangleBvh::Node& node = bvh.nodes()[id];
-    if (!node.box.overlaps(segment)) continue;
+    if (!node.box.overlaps(segment) || passed_by(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first;
       stack[top++] = id + 1;

@@ -30,6 +30,7 @@ struct MotionDepthOptions {
   double relative = 0.05;                                       ///< ... or this share of the depth, whichever is more
   double stop_above = std::numeric_limits<double>::infinity();  ///< an excess beyond this need not be exact
   std::uint64_t most_poses = 4000;                              ///< poses measured per pair; then not `proved`
+  bool known_invalid = false;  ///< no pair's motion is valid: that is not checked before it is measured
 };
 
 /// Makes parts ready for measuring when they are first needed. Not safe to share between threads.
@@ -42,7 +43,8 @@ class DISMANTLE_API MotionDepthMeter {
   /// The worst pair of the motion of `moving`, which moves as one body along `path` (columns as `moving`), past
   /// `fixed`. Between measured poses depth is bounded by how far a point travels (depth changes by no more than that),
   /// and the interval with the highest bound is halved until none can hold more than was found.
-  /// Nothing when told to stop, or when no pair of them has been in reach. `valid_ones`: pairs whose motion is valid
+  /// Told to stop: the deepest until then, not `proved`; nothing when nothing was measured. Nothing, too, when no pair
+  /// of them has been in reach. `valid_ones`: pairs whose motion is valid
   /// are measured, too, for how much of what they may they use; else they count as not cutting in.
   std::optional<MotionDepth> deepest(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed,
                                      const Path& path, const MotionDepthOptions& options, const RunContext& context,

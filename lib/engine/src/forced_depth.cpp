@@ -1,0 +1,163 @@
+// How deep the motions of forced steps cut in: samples first, then measured along the whole way.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dismantle/geometry/ray.h"
+#include "dismantle/geometry/solid.h"
+#include "forced_motions.h"
+
+namespace dismantle {
+
+namespace {
+
+constexpr std::size_t kDepthSamples = 48;  // from each part, spread over its vertices
+
+/// Told of depths below the surface of a part at some points of a ray that starts on or outside it, over its ways
+/// through the part.
+template <class Found>
+void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double reach,
+                  const Found& found) {
+  constexpr std::size_t kMostWays = 4;
+  constexpr std::array<double, 3> kShares{0.25, 0.5, 0.75};
+  const auto enters = [&](std::uint32_t t) { return solid.normals[t].dot(along) < 0; };
+  const auto leaves = [&](std::uint32_t t) { return solid.normals[t].dot(along) > 0; };
+  double at = 0;
+  bool inside = solid.box.squared_distance(from) == 0 && solid.bvh.inside(from);
+  for (std::size_t way = 0; way < kMostWays && at < reach; ++way) {
+    if (!inside) {
+      const double in = geometry::first_hit(solid.bvh, from + at * along, along, reach - at, enters);
+      if (!std::isfinite(in)) return;
+      at += in;
+    }
+    const double out =
+        std::min(reach - at, geometry::first_hit(solid.bvh, from + at * along, along, reach - at, leaves));
+    for (const double share : kShares) {
+      const double s = at + share * out;
+      found(-solid.bvh.signed_distance(from + s * along), s);
+    }
+    at += out;
+    inside = false;
+  }
+}
+
+}  // namespace
+
+std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const Path& path,
+                                                const MotionDepthOptions& options, const RunContext& context) {
+  return meter_.deepest(ids_of_placed(motion.moving), motion.fixed, path, options, context);
+}
+
+/// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
+/// than `enough`; nothing when there is none among those that were tried.
+std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& motion, double enough) const {
+  constexpr std::size_t kInstants = 6;
+  const Path all = path(motion);
+  const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
+    const double allowed = assembly_.initial_overlap(of.part, in.part);
+    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kDepthSamples);
+    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
+      const Pose back = (in.pose * solid.frame).inverse() * of.pose;
+      for (std::size_t v = 0; v < vertices.size(); v += stride) {
+        const Eigen::Vector3d x = back * vertices[v];
+        if ((x - x.cwiseMax(solid.box.lo).cwiseMin(solid.box.hi)).squaredNorm() > 0) continue;
+        const double depth = -solid.bvh.signed_distance(x);
+        if (depth > allowed + enough)
+          return MotionDepth{of.part, in.part, depth, allowed, of.pose * vertices[v], false};
+      }
+    }
+    return {};
+  };
+  for (std::size_t k = 1; k < kInstants; ++k) {
+    const double at = static_cast<double>(k * (all.size() - 1)) / kInstants;
+    const auto i = static_cast<std::size_t>(at);
+    for (std::size_t m = 0; m < motion.moving.size(); ++m) {
+      const PlacedPart now{motion.moving[m].part,
+                           screw_interpolate(all[i][m], all[i + 1][m], at - static_cast<double>(i))};
+      for (const PlacedPart& other : motion.fixed) {
+        if (auto found = try_points(now, other)) return found;
+        if (auto found = try_points(other, now)) return found;
+      }
+    }
+  }
+  return {};
+}
+
+std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, const MotionDepthOptions& options,
+                                                const RunContext& context) {
+  if (std::isfinite(options.stop_above)) {
+    // Measuring a deep overlap to its end takes seconds for large parts; a motion that cuts in deeper than another
+    // needs no more than a witness.
+    const auto witness =
+        motion.straight() ? least_depth(motion, options.stop_above) : depth_at_instants(motion, options.stop_above);
+    if (witness && witness->excess() > options.stop_above) return witness;
+  }
+  if (!motion.straight()) return depth(motion, path(motion), options, context);
+  std::optional<MotionDepth> worst;
+  bool proved = true;
+  for (const PlacedPart& p : motion.moving)
+    for (const PlacedPart& q : motion.fixed) {
+      Known& pair = known(p, q, motion.twist.linear);
+      if (pair.resolution > options.absolute) {
+        if (context.should_stop()) return worst;
+        const double distance = reach(q, motion.twist.linear) + reach(p, -motion.twist.linear);
+        if (distance <= 0) continue;
+        const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
+        MotionDepthOptions own = options;
+        own.known_invalid = pair.blocked > kInTheWay;
+        pair.depth = meter_.deepest({p.part}, {q}, {{p.pose}, {end}}, own, context);
+        const bool to_the_end = !context.should_stop() && (!pair.depth || pair.depth->excess() <= options.stop_above);
+        if (to_the_end) pair.resolution = options.absolute;
+      }
+      if (!pair.depth) continue;
+      proved = proved && pair.depth->proved;
+      if (!worst || pair.depth->excess() > worst->excess()) worst = pair.depth;
+      worst->proved = false;
+      if (worst->excess() > options.stop_above) return worst;
+    }
+  if (worst) worst->proved = proved;
+  return worst;
+}
+
+std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion, double enough) const {
+  std::optional<MotionDepth> worst;
+  if (!motion.straight()) return worst;
+  const Eigen::Vector3d& along = motion.twist.linear;
+  // Points of `of` move through `in` along `way`; `sign`: the motion itself, or against it.
+  const auto look = [&](const PlacedPart& of, const PlacedPart& in, double sign, double distance) {
+    const bool moves = sign > 0;
+    const double allowed = assembly_.initial_overlap(of.part, in.part);
+    const auto& vertices = assembly_.parts[of.part].mesh->vertices;
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kDepthSamples);
+    for (const geometry::Solid& solid : verifier_.solids(in.part)) {
+      const Pose back = (in.pose * solid.frame).inverse();
+      const Eigen::Vector3d local = back.q * Eigen::Vector3d(sign * along);
+      for (std::size_t v = 0; v < vertices.size(); v += stride) {
+        if (worst && worst->excess() > enough) return;
+        const Eigen::Vector3d x = of.pose * vertices[v];
+        depths_along(solid, back * x, local, distance, [&](double depth, double s) {
+          const MotionDepth here{moves ? of.part : in.part,
+                                 moves ? in.part : of.part,
+                                 depth,
+                                 allowed,
+                                 moves ? Eigen::Vector3d(x + s * along) : x,
+                                 false};
+          if (!worst || here.excess() > worst->excess()) worst = here;
+        });
+      }
+    }
+  };
+  for (const PlacedPart& p : motion.moving)
+    for (const PlacedPart& q : motion.fixed) {
+      const double distance = reach(q, along) + reach(p, -along);
+      if (distance <= 0 || !in_reach(p, q, along, distance)) continue;
+      look(p, q, 1, distance);
+      look(q, p, -1, distance);
+      if (worst && worst->excess() > enough) return worst;
+    }
+  return worst;
+}
+
+}  // namespace dismantle

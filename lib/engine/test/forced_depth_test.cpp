@@ -1,0 +1,166 @@
+// The depth that a forced step states, against brute force: points all over the faces, at many instants.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dismantle/testing/run_rig.h"
+#include "dismantle/testing/trials.h"
+
+namespace dismantle {
+namespace {
+
+using Eigen::Vector3d;
+using fake::Box;
+using NamedBoxes = std::vector<std::pair<std::string, std::vector<Box>>>;
+
+/// Six walls around a room from `lo` to `hi`; each of its own thickness.
+std::vector<Box> cage(Rng& rng, const Vector3d& lo, const Vector3d& hi) {
+  std::vector<Box> walls;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const bool upper : {false, true}) {
+      Box wall{lo - Vector3d::Constant(0.05), hi + Vector3d::Constant(0.05)};
+      const double thickness = rng.uniform(0.1, 0.8);
+      (upper ? wall.lo : wall.hi)[axis] = upper ? hi[axis] : lo[axis];
+      (upper ? wall.hi : wall.lo)[axis] = upper ? hi[axis] + thickness : lo[axis] - thickness;
+      walls.push_back(wall);
+    }
+  return walls;
+}
+
+/// A cage with one or two blocks side by side in it, none of which touches anything.
+NamedBoxes blocks_in_a_cage(Rng& rng) {
+  NamedBoxes parts;
+  Vector3d lo = Vector3d::Zero(), hi = lo;
+  const std::size_t blocks = 1 + rng.below(2);
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const Vector3d size(rng.uniform(0.2, 1.5), rng.uniform(0.2, 1.5), rng.uniform(0.2, 1.5));
+    const Vector3d from(hi.x() + 0.1, rng.uniform(0, 0.3), rng.uniform(0, 0.3));
+    parts.push_back({"block" + std::to_string(k), {{from, from + size}}});
+    hi = hi.cwiseMax(from + size);
+  }
+  parts.insert(parts.begin(), {"cage", cage(rng, lo, hi + Vector3d::Constant(0.1))});
+  return parts;
+}
+
+/// Depth of a point in a box: zero outside.
+double depth_in(const Vector3d& x, const Box& box) {
+  return std::max(0.0, std::min((x - box.lo).minCoeff(), (box.hi - x).minCoeff()));
+}
+
+/// The deepest of points on the faces of `of`, moved by `shift`, in any box of `in`, which stands still.
+double deepest(const std::vector<Box>& of, const Vector3d& shift, const std::vector<Box>& in) {
+  constexpr int kPoints = 16;  // along an edge
+  double most = 0;
+  for (const Box& b : of)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const bool upper : {false, true})
+        for (int i = 0; i <= kPoints; ++i)
+          for (int k = 0; k <= kPoints; ++k) {
+            Vector3d share;
+            share[axis] = upper ? 1 : 0;
+            share[(axis + 1) % 3] = static_cast<double>(i) / kPoints;
+            share[(axis + 2) % 3] = static_cast<double>(k) / kPoints;
+            const Vector3d x = b.lo + share.cwiseProduct(b.hi - b.lo) + shift;
+            for (const Box& other : in) most = std::max(most, depth_in(x, other));
+          }
+  return most;
+}
+
+/// The same both ways over a whole step; the parts move without turning.
+double brute_force(const PlanStep& step, const NamedBoxes& parts, const std::map<std::string, Vector3d>& others) {
+  double most = 0;
+  const auto boxes_of = [&](const std::string& name) -> const std::vector<Box>& {
+    return std::find_if(parts.begin(), parts.end(), [&](const auto& p) { return p.first == name; })->second;
+  };
+  for (const PlanMove& move : step.moves)
+    for (const Pose& pose : move.poses)
+      for (const auto& [name, at] : others) {
+        const Vector3d shift = pose.t - at;
+        most = std::max({most, deepest(boxes_of(move.part), shift, boxes_of(name)),
+                         deepest(boxes_of(name), -shift, boxes_of(move.part))});
+      }
+  return most;
+}
+
+/// Gives up at once.
+std::shared_ptr<SequencePlanner> gives_up() {
+  return std::make_shared<fake::Custom>([](const Assembly& a, PathOracle&, SequenceObserver&, RunContext&) {
+    SequenceResult result;
+    result.outcome = Outcome::exhausted;
+    for (const Part& p : a.parts) result.remaining.push_back(p.id);
+    return result;
+  });
+}
+
+RunResult forced_run(const Assembly& assembly, RunContext context) {
+  RunOptions options;
+  options.force.when = ForceWhen::last_resort;
+  return run(assembly, fake::setup(fake::push, gives_up()), options, context);
+}
+
+TEST(ForcedDepth, AgreesWithBruteForceToATenth) {
+  Rng rng(41);
+  unsigned forced = 0;
+  const int trials = testing_support::trials(12, 60);
+  for (int trial = 0; trial < trials; ++trial) {
+    const NamedBoxes parts = blocks_in_a_cage(rng);
+    const Assembly assembly = fake::assembly_of(parts);
+    const RunResult r = forced_run(assembly, {});
+    ASSERT_EQ(r.plan.status, PlanStatus::forced) << "trial " << trial;
+    std::map<std::string, Vector3d> left;
+    for (const auto& p : parts) left[p.first] = Vector3d::Zero();
+    for (const PlanStep& step : r.plan.disassembly) {
+      for (const PlanMove& move : step.moves) {
+        left.erase(move.part);
+        for (const Pose& pose : move.poses) ASSERT_LT(angle_between(pose.q, Pose{}.q), 1e-9);
+      }
+      const double brute = brute_force(step, parts, left);
+      if (!step.forced) {
+        EXPECT_LT(brute, 0.011) << "trial " << trial;
+        continue;
+      }
+      ++forced;
+      EXPECT_NEAR(step.forced->depth, brute, 0.1 * brute) << "trial " << trial;
+    }
+  }
+  EXPECT_GE(forced, static_cast<unsigned>(trials));
+}
+
+TEST(ForcedDepth, WithoutTimeThereIsAWholeAnswerAllTheSame) {
+  Rng rng(43);
+  for (int trial = 0; trial < 12; ++trial) {
+    NamedBoxes parts = blocks_in_a_cage(rng);
+    const std::size_t free = rng.below(4);
+    for (std::size_t k = 0; k < free; ++k) {
+      const Vector3d at(10 + 2.0 * static_cast<double>(k), 0, 0);
+      parts.push_back({"free" + std::to_string(k), {{at, at + Vector3d::Ones()}}});
+    }
+    const Assembly assembly = fake::assembly_of(parts);
+    RunContext context;
+    context.deadline = Deadline::after_seconds(0);
+    const RunResult r = forced_run(assembly, context);
+    EXPECT_EQ(r.plan.status, PlanStatus::forced) << "trial " << trial;
+    EXPECT_EQ(r.plan.disassembly.size(), parts.size() - 1);
+    EXPECT_TRUE(r.plan.unsolved.empty());
+    for (const PlanStep& step : r.plan.disassembly)
+      if (step.forced) EXPECT_FALSE(step.forced->reason.empty());
+  }
+}
+
+/// The planner gives up, but a straight motion that is valid is not forced.
+TEST(ForcedDepth, AStraightMotionThatIsValidIsVerified) {
+  for (const unsigned n : {2u, 5u}) {
+    const RunResult r = forced_run(fake::row(n), {});
+    EXPECT_EQ(r.plan.status, PlanStatus::complete);
+    EXPECT_EQ(r.outcome, Outcome::solved);
+    EXPECT_EQ(r.plan.forced_steps(), 0u);
+    EXPECT_EQ(r.plan.disassembly.size(), n - 1);
+  }
+}
+
+}  // namespace
+}  // namespace dismantle
