@@ -105,7 +105,7 @@ std::vector<std::string> unclean() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Unclean, ForcedSamples, testing::ValuesIn(unclean()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& sample) { return sample.param; });
 
 }  // namespace
 }  // namespace dismantle

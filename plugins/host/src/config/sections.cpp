@@ -55,7 +55,8 @@ void RunSettings::describe(Schema<RunSettings>& s) {
          .min = 0,
          .max = 0.9,
          .min_open = true,
-         .doc = "Advanced. Share of run.timeout that is kept for forced steps."});
+         .doc = "Advanced. Share of run.timeout that is kept for forced steps and for verified ones between them. Each "
+                "part that is left gets its step in it; with more time the steps cut in less."});
   s.add("force_directions", &RunSettings::force_directions,
         {.unit = "1",
          .min = 0,

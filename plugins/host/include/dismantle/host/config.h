@@ -29,7 +29,7 @@ struct RunSettings {
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
   ForceWhen force = ForceWhen::last_resort;
-  double force_share = 0.35;       ///< of `timeout`, kept for forced steps
+  double force_share = 0.15;       ///< of `timeout`, kept for forced steps
   unsigned force_directions = 26;  ///< as ForceOptions::directions
   unsigned force_candidates = 24;
   unsigned force_retry_depth = 3;
