@@ -91,6 +91,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
   const Assembly assembly = load_assembly(options.input, config, registry, context, report, options.part);
   RunOptions run_options = run_options_of(config, options.part);
   run_options.constraints = constraints_of(config.constraints, assembly);
+  run_options.flexible = report.flexible;
   if (!run_options.constraints.empty() && options.part.empty() && !setup.sequence_planner->keeps_constraints())
     throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                             config.sequence_planner.type));

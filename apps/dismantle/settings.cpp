@@ -14,6 +14,7 @@
 #include "dismantle/host/planning_setup.h"
 #include "dismantle/host/suggest.h"
 #include "dismantle/interrupt.h"
+#include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/stopped.h"
 
 namespace dismantle::app {
@@ -105,6 +106,7 @@ Assembly load_assembly(const std::string& input, const RunConfig& config, const 
     Assembly assembly = prepare_assembly(std::move(parts.parts), input, parts.sha256, config.assembly, context, report);
     assembly.import_params = import_params;
     declare_overlaps(config.constraints, assembly);
+    report.flexible = with_declared(std::move(report.flexible), config.constraints.flexible, assembly);
     assembly.excluded.insert(assembly.excluded.end(), ignored.begin(), ignored.end());
     return assembly;
   });

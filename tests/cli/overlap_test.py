@@ -10,7 +10,7 @@ SAMPLES = [
     ("same_plate_twice", 0, None),
     ("spring_between_seats", 0, "local_interference"),
     ("gear_pair", 0, "local_interference"),
-    ("o_ring", 1, None),
+    ("o_ring", 0, "uniform_interference"),
     ("part_in_solid", 1, "inside"),
 ]
 
@@ -53,11 +53,38 @@ class Overlap(CliTest):
         done = self.run_program("verify", "out/plan.json", status=1)
         self.assertIn("measured", done.stderr + done.stdout)
 
+    def test_flexible_parts_are_recognised_and_named(self):
+        for name, part, kind in [("o_ring", "ring", "loop"), ("spring_between_seats", "spring", "coil")]:
+            with self.subTest(name):
+                self.run_program("sample", name, "-o", name, "--set", "rotate_seed=3", "-q", status=0)
+                plan = self.plan(name, status=0)
+                flexible = {p["name"]: p["flexible"] for p in plan["assembly"]["parts"] if "flexible" in p}
+                self.assertEqual(flexible, {part: kind})
+                self.assertEqual({part in (o["a"], o["b"]) for o in plan["assembly"]["overlaps"]}, {True})
+                self.assertTrue(all(o["flexible"] and o["declared"] > o["depth"] for o in plan["assembly"]["overlaps"]))
+                self.run_program("verify", "out/plan.json", "-q", status=0)
+                check = self.run_program("check", name, "--format", "json", "-q")
+                found = json.loads(check.stdout.splitlines()[-1])["findings"]
+                self.assertEqual([f["parts"] for f in found if f["kind"] == "flexible"], [[part]])
+        plan = self.plan("o_ring", "--set", "assembly.flexible=declared", status=1)
+        self.assertEqual(plan["status"], "forced")
+        self.assertFalse([p for p in plan["assembly"]["parts"] if "flexible" in p])
+
+    def test_that_a_rigid_part_is_flexible_is_not_believed(self):
+        self.run_program("sample", "pressed_pin", "-o", "in", "-q", status=0)
+        plan = self.plan("in", status=0)
+        plan["assembly"]["parts"][1]["flexible"] = "coil"
+        plan["assembly"]["overlaps"][0].update({"flexible": True, "declared": 1.0})
+        self.write("out/plan.json", json.dumps(plan))
+        done = self.run_program("verify", "out/plan.json", status=1)
+        self.assertIn("for flexible, and their shape and contact do not say so", done.stderr + done.stdout)
+
     def test_what_the_user_allows_needs_no_force_and_is_named(self):
         self.run_program("sample", "o_ring", "-o", "in", "-q", status=0)
         self.write("run.yaml", "schema: 1\nconstraints: {flexible: [ring]}\n")
         plan = self.plan("in", "-c", "run.yaml", status=0)
         self.assertEqual(plan["status"], "complete")
         named = [o for step in plan["disassembly"] for o in step.get("overlaps", [])]
+        self.assertEqual({p["name"]: p.get("flexible") for p in plan["assembly"]["parts"]}["ring"], "declared")
         self.assertTrue(any("ring" in o["pair"] and o["depth"] > o["assembled"] for o in named), named)
         self.run_program("verify", "out/plan.json", "-q", status=0)

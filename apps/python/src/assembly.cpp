@@ -63,8 +63,12 @@ LoadedAssembly prepared(std::vector<RawPart> parts, const std::string& source, c
   assembly->import_params = std::move(import_params);
   declare_overlaps(config.constraints, *assembly);
   assembly->excluded.insert(assembly->excluded.end(), ignored.begin(), ignored.end());
-  return {std::move(assembly), nullptr, config.sections.at("assembly"), config.constraints.flexible,
-          config.constraints.overlap};
+  return {std::move(assembly),
+          nullptr,
+          config.sections.at("assembly"),
+          config.constraints.flexible,
+          config.constraints.overlap,
+          std::move(report.flexible)};
 }
 
 LoadedAssembly load(const std::string& path, const std::string& file, const std::vector<std::string>& overrides) {

@@ -40,6 +40,7 @@ struct LoadedAssembly {
   ParamSet options;                                 ///< the section `assembly:` that it was prepared with
   std::vector<std::string> flexible{};              ///< `constraints.flexible` that it was prepared with
   std::vector<NamedOverlap> declared{};             ///< `constraints.overlap` that it was prepared with
+  std::vector<FlexiblePart> recognised{};           ///< parts that count as flexible by their shape and contact
 };
 
 /// The plan that Python holds. `info`: what is known of the run that made it, by name; empty when it was read.

@@ -34,7 +34,7 @@ HeldOverlap overlap_of(const Assembly& assembly, const InitialOverlap& overlap) 
 }
 
 HeldOverlap overlap_of(const PlanAssembly& assembly, const PlanOverlap& overlap) {
-  HeldOverlap out{overlap.a, overlap.b, overlap.depth / assembly.scale, {}, overlap.place};
+  HeldOverlap out{overlap.a, overlap.b, overlap.depth / assembly.scale, {}, overlap.place, overlap.flexible};
   if (overlap.declared) out.declared = *overlap.declared / assembly.scale;
   return out;
 }
@@ -47,7 +47,11 @@ void bind_overlap(py::module_& m) {
       .def_readonly("b", &HeldOverlap::b, "Name of the other part.")
       .def_readonly("depth", &HeldOverlap::depth, "How deep, >= 0; input units.")
       .def_readonly("declared", &HeldOverlap::declared,
-                    "Depth that the user allows this pair, whatever it overlaps; input units. None: nothing is said.")
+                    "Depth that is allowed this pair, whatever it overlaps; input units. None: nothing is said.")
+      .def_readonly(
+          "flexible", &HeldOverlap::flexible,
+          "Of a plan: `declared` is no word of the user, but one of the two is recognised as a spring, an O-ring or "
+          "a round belt.")
       .def_property_readonly(
           "contact", of_place([](const OverlapPlace& p) { return py::str(std::string(to_string(p.contact))); }),
           "Class of the contact: 'uniform_interference' (a press fit), 'local_interference' (a clip, a detent), "

@@ -16,6 +16,7 @@ struct HeldOverlap {
   double depth = 0;
   std::optional<double> declared;
   std::optional<OverlapPlace> place;
+  bool flexible = false;
 };
 
 HeldOverlap overlap_of(const Assembly& assembly, const InitialOverlap& overlap);

@@ -29,7 +29,17 @@ void bind_forced(py::module_& m) {
       .def_readonly("assembled", &PlanStepOverlap::assembled, "Depth when assembled; input units.")
       .def_readonly("allowed", &PlanStepOverlap::allowed,
                     "Depth that the step may have, without the tolerance; input units.")
-      .def_readonly("depth", &PlanStepOverlap::depth, "Deepest along the step, measured; input units.");
+      .def_readonly("depth", &PlanStepOverlap::depth, "Deepest along the step, measured; input units.")
+      .def_property_readonly(
+          "at", [](const PlanStepOverlap& o) -> py::object { return o.at ? py::object(array_of(*o.at)) : py::none(); },
+          "(3,): where it is deepest, input coordinates, world; None in plans from older files.")
+      .def_property_readonly(
+          "region",
+          [](const PlanStepOverlap& o) -> py::object {
+            return o.region ? py::object(array_of(std::vector{o.region->lo, o.region->hi})) : py::none();
+          },
+          "(2, 3): where alone the two may be so deep, lowest and highest corner in the frame of either part as "
+          "assembled; None: anywhere.");
 }
 
 }  // namespace

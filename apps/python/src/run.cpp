@@ -14,6 +14,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/host/planning_setup.h"
 #include "dismantle/preparation/assembly_of_plan.h"
+#include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/verification/check_plan.h"
 #include "held.h"
@@ -99,6 +100,7 @@ HeldPlan plan(const LoadedAssembly& loaded, const std::string& file, const std::
         if (progress) context.on_progress = *progress;
         RunOptions options = run_options_of(config, part);
         options.constraints = constraints_of(config.constraints, *assembly);
+        options.flexible = with_declared(loaded.recognised, config.constraints.flexible, *assembly);
         if (!options.constraints.empty() && part.empty() && !setup.sequence_planner->keeps_constraints())
           throw Error(fmt::format("there are constraints, and sequence planner '{}' does not keep any; 'blocking' does",
                                   config.sequence_planner.type));

@@ -12,6 +12,7 @@
 #include "dismantle/aabb.h"
 #include "dismantle/assembly.h"
 #include "dismantle/export.h"
+#include "dismantle/flexible.h"
 #include "dismantle/outcome.h"
 #include "dismantle/pose.h"
 
@@ -40,6 +41,9 @@ struct PlanStepOverlap {
   double assembled = 0;     ///< depth when assembled, input units
   double allowed = 0;       ///< depth that the step may have by rule (b), without its tolerance; input units
   double depth = 0;         ///< the deepest along the step, input units, measured
+  std::optional<Eigen::Vector3d> at{};  ///< there, input units, world
+  /// Where alone they may be so deep, in the frame of either part; input units, assembled.
+  std::optional<Aabb> region{};
 };
 
 /// One step: parts that move, and what that separates.
@@ -104,6 +108,7 @@ struct PlanPart {
   std::string file;
   std::optional<Rgba> colour{};        ///< opaque
   std::vector<std::string> parents{};  ///< assemblies of its file that it is in, outermost first
+  std::optional<Flexible> flexible{};  ///< none: rigid
 };
 
 /// Two parts that are in each other when assembled.
@@ -111,7 +116,8 @@ struct PlanOverlap {
   std::string a, b;
   double depth = 0;                     ///< assembly units
   std::optional<OverlapPlace> place{};  ///< input units; none: the file does not say
-  std::optional<double> declared{};     ///< depth that the user allows this pair; assembly units
+  std::optional<double> declared{};     ///< depth that is allowed this pair, whatever it overlaps; assembly units
+  bool flexible = false;                ///< `declared` is no word of the user: one of the two is recognised as flexible
 };
 
 /// The assembly that a plan is for, as the plan file states it.

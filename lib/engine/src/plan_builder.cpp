@@ -19,6 +19,18 @@ static std::optional<OverlapPlace> place_in_input(std::optional<OverlapPlace> pl
   return place;
 }
 
+/// A pair for which the user has said otherwise keeps that: its depth is another.
+static void state_flexible(const FlexiblePart& flexible, PlanAssembly& assembly) {
+  for (PlanPart& part : assembly.parts)
+    if (part.name == flexible.part) part.flexible = flexible.kind;
+  const auto with = [&](const std::string& name) {
+    return std::find(flexible.others.begin(), flexible.others.end(), name) != flexible.others.end();
+  };
+  for (PlanOverlap& o : assembly.overlaps)
+    if ((o.a == flexible.part && with(o.b)) || (o.b == flexible.part && with(o.a)))
+      o.flexible = o.declared == std::max(o.depth, flexible.depth);
+}
+
 static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   Plan plan;
   plan.generator_version = DISMANTLE_VERSION;
@@ -34,13 +46,14 @@ static Plan empty_plan(const Assembly& assembly, const RunOptions& options) {
   a.import_params = assembly.import_params;
   a.unit = assembly.unit;
   for (const auto& part : assembly.parts) {
-    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents});
+    a.parts.push_back({part.id, part.name, part.file, part.colour, part.parents, {}});
     if (part.colour) a.parts.back().colour->a = 255;
   }
   for (const auto& excluded : assembly.excluded) a.excluded.emplace_back(excluded.name, excluded.reason);
   for (const auto& o : assembly.overlaps)
     a.overlaps.push_back({assembly.parts.at(o.a).name, assembly.parts.at(o.b).name, o.depth,
-                          place_in_input(o.place, assembly.normalization), o.declared});
+                          place_in_input(o.place, assembly.normalization), o.declared, false});
+  for (const FlexiblePart& f : options.flexible) state_flexible(f, a);
   return plan;
 }
 

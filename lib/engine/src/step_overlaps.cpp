@@ -36,8 +36,17 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
         const auto found = meter.deepest({part}, {{other, poses[other]}}, column,
                                          {verifier.options().max_penetration, kShare}, context, true);
         if (!found || found->depth <= 0) continue;
-        all[k].push_back({assembly.parts[part].name, assembly.parts[other].name, o->depth / scale, o->allowed() / scale,
-                          found->depth / scale});
+        const Normalization& to = assembly.normalization;
+        PlanStepOverlap used{assembly.parts[part].name,
+                             assembly.parts[other].name,
+                             o->depth / scale,
+                             o->allowed() / scale,
+                             found->depth / scale,
+                             to.to_input(found->point),
+                             {}};
+        if (const auto region = verifier.overlap_region(part, other))
+          used.region = Aabb{to.to_input(region->lo), to.to_input(region->hi)};
+        all[k].push_back(std::move(used));
       }
     }
     for (std::size_t i = 0; i < step.parts.size(); ++i) {

@@ -40,12 +40,14 @@ TEST(PlanOverlaps, AreReadAsTheyWereWritten) {
   for (int i = 0; i < 200; ++i) {
     PlanOverlap written{"peg", "hole", rng.uniform()};
     if (i % 4 != 0) written.place = any_place(rng);
+    if (i % 3 == 0) written.flexible = true;
     const Plan read = plan_from_json(to_json(plan_with({written})), "plan.json");
     ASSERT_EQ(read.assembly.overlaps.size(), 1u);
     const PlanOverlap& o = read.assembly.overlaps.front();
     EXPECT_EQ(o.a, written.a);
     EXPECT_EQ(o.b, written.b);
     EXPECT_EQ(o.depth, written.depth);
+    EXPECT_EQ(o.flexible, written.flexible);
     ASSERT_EQ(o.place.has_value(), written.place.has_value());
     if (!o.place) continue;
     EXPECT_EQ(o.place->contact, written.place->contact);
@@ -55,6 +57,35 @@ TEST(PlanOverlaps, AreReadAsTheyWereWritten) {
     EXPECT_EQ(o.place->share, written.place->share);
     EXPECT_EQ(o.place->axis, written.place->axis);
     EXPECT_EQ(o.place->axis_point, written.place->axis_point);
+  }
+}
+
+TEST(PlanOverlaps, OfStepsAndFlexiblePartsAreReadAsTheyWereWritten) {
+  Rng rng(3);
+  for (int i = 0; i < 50; ++i) {
+    Plan plan = plan_with({});
+    if (i % 4 > 0) plan.assembly.parts[1].flexible = static_cast<Flexible>(i % 4 - 1);
+    PlanStep step;
+    step.step = 1;
+    step.moves = {{"peg", {Pose{}, Pose{any_point(rng), Eigen::Quaterniond::Identity()}}}};
+    step.separates = {{"peg"}};
+    PlanStepOverlap used{"peg", "hole", rng.uniform(), rng.uniform(), rng.uniform(), {}, {}};
+    if (i % 2 == 0) used.at = any_point(rng);
+    if (i % 3 == 0) used.region = any_place(rng).region;
+    step.overlaps = {used};
+    plan.disassembly = {step};
+    const Plan read = plan_from_json(to_json(plan), "plan.json");
+    EXPECT_EQ(read.assembly.parts[0].flexible, std::nullopt);
+    EXPECT_EQ(read.assembly.parts[1].flexible, plan.assembly.parts[1].flexible);
+    const PlanStepOverlap& o = read.disassembly.at(0).overlaps.at(0);
+    EXPECT_EQ(o.assembled, used.assembled);
+    EXPECT_EQ(o.allowed, used.allowed);
+    EXPECT_EQ(o.depth, used.depth);
+    EXPECT_EQ(o.at, used.at);
+    ASSERT_EQ(o.region.has_value(), used.region.has_value());
+    if (!o.region) continue;
+    EXPECT_EQ(o.region->lo, used.region->lo);
+    EXPECT_EQ(o.region->hi, used.region->hi);
   }
 }
 

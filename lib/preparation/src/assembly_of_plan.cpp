@@ -8,6 +8,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/preparation/declared_overlaps.h"
+#include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/prepare.h"
 
 namespace dismantle {
@@ -65,6 +66,14 @@ void set_normalization(Assembly& assembly, const Normalization& to) {
   assembly.normalization = to;
 }
 
+/// Only of parts that the plan takes for flexible: one that takes them for rigid is held to that.
+void recognise_flexible_of(const Plan& plan, Assembly& assembly, const RunContext& context) {
+  std::vector<std::string> named;
+  for (const PlanPart& part : plan.assembly.parts)
+    if (part.flexible && *part.flexible != Flexible::declared) named.push_back(part.name);
+  if (!named.empty()) recognise_flexible(assembly, context, &named);
+}
+
 }  // namespace
 
 Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string& source, RunContext& context) {
@@ -76,6 +85,7 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
   options.max_hole = plan.assembly.repair.max_hole;
   options.drop_duplicates = false;  // the plan says which parts stay
   options.subdivide = 0;
+  options.flexible = FlexibleParts::declared;  // below: those that the plan names, if they are such
   options.max_triangles = std::numeric_limits<std::int64_t>::max();
   PrepareReport report;
   Assembly assembly = prepare_assembly(std::move(input.parts), source, input.sha256, options, context, report);
@@ -84,8 +94,9 @@ Assembly assembly_of_plan(const Plan& plan, InputParts input, const std::string&
       throw InputError(source,
                        fmt::format("part '{}', which the plan is about, cannot be used: {}", part.name, part.reason));
   set_normalization(assembly, {plan.assembly.scale, plan.assembly.center});
+  recognise_flexible_of(plan, assembly, context);
   for (const PlanOverlap& o : plan.assembly.overlaps)
-    if (o.declared) declare_overlap(assembly, o.a, o.b, *o.declared);
+    if (o.declared && !o.flexible) declare_overlap(assembly, o.a, o.b, *o.declared);
   return assembly;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dismantle/errors.h"
-#include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/preparation/flexible_parts.h"
 
 namespace dismantle {
 
@@ -38,8 +38,7 @@ void declare_overlap(Assembly& assembly, const std::string& a, const std::string
 
 void declare_flexible(Assembly& assembly, const std::string& part) {
   const PartId id = part_of(assembly, part);
-  const double area = surface_area(*assembly.parts[id].mesh);
-  const double thickness = area > 0 ? 4 * assembly.parts[id].volume / area : 0;
+  const double thickness = flexible_depth(assembly.parts[id]);
   for (const Part& other : assembly.parts) {
     if (other.id == id) continue;
     InitialOverlap& pair = entry_of(assembly, id, other.id);

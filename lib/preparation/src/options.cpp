@@ -51,6 +51,14 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
         {.unit = "unit",
          .min = 0.0,
          .doc = "Longest edge of the surface that contact points are taken from (step 9). 0 = as it is."});
+  s.add_choice<FlexibleParts>("flexible", &PrepareOptions::flexible,
+                              {{"recognised", FlexibleParts::recognised,
+                                "parts whose shape is that of a spring, an O-ring or a round belt, and that overlap "
+                                "others when assembled, too"},
+                               {"declared", FlexibleParts::declared, "only those that constraints.flexible names"}},
+                              "Which parts count as flexible: other parts that are in them when assembled may cut into "
+                              "them as deep as they are "
+                              "thick.");
   s.add("max_triangles", &PrepareOptions::max_triangles,
         {.unit = "1",
          .min = 1.0,

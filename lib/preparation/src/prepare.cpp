@@ -13,6 +13,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_subdivide.h"
+#include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/verification/contact.h"
 #include "dismantle/verification/verifier.h"
@@ -49,6 +50,7 @@ class Preparation {
     normalize();
     subdivide_parts();
     measure_overlaps();
+    if (options_.flexible == FlexibleParts::recognised) report_.flexible = recognise_flexible(assembly_, context_);
     for (const auto& part : report_.parts)
       if (!part.kept) assembly_.excluded.push_back({part.name, part.reason, part.by_choice});
     for (const auto& warning : report_.warnings) context_.log(LogLevel::warning, warning);

@@ -54,7 +54,7 @@ TEST(DeclaredOverlaps, AFlexibleWireMayBeCutThrough) {
 TEST(DeclaredOverlaps, WhatIsInsideOrTheSameIsNotAllowedUnlessDeclared) {
   for (const ContactClass contact : {ContactClass::inside, ContactClass::duplicate}) {
     Assembly assembly = three();
-    assembly.overlaps.front().place = OverlapPlace{contact};
+    assembly.overlaps.front().place.emplace().contact = contact;
     EXPECT_EQ(assembly.initial_overlap(0, 1), 0);
     declare_overlap(assembly, "part0", "part1", 0.3);
     EXPECT_EQ(assembly.initial_overlap(1, 0), 0.3);

@@ -31,6 +31,9 @@ constexpr std::size_t kManySegments = 16;  // of a way that is looked at in samp
 /// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
 constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
 constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
+/// An overlap of so many times max_penetration is allowed where it was alone. Below that it hides little: the tolerance
+/// itself holds everywhere.
+constexpr double kDeepOverlap = 10;
 /// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
 /// more patches, where it matters.
 constexpr std::uint64_t kForBuried = 5;
@@ -52,8 +55,48 @@ std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
 
 }  // namespace
 
+struct Verifier::Impl::Relative {
+  std::vector<Pose> poses_a, poses_b;
+  Aabb box_b;
+  verify::RelativeMotion forward;
+
+  /// Displaced corners may leave the boxes by `displaced`.
+  Relative(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double displaced)
+      : poses_a(in_frame(a.poses, x.frame)),
+        poses_b(in_frame(b.poses, y.frame)),
+        box_b(grown(y.box, displaced)),
+        forward(poses_a, poses_b, grown(x.box, displaced)) {}
+  verify::RelativeMotion backward() const { return {poses_b, poses_a, box_b}; }
+
+  static Aabb grown(Aabb box, double by) {
+    box.inflate(by);
+    return box;
+  }
+};
+
+Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                                    const Finding& found, double allowed, std::size_t segments) {
+  Violation v;
+  v.part = found.of_second ? b.part : a.part;
+  v.other = found.of_second ? a.part : b.part;
+  v.point = (found.of_second ? y.frame : x.frame) * found.point;
+  v.depth = std::max(0.0, found.depth);
+  v.allowed = allowed;
+  v.segment = static_cast<std::size_t>(std::min(std::floor(found.time), static_cast<double>(segments) - 1));
+  v.u = found.time - static_cast<double>(v.segment);
+  v.uncertain = found.answer != Answer::violated;
+  return v;
+}
+
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
     : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)), bodies(a.parts.size()) {
+  for (const InitialOverlap& o : assembly_overlaps) {
+    const double depth = o.allowed();
+    if (o.declared || !o.place || !(depth > kDeepOverlap * options.max_penetration)) continue;
+    Aabb box = o.place->region;
+    box.inflate(depth + options.max_penetration);
+    regions.push_back({o.a, o.b, box});
+  }
   const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
   parallel_for(
@@ -72,6 +115,13 @@ double Verifier::Impl::overlap(PartId a, PartId b) const {
   for (const auto& o : assembly_overlaps)
     if (o.a == a && o.b == b) return o.allowed();
   return 0;
+}
+
+const Aabb* Verifier::Impl::region(PartId a, PartId b) const {
+  if (a > b) std::swap(a, b);
+  for (const Region& r : regions)
+    if (r.a == a && r.b == b) return &r.box;
+  return nullptr;
 }
 
 /// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
@@ -128,24 +178,41 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& con
   for (const auto& x : bodies[a.part].solids)
     for (const auto& y : bodies[b.part].solids)
       if (!check(a, b, x, y, allowed, context, rung, result)) return false;
+  if (const Aabb* where = region(a.part, b.part))
+    for (const auto& x : bodies[a.part].solids)
+      for (const auto& y : bodies[b.part].solids)
+        if (!check_elsewhere(a, b, x, y, *where, context, result)) return false;
   return true;
+}
+
+/// Law 3: outside the region of the initial overlap.
+bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                                     const Aabb& region, const RunContext& context, MotionCheck& result) const {
+  const verify::Limits limits{0, options.max_penetration, &region};
+  const Relative motion(a, b, x, y, limits.most());
+  if (!motion.forward.swept_box().overlaps(y.box)) return true;
+  verify::Budget budget{kFullTests + kFullTestsPerSegment * motion.forward.segments(), kForBuried * kFullPatches, 0,
+                        &context};
+  const Finding f = verify::check_pair(x, y, motion.forward, motion.backward(), limits, budget);
+  result.tests += budget.tests_done;
+  if (f.answer == Answer::certified) return true;
+  result.interrupted = f.answer == Answer::exhausted && context.should_stop();
+  if (result.interrupted) return false;
+  result.violation = violation(a, b, x, y, f, 0, motion.forward.segments());
+  result.violation->elsewhere = true;
+  return false;
 }
 
 bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                            double allowed, const RunContext& context, std::size_t& rung, MotionCheck& result) const {
-  const auto grown = [&](Aabb box) {  // displaced corners may leave the box by as much as they are displaced
-    box.inflate(allowed + options.max_penetration);
-    return box;
-  };
-  const std::vector<Pose> poses_a = in_frame(a.poses, x.frame), poses_b = in_frame(b.poses, y.frame);
-  const verify::RelativeMotion forward(poses_a, poses_b, grown(x.box));
+  const Relative motion(a, b, x, y, allowed + options.max_penetration);
+  const verify::RelativeMotion& forward = motion.forward;
   if (!forward.swept_box().overlaps(y.box)) return true;
-  const verify::RelativeMotion backward(poses_b, poses_a, grown(y.box));
+  const verify::RelativeMotion backward = motion.backward();
 
   const std::size_t last = rungs.size() - 1;
   // Paths of many segments are close fits, on which the low rungs fail: samples first.
-  bool sampled = forward.segments() >= kManySegments &&
-                 geometry::box_under(x.box, poses_b.front().inverse() * poses_a.front()).overlaps(y.box);
+  bool sampled = forward.segments() >= kManySegments && geometry::box_under(x.box, forward.at(0)).overlaps(y.box);
   bool sample_tells = false;
   Finding seen;
   if (sampled) {
@@ -175,17 +242,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     const bool beyond_all =
         f.answer == Answer::violated && f.depth > verify::Limits{allowed, options.max_penetration}.at(f.thickness);
     if (rung == last || beyond_all) {
-      Violation v;
-      v.part = f.of_second ? b.part : a.part;
-      v.other = f.of_second ? a.part : b.part;
-      v.point = (f.of_second ? y.frame : x.frame) * f.point;
-      v.depth = std::max(0.0, f.depth);
-      v.allowed = allowed;
-      const double end = static_cast<double>(forward.segments());
-      v.segment = static_cast<std::size_t>(std::min(std::floor(f.time), end - 1));
-      v.u = f.time - static_cast<double>(v.segment);
-      v.uncertain = f.answer != Answer::violated;
-      result.violation = v;
+      result.violation = violation(a, b, x, y, f, allowed, forward.segments());
       return false;
     }
     ++rung;
@@ -209,6 +266,11 @@ Verifier::~Verifier() = default;
 const VerifyOptions& Verifier::options() const { return impl_->options; }
 
 std::size_t Verifier::parts() const { return impl_->bodies.size(); }
+
+std::optional<Aabb> Verifier::overlap_region(PartId a, PartId b) const {
+  const Aabb* where = impl_->region(a, b);
+  return where == nullptr ? std::nullopt : std::optional(*where);
+}
 
 const std::vector<Vec3>& Verifier::hull(PartId part) const { return impl_->bodies.at(part).corners; }
 
@@ -252,7 +314,11 @@ bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const s
   const geometry::SweptBoxes a(way, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
   if (!a.meets(b, 0)) return true;
   const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
-  return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[fixed].solids, fixed_at, limits);
+  const auto keeps_to = [&](const verify::Limits& to) {
+    return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[fixed].solids, fixed_at, to);
+  };
+  const Aabb* where = impl_->region(moving, fixed);
+  return keeps_to(limits) && (where == nullptr || keeps_to({0, impl_->options.max_penetration, where}));
 }
 
 verify::HullsApart Verifier::Impl::hulls_of(const std::vector<PlacedPart>& group,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/geometry/directed_check.h"
 #include "dismantle/geometry/hulls_apart.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/swept_boxes.h"
@@ -28,10 +29,14 @@ struct Verifier::Impl {
     Actor(PartId id, std::vector<Pose> at, const Aabb& box) : part(id), poses(std::move(at)), swept(poses, box) {}
   };
 
+  /// How two solids move past each other, both ways.
+  struct Relative;
+
   Impl(const Assembly& assembly, VerifyOptions options, Executor* executor);
 
   /// The pair's when assembled.
   double overlap(PartId a, PartId b) const;
+  const Aabb* region(PartId a, PartId b) const;
   verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
   /// What was seen of a pair.
@@ -46,8 +51,17 @@ struct Verifier::Impl {
   bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,
              const RunContext& context, std::size_t& rung, MotionCheck& result) const;
+  static Violation violation(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                             const geometry::Finding& found, double allowed, std::size_t segments);
+  bool check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
+                       const Aabb& region, const RunContext& context, MotionCheck& result) const;
 
   std::vector<InitialOverlap> assembly_overlaps;
+  struct Region {
+    PartId a = 0, b = 0;
+    Aabb box;
+  };
+  std::vector<Region> regions;  // of pairs whose overlap is allowed where it was
   VerifyOptions options;
   std::vector<double> rungs;
   std::vector<Body> bodies;

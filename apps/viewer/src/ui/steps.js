@@ -14,7 +14,7 @@ function facts(app, {step}) {
   if (step.contacts?.length > 0) row('touches', step.contacts.join(', '));
   if (step.after?.length > 0) row('after', `step${step.after.length === 1 ? '' : 's'} ${step.after.join(', ')}`);
   for (const o of step.overlaps ?? [])
-    row('overlap', `${o.pair.join(' and ')}: ${number(o.assembled)} units when assembled, up to ${number(o.depth)} along the way`);
+    row('overlap', `${o.pair.join(' and ')}: ${number(o.assembled)} units when assembled, up to ${number(o.depth)} along the way${o.at ? `, at ${o.at.map(number).join(', ')}` : ''}${o.region ? '; only where they overlap when assembled' : ''}`);
   if (step.forced) row('forced', forcedWords(step.forced));
   return element('dl.facts', {}, rows);
 }

@@ -104,6 +104,7 @@ void plan_trial(const fs::path& folder) {
   if (config.run.timeout > 0) context.deadline = Deadline::after_seconds(config.run.timeout);
   Recorder recorder(folder);
   RunOptions options = run_options_of(config, request.part);
+  options.flexible = report.flexible;
   options.force.when = ForceWhen::off;  // planners are compared by what they find
   const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);

@@ -217,11 +217,27 @@ bool DirectedCheck::outside(const Placement& place, const Corners& moved) const 
   return !b_.bvh.inside(place * ((moved[0] + moved[1] + moved[2]) / 3));
 }
 
+/// All of the patch is in the exempt box, once and for all or during the interval.
+bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch) const {
+  if (limits_.exempt == nullptr) return false;
+  const auto inside = [&](const Corners& corners, const Pose& to_assembled, double inset) {
+    Aabb box = *limits_.exempt;
+    box.inflate(-inset);
+    return std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) { return box.contains(to_assembled * p); });
+  };
+  if (inside(patch.p, a_.frame, 0)) return true;
+  return inside(placed(i.at0, patch.p), b_.frame, margin) && inside(placed(i.at1, patch.p), b_.frame, margin);
+}
+
 /// Certifies one patch for one interval, or puts it (or its quarters) on one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   const Patch patch = patches_[id];
   const double most = allowed(patch), e = most * kShare, leeway = most - limits_.overlap;
   const double margin = i.bend.at(patch.center(), patch.radius() + most);
+  if (exempt(i, margin, patch)) {
+    by_shrunken_copy_ = false;
+    return true;
+  }
   const bool bent = margin > 0.5 * leeway;
   bool far = false;
   if (!bent || (vertex_rule && worth_a_test(i, margin, patch.triangle))) {
@@ -244,7 +260,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   for (std::size_t k = 0; k < 3; ++k) travel = std::max(travel, (end[k] - begin[k]).norm());
   const Escape center = escape_at(mid * patch.center(), b_);
   const double depth = center.depth;
-  if (depth > most) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
+  const auto violates = [&](const Vec3& point, double at_depth, const Placement& place) {
+    return at_depth > most && !limits_.exempts(a_, point, b_, place * point);
+  };
+  if (violates(patch.center(), depth, mid)) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
   const double reach = patch.radius() + 0.5 * travel + 2 * margin;
   if (depth + reach <= most) {  // depth changes no faster than the point moves
     by_shrunken_copy_ = false;
@@ -260,14 +279,14 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
     const auto deepest = static_cast<std::size_t>(seen.deepest);
-    if (seen.depth[deepest] > most)
+    if (attempt == 0 && violates(patch.p[deepest], seen.depth[deepest], mid))
       return fail(Answer::violated, patch.p[deepest], seen.depth[deepest], patch.triangle, s);
     if (leaves(moved_by_probe(patch, seen, e))) return true;
     if (attempt > 0) break;
     for (const auto& [place, time] : {std::pair(i.at0, i.s0), std::pair(i.at1, i.s1)}) {
       const Probe at_end = probe(patch, place, b_);
       const auto corner = static_cast<std::size_t>(at_end.deepest);
-      if (at_end.depth[corner] > most)
+      if (violates(patch.p[corner], at_end.depth[corner], place))
         return fail(Answer::violated, patch.p[corner], at_end.depth[corner], patch.triangle, time);
       seen.deepen(at_end);
     }

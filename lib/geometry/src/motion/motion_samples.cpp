@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
 
 /// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
-/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample) for those within
-/// `b`, until it says that this is enough: then true.
+/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample, place in the
+/// frame of b) for those within `b`, until it says that this is enough: then true.
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, const Take& take) {
@@ -35,7 +35,7 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
       const Eigen::Vector3d x = place * p;
       if (!b.box.contains(x) || !b.bvh.inside(x)) continue;
       const double depth = b.bvh.closest(x).distance;
-      if (take(Finding{Answer::violated, p, of_second, depth, a.thickness[t], time})) return true;
+      if (take(Finding{Answer::violated, p, of_second, depth, a.thickness[t], time}, x)) return true;
     }
   }
   return false;
@@ -46,7 +46,7 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
 Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward) {
   Finding best;
   best.answer = Answer::violated;
-  const auto take = [&](const Finding& f) {
+  const auto take = [&](const Finding& f, const Eigen::Vector3d&) {
     if (f.depth > best.depth) best = f;
     return false;
   };
@@ -57,7 +57,10 @@ Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& for
 
 bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits) {
-  const auto beyond = [&](const Finding& f) { return f.depth > limits.at(f.thickness); };
+  const auto beyond = [&](const Finding& f, const Eigen::Vector3d& x) {
+    const Solid &of = f.of_second ? b : a, &in = f.of_second ? a : b;
+    return f.depth > limits.at(f.thickness) && !limits.exempts(of, f.point, in, x);
+  };
   return sample(a, b, forward, backward, false, beyond) || sample(b, a, backward, forward, true, beyond);
 }
 

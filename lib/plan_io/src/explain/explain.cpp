@@ -117,9 +117,17 @@ std::string forced_text(const Plan& plan, const PlanForced& forced) {
 
 std::string overlaps_text(const Plan& plan, const PlanStep& step) {
   std::string out;
-  for (const PlanStepOverlap& o : step.overlaps)
-    out += fmt::format("       {} and {} overlap by {} when assembled, by up to {} along the way\n", o.part, o.other,
+  const auto point = [](const Eigen::Vector3d& p) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x(), p.y(), p.z());
+  };
+  for (const PlanStepOverlap& o : step.overlaps) {
+    out += fmt::format("       {} and {} overlap by {} when assembled, by up to {} along the way", o.part, o.other,
                        length_text(plan, o.assembled), length_text(plan, o.depth));
+    if (o.at) out += fmt::format(", at {}", point(*o.at));
+    if (o.region)
+      out += fmt::format(", and only where they do from {} to {}", point(o.region->lo), point(o.region->hi));
+    out += "\n";
+  }
   return out;
 }
 

@@ -74,13 +74,14 @@ Aabb read_box(const Place& place) {
 
 /// Files of older versions do not say what kind of overlap it is.
 PlanOverlap read_overlap(const Place& place, const Names& parts) {
-  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis", "declared"});
+  place.object({"a", "b", "depth"}, {"class", "at", "region", "share", "axis", "declared", "flexible"});
   PlanOverlap o{read_part(place.at("a"), parts), read_part(place.at("b"), parts), place.at("depth").number_from_zero()};
   if (o.a == o.b) place.fail("a part cannot overlap itself");
   if (place.has("declared")) o.declared = place.at("declared").number_from_zero();
+  if (place.has("flexible")) o.flexible = place.at("flexible").truth();
   const auto says = [&](const char* key) { return place.has(key); };
   if (std::ranges::none_of(std::array{"class", "at", "region", "share", "axis"}, says)) return o;
-  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis", "declared"});
+  place.object({"a", "b", "depth", "class", "at", "region", "share"}, {"axis", "declared", "flexible"});
   const auto contact = contact_class_from_string(place.at("class").text());
   if (!contact) place.at("class").fail("expected the class of a contact, as in \"uniform_interference\"");
   o.place = OverlapPlace{*contact, read_vector(place.at("at")), read_box(place.at("region")),
@@ -104,7 +105,7 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
   a.center = read_vector(place.at("center"));
   if (const Place box = place.at("bbox"); !box.is_null()) a.box = read_box(box);
   for (const Place& item : place.at("parts").items()) {
-    item.object({"id", "name", "file"}, {"color", "parents"});
+    item.object({"id", "name", "file"}, {"color", "parents", "flexible"});
     PlanPart p{item.at("id").small_count(), item.at("name").name(), item.at("file").text()};
     if (item.has("color")) {
       p.colour = rgba_from_hex(item.at("color").text());
@@ -112,6 +113,10 @@ PlanAssembly read_assembly(const Place& place, Names& parts) {
     }
     if (item.has("parents"))
       for (const Place& parent : item.at("parents").items()) p.parents.push_back(parent.text());
+    if (item.has("flexible")) {
+      p.flexible = flexible_from_string(item.at("flexible").text());
+      if (!p.flexible) item.at("flexible").fail("expected \"declared\", \"coil\" or \"loop\"");
+    }
     if (p.id != a.parts.size())
       item.at("id").fail(fmt::format("expected {}: parts are numbered in order", a.parts.size()));
     if (!parts.insert(p.name).second) item.at("name").fail(fmt::format("there are two parts '{}'", p.name));
@@ -192,12 +197,14 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
   if (place.has("layer")) s.layer = place.at("layer").small_count();
   if (place.has("overlaps"))
     for (const Place& item : place.at("overlaps").items()) {
-      item.object({"pair", "assembled", "allowed", "depth"});
+      item.object({"pair", "assembled", "allowed", "depth"}, {"at", "region"});
       const auto pair = item.at("pair").items();
       if (pair.size() != 2) item.at("pair").fail("expected two parts");
       s.overlaps.push_back({read_part(pair[0], parts), read_part(pair[1], parts),
                             item.at("assembled").number_from_zero(), item.at("allowed").number_from_zero(),
                             item.at("depth").number_from_zero()});
+      if (item.has("at")) s.overlaps.back().at = read_vector(item.at("at"));
+      if (item.has("region")) s.overlaps.back().region = read_box(item.at("region"));
     }
   if (place.has("forced")) {
     const Place forced = place.at("forced");

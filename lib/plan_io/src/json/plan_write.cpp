@@ -36,6 +36,16 @@ Json poses_json(const std::vector<Pose>& poses) {
   return out;
 }
 
+Json box_json(const Aabb& box) { return Json::array({vector_json(box.lo), vector_json(box.hi)}); }
+
+Json step_overlap_json(const PlanStepOverlap& o) {
+  Json out = {
+      {"pair", Json::array({o.part, o.other})}, {"assembled", o.assembled}, {"allowed", o.allowed}, {"depth", o.depth}};
+  if (o.at) out["at"] = vector_json(*o.at);
+  if (o.region) out["region"] = box_json(*o.region);
+  return out;
+}
+
 Json step_json(const PlanStep& s, bool assembly) {
   Json moves = Json::array();
   for (const PlanMove& m : s.moves) moves.push_back({{"part", m.part}, {"poses", poses_json(m.poses)}});
@@ -50,11 +60,7 @@ Json step_json(const PlanStep& s, bool assembly) {
   if (!assembly) {
     out["after"] = s.after;
     out["layer"] = s.layer;
-    for (const PlanStepOverlap& o : s.overlaps)
-      out["overlaps"].push_back({{"pair", Json::array({o.part, o.other})},
-                                 {"assembled", o.assembled},
-                                 {"allowed", o.allowed},
-                                 {"depth", o.depth}});
+    for (const PlanStepOverlap& o : s.overlaps) out["overlaps"].push_back(step_overlap_json(o));
   }
   if (s.forced) {
     Json& forced = out["forced"];
@@ -89,11 +95,10 @@ Json import_json(const ImportParams& params) {
   return out;
 }
 
-Json box_json(const Aabb& box) { return Json::array({vector_json(box.lo), vector_json(box.hi)}); }
-
 Json overlap_json(const PlanOverlap& o) {
   Json out = {{"a", o.a}, {"b", o.b}, {"depth", o.depth}};
   if (o.declared) out["declared"] = *o.declared;
+  if (o.flexible) out["flexible"] = true;
   if (!o.place) return out;
   out["class"] = std::string(to_string(o.place->contact));
   out["at"] = vector_json(o.place->at);
@@ -109,6 +114,7 @@ Json assembly_json(const PlanAssembly& a) {
   for (const PlanPart& p : a.parts) {
     parts.push_back({{"id", p.id}, {"name", p.name}, {"file", p.file}});
     if (p.colour) parts.back()["color"] = to_hex(*p.colour);
+    if (p.flexible) parts.back()["flexible"] = std::string(to_string(*p.flexible));
     if (!p.parents.empty()) parts.back()["parents"] = p.parents;
   }
   for (const auto& [name, reason] : a.excluded) excluded.push_back({{"name", name}, {"reason", reason}});

@@ -1,6 +1,7 @@
 #include "dismantle/preparation/check_assembly.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -61,6 +62,27 @@ void add_part_findings(const PrepareReport& report, AssemblyCheck& check) {
                                 "nothing, if the part still looks right (dismantle prepare writes it)",
                                 {},
                                 {}});
+  }
+}
+
+void add_flexible_findings(const PrepareReport& report, double scale, AssemblyCheck& check) {
+  for (const FlexiblePart& f : report.flexible) {
+    const double depth = f.depth / scale;
+    Finding finding;
+    finding.kind = FindingKind::flexible;
+    finding.severity = Severity::note;
+    finding.parts = {f.part};
+    finding.depth = depth;
+    if (f.kind == Flexible::declared) {
+      finding.message = fmt::format("'{}' is declared as flexible: others may cut {:.3g} into it", f.part, depth);
+      finding.advice = "nothing";
+    } else {
+      finding.message = fmt::format("'{}' is taken for flexible, since it is {}: '{}' may cut {:.3g} into it", f.part,
+                                    f.kind == Flexible::coil ? "a wire that coils" : "a closed round strand",
+                                    fmt::join(f.others, "', '"), depth);
+      finding.advice = "nothing, if it bends (spring, O-ring, belt); else set assembly.flexible=declared";
+    }
+    check.findings.push_back(std::move(finding));
   }
 }
 
@@ -175,7 +197,8 @@ class Geometry {
     const auto overlaps = [&](const char* where) {
       finding.message = fmt::format("'{}' and '{}' overlap {}, {}", pair.a, pair.b, where, share);
     };
-    const char* mend = "correct the model: a plan allows this pair to stay as deep in each other all along";
+    const char* mend =
+        "correct the model: a plan lets this pair be as deep in each other along the way, where they are now";
     switch (*finding.contact) {
       case ContactClass::duplicate:
         finding.kind = FindingKind::duplicate;
@@ -263,6 +286,7 @@ AssemblyCheck check_assembly(const Assembly& assembly, const PrepareReport& repo
                              const RunContext& context) {
   AssemblyCheck check;
   add_part_findings(report, check);
+  add_flexible_findings(report, assembly.normalization.scale, check);
   Geometry(assembly, tolerance, context).add_findings(check);
   sort_findings(check);
   return check;

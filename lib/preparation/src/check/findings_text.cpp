@@ -24,6 +24,8 @@ std::string_view to_string(FindingKind kind) {
       return "enclosed";
     case FindingKind::isolated:
       return "isolated";
+    case FindingKind::flexible:
+      return "flexible";
   }
   return "unknown";
 }

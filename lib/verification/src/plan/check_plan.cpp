@@ -79,6 +79,7 @@ class Checker {
     }
     for (const auto& part : assembly_.parts)
       if (!names.contains(part.name)) problem(fmt::format("part '{}' of the assembly is not in the plan", part.name));
+    note("", depths_.wrong_flexible(plan_.assembly));
   }
 
   std::optional<StepMotion> read(const PlanStep& step, const char* what) {
@@ -105,6 +106,10 @@ class Checker {
     if (v.uncertain)
       problem(fmt::format("{}'{}' could not be shown to clear '{}' {}", what, state_.name(v.part), state_.name(v.other),
                           where));
+    else if (v.elsewhere)
+      problem(fmt::format("{}'{}' penetrates '{}' by {:.4g} {} where they do not overlap when assembled, {}", what,
+                          state_.name(v.part), state_.name(v.other), v.depth / assembly_.normalization.scale,
+                          assembly_.unit.empty() ? "input units" : assembly_.unit, where));
     else
       problem(fmt::format("{}'{}' penetrates '{}' by {:.4g} {} ({:.4g} when assembled) {}", what, state_.name(v.part),
                           state_.name(v.other), v.depth / assembly_.normalization.scale,

@@ -45,9 +45,37 @@ std::optional<std::string> DepthStatements::wrong(const PlanStepOverlap& said, c
   const auto found = meter_.deepest({*part}, {{*other, state_.place[*other]}}, path,
                                     {verifier_.options().max_penetration, kShare / 2}, context_, true);
   const double measured = found ? found->depth : 0;
+  if (const auto region = verifier_.overlap_region(*part, *other); region && said.region) {
+    const Normalization& to = assembly_.normalization;
+    const double off = std::max((to.to_internal(said.region->lo) - region->lo).cwiseAbs().maxCoeff(),
+                                (to.to_internal(said.region->hi) - region->hi).cwiseAbs().maxCoeff());
+    if (off > 2 * verifier_.options().max_penetration)
+      return fmt::format("it says of '{}' and '{}' that they overlap elsewhere than measured", said.part, said.other);
+  } else if (said.region && !region) {
+    return fmt::format("it says where alone '{}' and '{}' may overlap; measured, there is no such place", said.part,
+                       said.other);
+  }
   if (agrees(said.depth * scale, measured)) return {};
   return fmt::format("it says that '{}' is {:.4g} deep in '{}'; measured: {:.4g}", said.part, said.depth, said.other,
                      measured / scale);
+}
+
+std::optional<std::string> DepthStatements::wrong_flexible(const PlanAssembly& said) const {
+  for (const PlanOverlap& o : said.overlaps) {
+    if (!o.flexible) continue;
+    const auto a = state_.find(o.a), b = state_.find(o.b);
+    const InitialOverlap* found = a && b ? assembly_.overlap_of(*a, *b) : nullptr;
+    if (found == nullptr || !found->declared || !o.declared || !agrees(*o.declared, *found->declared))
+      return fmt::format("it takes '{}' or '{}' for flexible, and their shape and contact do not say so", o.a, o.b);
+  }
+  for (const PlanPart& part : said.parts) {
+    const auto of_part = [&](const PlanOverlap& o) { return o.flexible && (o.a == part.name || o.b == part.name); };
+    const bool stated = std::any_of(said.overlaps.begin(), said.overlaps.end(), of_part);
+    if (part.flexible && *part.flexible != Flexible::declared && !stated)
+      return fmt::format("it takes '{}' for flexible ({}), and does not say towards which part", part.name,
+                         to_string(*part.flexible));
+  }
+  return {};
 }
 
 }  // namespace dismantle

@@ -21,6 +21,8 @@ class DepthStatements {
                                    const std::vector<PlacedPart>& fixed);
   /// The same of a pair that a step moves past each other, the others being where they are.
   std::optional<std::string> wrong(const PlanStepOverlap& said, const StepMotion& motion);
+  /// The same of the parts that the plan takes for flexible by their shape, measured again when the assembly was made.
+  std::optional<std::string> wrong_flexible(const PlanAssembly& said) const;
 
  private:
   bool agrees(double stated, double measured) const;

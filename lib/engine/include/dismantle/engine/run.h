@@ -55,6 +55,7 @@ struct RunOptions {
   LayoutOptions layout;  ///< used when there is a transfer planner
   std::uint64_t seed = 1;
   Constraints constraints;
+  std::vector<FlexiblePart> flexible{};  ///< parts that count as such, for the plan to state
 };
 
 /// What a run gave.

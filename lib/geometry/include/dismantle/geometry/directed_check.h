@@ -18,8 +18,14 @@ namespace dismantle::geometry {
 
 /// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
 struct Limits {
-  double overlap = 0;      ///< >= 0, the pair's when assembled
-  double penetration = 0;  ///< > 0
+  double overlap = 0;            ///< >= 0, the pair's when assembled
+  double penetration = 0;        ///< > 0
+  const Aabb* exempt = nullptr;  ///< where points may be as deep as they like; see exempts()
+  /// Is a point of `a` that is at `in_b` in the frame of `b` in the exempt box, where it is in its part as assembled or
+  /// in the other part as assembled?
+  bool exempts(const Solid& a, const Eigen::Vector3d& in_a, const Solid& b, const Eigen::Vector3d& in_b) const {
+    return exempt != nullptr && (exempt->contains(a.frame * in_a) || exempt->contains(b.frame * in_b));
+  }
   double at(double thickness) const { return overlap + std::min(penetration, 0.25 * thickness); }
   double most() const { return overlap + penetration; }
 };
@@ -118,6 +124,7 @@ class DirectedCheck {
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
   bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;
   bool outside(const Placement& place, const Corners& moved) const;
+  bool exempt(const Interval& i, double margin, const Patch& patch) const;
   bool sides();
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
   double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }

@@ -23,6 +23,7 @@ enum class FindingKind {
   overlap,    ///< two parts penetrate each other when assembled
   enclosed,   ///< a part lies inside the solid material of another
   isolated,   ///< it touches no other part
+  flexible,   ///< a part counts as flexible, declared or by its shape
 };
 
 /// How bad a finding is.

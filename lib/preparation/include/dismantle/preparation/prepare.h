@@ -4,13 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "dismantle/export.h"
-#include "dismantle/importer.h"
 #include "dismantle/assembly.h"
+#include "dismantle/export.h"
+#include "dismantle/flexible.h"
+#include "dismantle/importer.h"
 #include "dismantle/parameters.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle {
+
+/// Which parts may count as flexible.
+enum class FlexibleParts {
+  recognised,  ///< those that the user declares, and those whose shape and contact say so
+  declared,    ///< those that the user declares
+};
 
 /// The `assembly:` section of a configuration. Each step of appendix B.1 is a parameter.
 struct PrepareOptions {
@@ -24,6 +31,7 @@ struct PrepareOptions {
   bool normalize = true;          ///< step 7
   double size = 10.0;             ///< step 7: largest edge of the bounding box, assembly units
   double subdivide = 0.5;         ///< step 9: longest edge, assembly units; 0 = off
+  FlexibleParts flexible = FlexibleParts::recognised;
   std::int64_t max_triangles = 5'000'000;  ///< refuse larger assemblies with a clear message
   DISMANTLE_API static void describe(Schema<PrepareOptions>& s);
 };
@@ -45,6 +53,7 @@ struct PartReport {
 struct PrepareReport {
   std::vector<PartReport> parts;           ///< all that came in, in order
   std::vector<std::string> warnings;       ///< about the assembly as a whole
+  std::vector<FlexiblePart> flexible;      ///< parts that are recognised as flexible
 };
 
 /// Deterministic on any number of threads. `source` and `sha256` are copied into the assembly (see read_input.h).

@@ -29,7 +29,8 @@ struct Violation {
   PartId part = 0, other = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of `part`, its assembled frame
   double depth = 0;    ///< measured depth at `point` in `other`; beyond what the law allows there unless `uncertain`
-  double allowed = 0;  ///< initial overlap of the pair
+  double allowed = 0;  ///< initial overlap of the pair; 0 where it does not overlap then
+  bool elsewhere = false;   ///< the pair overlaps when assembled, and not there
   std::size_t segment = 0;  ///< path segment (between instants segment and segment + 1)
   double u = 0;             ///< place in the segment, [0, 1]
   bool uncertain = false;   ///< could not be certified at the resolution limit, but no point beyond was found
@@ -54,6 +55,12 @@ struct MotionCheck {
 ///      thickness h (inward ray to the opposite side, the least of four samples) is no deeper than initial overlap
 ///      plus h / 4, in both parts; or one copy of a part, shrunken by no more than that everywhere, stays off the
 ///      other part's surface all the time.
+///   3. of pairs whose initial overlap, as measured, is more than ten times max_penetration: a point outside the region
+///      of that overlap keeps to both laws as if there were none. The region is a box around all of the initial
+///      overlap, grown by its depth and max_penetration. A point is in it where it is so in its own part as assembled,
+///      or in the other part as assembled: what leaves along its axis takes its region along, and what comes after it
+///      passes through that of the other. An overlap that the user declares, or that is in a flexible part, has no
+///      region.
 /// A part inside the void of another is outside its material. Accepted means proved. Refused means that a point
 /// beyond the limit was found, or (`uncertain`) that the proof failed at a resolution of an eighth of the
 /// penetration allowed, or within a fixed budget of tests; motions that keep to 0.4 times the limit are not
@@ -85,6 +92,9 @@ class DISMANTLE_API Verifier {
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
   const VerifyOptions& options() const;
   std::size_t parts() const;
+  /// Where alone two parts may be deeper in each other than max_penetration; assembly units, assembled. None: as rule 1
+  /// says, wherever they are.
+  std::optional<Aabb> overlap_region(PartId a, PartId b) const;
   /// Corners of the convex hull of a part, in its assembled frame.
   const std::vector<Eigen::Vector3d>& hull(PartId part) const;
   /// The part's closed shells, as the checks see them.
