@@ -188,7 +188,7 @@ tools/make_results.py --data DIR
 
 How to read it: a trial is **solved** when the planner says so *and* the verifier, in a process of its own and on the original triangles,
 finds the plan valid; {refused} trials were claimed and refused. In brackets: the 95 % interval of Wilson, then solved/trials. Limits are CPU
-seconds (`limits` in the suites) and far smaller than the paper's, so that this page can be made in an hour: a row here says what a planner solves within
+seconds (`limits` in the suites) and far smaller than the paper's, so that this page can be made in half an hour: a row here says what a planner solves within
 seconds, not what it can solve at all. The assemblies are few and of our choice, so the intervals are wide; the paper's figures beside ours are of
 its own data set of thousands, with its limits, and are there for their form and for the order of the methods, not for the numbers.
 Times are CPU seconds of this machine, from reading the input to the plan. **Precision** is the deepest penetration that the verifier certifies along a whole plan, beyond the overlap of the parts when
