@@ -85,6 +85,8 @@ class Overlap:
     @property
     def region(self) -> Optional[_Array]: ...  # (2, 3)
     @property
+    def flexible(self) -> bool: ...
+    @property
     def share(self) -> Optional[float]: ...
     @property
     def axis(self) -> Optional[tuple[_Array, _Array]]: ...  # (3,), (3,)
@@ -148,6 +150,10 @@ class StepOverlap:
     def allowed(self) -> float: ...  # input units
     @property
     def depth(self) -> float: ...  # input units
+    @property
+    def at(self) -> Optional[_Array]: ...  # (3,)
+    @property
+    def region(self) -> Optional[_Array]: ...  # (2, 3)
 
 class Step:
     @property

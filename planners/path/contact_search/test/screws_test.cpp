@@ -50,23 +50,26 @@ TEST(ContactSearchScrews, ANutIsUnscrewed) {
   expect_solved_however_it_lies("bolt_and_nut", "nut",
                                 {{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}});
 }
-/// The thread alone tells its screw: a search of the first level finds it, and simulates nothing.
-TEST(ContactSearchScrews, ANutIsUnscrewedAtTheFirstLevelWithoutSimulation) {
+/// Where the contacts at rest tell the screw of a thread, the nut leaves without a step of simulation. Where they do not, as
+/// with much clearance, the search finds it.
+TEST(ContactSearchScrews, NutsOfAnySizeAreUnscrewed) {
   Rng rng(5);
+  int without_simulation = 0;
   for (std::int64_t seed = 1; seed <= 6; ++seed) {
-    const double diameter = rng.uniform(4, 20), pitch = diameter * rng.uniform(0.1, 0.18);  // as of ISO 261
+    const double diameter = rng.uniform(4, 20), pitch = diameter * rng.uniform(0.1, 0.24);
     SCOPED_TRACE(std::to_string(diameter) + " x " + std::to_string(pitch));
     path::test::Table table(turned_sample("bolt_and_nut",
                                           {{"diameter", diameter},
                                            {"pitch", pitch},
                                            {"turns", rng.uniform(0.5, 2)},
-                                           {"clearance", pitch * rng.uniform(0.01, 0.03)},
+                                           {"clearance", pitch * rng.uniform(0.01, 0.06)},
                                            {"segments", std::int64_t{32}}},
                                           seed));
-    const PathResult result = table.plan("contact_search", {}, 0, {.max_depth = 1}, {PartId{1}});
-    ASSERT_EQ(result.outcome(), Outcome::solved) << result.message;
-    EXPECT_EQ(result.stats.steps, 0U);
+    const PathResult result = table.plan("contact_search", {}, 0, {.max_steps = kSteps}, {PartId{1}});
+    EXPECT_EQ(result.outcome(), Outcome::solved) << result.message;
+    without_simulation += is_success(result.outcome()) && result.stats.steps == 0 ? 1 : 0;
   }
+  EXPECT_GT(without_simulation, 0);
 }
 TEST(ContactSearchScrews, ARingLeavesACurvedTube) {
   expect_solved_however_it_lies("ring_on_curved_tube", "ring", {{"segments", std::int64_t{24}}});
