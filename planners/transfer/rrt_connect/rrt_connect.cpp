@@ -19,11 +19,6 @@ using sampling::CheckBudget;
 using sampling::ConnectTrees;
 using sampling::SamplingProblem;
 
-/// State checks without turns where nothing else limits them.
-constexpr std::uint64_t kChecksWithoutTurns = 10'000;
-/// Paths that the verifier may refuse: where simulator and verifier differ, more paths of the same kind do not help.
-constexpr int kMostRefused = 10;
-
 struct Parameters {
   bool straight_first = true;
   double clearance = 0.1;
@@ -32,19 +27,22 @@ struct Parameters {
   double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t max_checks = 30'000;
+  int max_refused = 10;
 
   static void describe(Schema<Parameters>& s) {
     s.add("straight_first", &Parameters::straight_first,
-          {.doc = "Try to lift the part, turn it, carry it over everything and put it down before any tree is grown."});
+          {.doc =
+               "Before any tree is grown, try to lift the part, rotate it, carry it over everything and put it down."});
     s.add("clearance", &Parameters::clearance,
-          {.unit = "unit", .min = 0, .doc = "What a part that is carried over others keeps off them."});
+          {.unit = "unit", .min = 0, .doc = "Height above all other parts at which a part is carried over them."});
     s.add("range", &Parameters::range,
           {.unit = "unit", .min = 0, .min_open = true, .doc = "Longest extension of a tree."});
     s.add("step", &Parameters::step,
           {.unit = "unit",
            .min = 1e-5,
            .max = 1,
-           .doc = "Extensions are checked every so far; largest way of any point of the part."});
+           .doc = "Distance between checked states of an extension: the largest displacement of any point of the part. "
+                  "Smaller steps miss fewer thin obstacles and take more checks."});
     s.add("tolerance_share", &Parameters::tolerance_share,
           {.unit = "1",
            .min = 0,
@@ -52,7 +50,14 @@ struct Parameters {
            .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
     s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
     s.add("max_checks", &Parameters::max_checks,
-          {.unit = "1", .min = 0, .doc = "State checks for one transfer; 0 = no limit but those of the run."});
+          {.unit = "1", .min = 0, .doc = "Most state checks for one transfer; 0 = only the limits of the run apply."});
+    s.add(
+        "max_refused", &Parameters::max_refused,
+        {.unit = "1",
+         .min = 1,
+         .max = 1e6,
+         .doc = "Paths of the trees that the verifier may refuse. Where simulator and verifier disagree, more paths of "
+                "the same kind hardly help."});
   }
 };
 
@@ -67,14 +72,14 @@ class RrtConnect final : public TransferPlanner {
     PathResult result;
     Pose goal;
     if (!displacement_to_goal(query, goal)) {
-      result.fail(Outcome::unsupported, "the group would have to change its shape on the way");
+      result.fail(Outcome::unsupported, "the goal is not a rigid displacement of the group");
       return result;
     }
     if (parameters_.straight_first && goes_straight(query, context, result)) return result;
     const Capabilities has = query.simulator.capabilities();
     if (!has.distance || has.max_moving < query.scene.moving.size()) {
       result.fail(Outcome::unsupported,
-                  "no straight way, and trees need a simulator with distance queries for all moving parts");
+                  "no straight path, and trees need a simulator with distance queries for all moving parts");
       return result;
     }
     grow(query, goal, context, result);
@@ -113,12 +118,13 @@ class RrtConnect final : public TransferPlanner {
     CheckBudget budget(removal, context);
     sampling::CandidatePaths candidates(query.checker, parameters_.simplify);
 
-    // Without a turn to make, a quarter of the budget goes to searching without turns.
+    // When start and goal have the same orientation, a quarter of the budget goes to a search among translations.
     const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
     result.fail(Outcome::timeout);
     for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
       if (motion == MotionSpace::translation && turns) continue;
-      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kChecksWithoutTurns;
+      const std::uint64_t budgeted = most > 0 ? most : static_cast<std::uint64_t>(Parameters{}.max_checks);
+      const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : budgeted / 4;
       SamplingProblem problem(removal, motion, parameters_.tolerance_share * query.tolerance, parameters_.step, budget,
                               goal);
       ConnectTrees trees(problem, parameters_.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
@@ -133,7 +139,7 @@ class RrtConnect final : public TransferPlanner {
       const ob::PlannerTerminationCondition stop(
           [&] { return budget.spent() || (limit > 0 && budget.checks >= limit); });
       ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
-      for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
+      for (int shown = 0; shown < parameters_.max_refused && !stop(); ++shown) {
         status = trees.solve(stop);
         if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
         std::size_t edge = 0;  // not used: both trees begin anew
