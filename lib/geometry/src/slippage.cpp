@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::geometry {
 namespace {
 
@@ -13,21 +15,22 @@ using Vec3 = Eigen::Vector3d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Mean square speed across the surface of a mesh, as a share of the mean square speed of its points, at most.
+/// Largest mean square speed across the surface of a mesh that slips, as a share of the mean square speed of its
+/// points.
 constexpr double kAcross = 0.01;
-/// Fewer contacts say nothing about a surface.
+/// Six unknowns need six contacts.
 constexpr std::size_t kLeastContacts = 6;
-/// Eigenvalues below this share of the largest belong to motions that slip: the facets of round fits, and clearance,
-/// make them differ from zero.
+/// Eigenvalues below this share of the largest belong to motions that slip. Facets of round fits and clearance make
+/// them differ from zero.
 constexpr double kSlips = 0.02;
-/// With much play nothing slips exactly. Then eigenvalues below the first share count, too, if they are at most
-/// kAsStiff times the last one that slips, and the next one is more than kSlipGap times as large.
+/// With much play no motion slips exactly. Then eigenvalues below kNearlySlips count, too, if they are at most kAsStiff
+/// times the last one that slips, and the next one is more than kSlipGap times as large.
 constexpr double kNearlySlips = 0.06, kAsStiff = 20, kSlipGap = 3;
-/// Normals nearer than this (cosine) are of one flat face; the face is square to an axis nearer than that.
-constexpr double kFlat = 0.99999, kEndFace = 0.98;
+/// Cosine of the angle between an axis and the normal of an end face: 11 degrees.
+constexpr double kEndFace = 0.98;
 /// A twist with this share of rotation has an axis; twists that differ by less than the second number are the same.
 constexpr double kMostlyTurns = 0.5, kAlike = 5e-3;
-/// A motion with a smaller singular value of its rotation has none.
+/// Motions whose rotation has a smaller singular value are translations.
 constexpr double kNoTurn = 0.1;
 
 /// The speed across the surface at a sample is the product of this row with (linear, lever * angular): translations
@@ -63,14 +66,14 @@ bool alike(const Twist& a, const Twist& b, double radius) {
   return std::min(apart(1), apart(-1)) < kAlike;
 }
 
-/// The last coordinate that is clearly not zero becomes positive: eigenvectors come with either sign.
+/// Makes the last coordinate that is clearly not zero positive, since the sign of eigenvectors is arbitrary.
 Vec6 oriented(Vec6 t) {
   for (int k = 5; k >= 0; --k)
     if (std::abs(t[k]) > 0.1) return t[k] > 0 ? t : Vec6(-t);
   return t;
 }
 
-/// How many of the eigenvalues (ascending) belong to motions that slip.
+/// The number of eigenvalues (ascending) of motions that slip.
 int count_slipping(const Vec6& stiffness) {
   int slips = 0;
   while (slips < 6 && stiffness[slips] < kSlips * stiffness[5]) ++slips;
@@ -106,7 +109,7 @@ std::vector<Twist> separated(const Eigen::MatrixXd& space, double radius) {
   return twists;
 }
 
-/// What slips; where nothing does and `or_least_stiff`, the least stiff motion.
+/// The motions that slip. If none does and `or_least_stiff`: the least stiff motion.
 std::vector<Twist> motions_along(const std::vector<Vec6>& rows, double radius, bool or_least_stiff) {
   if (rows.size() < kLeastContacts) return {};
   Mat6 mean = Mat6::Zero();
@@ -114,18 +117,18 @@ std::vector<Twist> motions_along(const std::vector<Vec6>& rows, double radius, b
   mean /= static_cast<double>(rows.size());
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(mean);
   int slips = count_slipping(eigen.eigenvalues());
-  if (slips > 4) return {};  // all but free: the contacts do not tell where to
+  if (slips > 4) return {};  // nearly free: the contacts do not determine a direction
   if (slips == 0 && !or_least_stiff) return {};
-  if (slips == 0) slips = 1;  // a simulation will tell whether it is possible
+  if (slips == 0) slips = 1;  // the caller tests whether it is possible
   return separated(eigen.eigenvectors().leftCols(slips), radius);
 }
 
-/// The rows except those of a flat face square to the axis: it blocks the motion one way along the axis, and a screw
-/// may lead the other way.
+/// The rows except those of a flat face perpendicular to the axis: it blocks one direction along the axis, and a screw
+/// may lead in the other.
 std::vector<Vec6> without_end_face(const std::vector<Vec6>& rows, const Vec3& axis) {
   std::vector<Vec6> others;
   for (const Vec6& j : rows) {
-    const auto flat_with = [&](const Vec6& k) { return std::abs(k.head<3>().dot(j.head<3>())) > kFlat; };
+    const auto flat_with = [&](const Vec6& k) { return std::abs(k.head<3>().dot(j.head<3>())) > kSameDirection; };
     const bool faces_along = std::abs(j.head<3>().dot(axis)) > kEndFace;
     if (!faces_along || static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), flat_with)) < kLeastContacts)
       others.push_back(j);
@@ -133,7 +136,7 @@ std::vector<Vec6> without_end_face(const std::vector<Vec6>& rows, const Vec3& ax
   return others;
 }
 
-/// Contacts face along the axis as well as against it.
+/// Do contacts face in both directions along the axis?
 bool blocked_both_ways(const std::vector<Vec6>& rows, const Vec3& axis) {
   const auto faces = [&](double sign) {
     return std::any_of(rows.begin(), rows.end(),
@@ -142,7 +145,7 @@ bool blocked_both_ways(const std::vector<Vec6>& rows, const Vec3& axis) {
   return faces(1) && faces(-1);
 }
 
-/// The places whose mean, with the weights, is exact for quadratic forms: the middles of the edges of all triangles.
+/// Quadrature that is exact for quadratic forms: the midpoints of the edges of all triangles, with weights.
 struct WeightedSample {
   Vec3 arm, normal;  ///< from the centre of the twists
   double weight;     ///< a third of twice the area of its triangle
@@ -171,7 +174,7 @@ std::vector<Twist> slippable_motions(const Mesh& mesh, const Vec3& center) {
     squares += s.weight * s.arm.squaredNorm();
   }
   if (!(area > 0)) return {};
-  // Rotations are measured by how far they move points: all six coordinates are lengths.
+  // Rotations are scaled to the displacement that they cause, so that all six coordinates are lengths.
   const double lever = std::sqrt(squares / area);
   Mat6 across = Mat6::Zero(), speed = Mat6::Zero();
   for (const WeightedSample& s : samples) {
@@ -182,9 +185,9 @@ std::vector<Twist> slippable_motions(const Mesh& mesh, const Vec3& center) {
     for (int k = 0; k < 3; ++k) moves.col(3 + k) = Vec3(Vec3::Unit(k)).cross(arm);
     speed += s.weight / area * moves.transpose() * moves;
   }
-  // A straight line of points would not move under a rotation about it.
+  // Keeps the form positive definite: points on a line do not move under a rotation about it.
   speed += 1e-9 * Mat6::Identity();
-  // Angular coordinates first: which basis of a space of equal eigenvalues comes out depends on the order.
+  // Angular coordinates first: the order determines the basis of a space of equal eigenvalues.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat6> solver(halves_swapped(across), halves_swapped(speed));
   std::vector<Twist> found;
   for (int k = 0; k < 6 && solver.eigenvalues()[k] < kAcross; ++k) {
@@ -196,7 +199,7 @@ std::vector<Twist> slippable_motions(const Mesh& mesh, const Vec3& center) {
 
 namespace {
 
-/// Along all contacts, and along those that remain without a flat face square to the axis of one of these motions.
+/// Motions along all contacts, and along those without a flat face perpendicular to the axis of one of these motions.
 std::vector<Twist> motions_with_and_without_end_face(const std::vector<SurfaceSample>& contacts, const Vec3& center,
                                                      double radius, bool or_least_stiff) {
   std::vector<Vec6> rows;

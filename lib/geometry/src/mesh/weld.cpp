@@ -2,12 +2,11 @@
 #include <unordered_map>
 
 #include "dismantle/geometry/mesh_repair.h"
+#include "dismantle/geometry/numerics.h"
 #include "mesh/edges.h"
 
 namespace dismantle {
 namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Key = std::array<std::int64_t, 3>;
 struct KeyHash {
@@ -49,7 +48,7 @@ std::vector<std::uint32_t> close_open_vertices(const Mesh& mesh, double toleranc
     Key cell;
     for (int k = 0; k < 3; ++k)
       cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>((mesh.vertices[i][k] - origin[k]) / tolerance);
-    std::uint32_t best = kNone;
+    std::uint32_t best = geometry::kNoIndex;
     double best_distance = tolerance;
     for (int n = 0; n < 27; ++n) {
       const auto found = grid.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
@@ -62,7 +61,7 @@ std::vector<std::uint32_t> close_open_vertices(const Mesh& mesh, double toleranc
         }
       }
     }
-    if (best == kNone)
+    if (best == geometry::kNoIndex)
       grid[cell].push_back(i);
     else
       to[i] = best;
@@ -86,12 +85,12 @@ void apply(Mesh& mesh, const std::vector<std::uint32_t>& to, WeldResult& result)
 
 /// Drops vertices without triangle; `merged` of them are known already.
 std::size_t compact(Mesh& mesh) {
-  std::vector<std::uint32_t> index(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> index(mesh.vertices.size(), geometry::kNoIndex);
   for (const auto& t : mesh.triangles)
     for (const auto v : t) index[v] = 0;
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < index.size(); ++i)
-    if (index[i] != kNone) {
+    if (index[i] != geometry::kNoIndex) {
       mesh.vertices[next] = mesh.vertices[i];
       index[i] = next++;
     }

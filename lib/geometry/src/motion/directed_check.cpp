@@ -5,26 +5,14 @@
 #include <limits>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr std::uint32_t kNone = 0xffffffffu;
-/// Displacements stay this share below what is allowed, so that rounding cannot carry them beyond.
-constexpr double kShare = 1 - 1e-9;
-/// Below this share of the penetration allowed a patch in a time interval is not divided further.
-constexpr double kResolution = 1.0 / 8;
-/// Patches are asked for in all intervals that are shorter than this part of a segment.
-constexpr double kShortest = 1.0 / 64;
-/// So many cells of an unrolled mesh cost as much as one sweep test.
-constexpr std::uint64_t kCellsOfTest = 256;
-/// Cells of the first look at a winding and of the second (assembly units).
-constexpr double kRoughCell = 5e-3, kFineCell = 1e-3;
-/// Windings are halved down to this turn (rad), as long as few triangles are left or at least half of them are done.
-constexpr double kShortWinding = 1;
-constexpr std::size_t kFew = 64;
-/// What was learnt of a triangle's bends is forgotten at this rate, test by test.
-constexpr double kForget = 1.1;
+/// Share of the allowed displacement that is used, so that rounding does not exceed the limit.
+constexpr double kShare = 1 - kRounding;
 
 Aabb box_under(const Placement& m, const Aabb& box) {
   const Vec3 c = m * box.center(), h = m.r.cwiseAbs() * (0.5 * box.size());
@@ -40,7 +28,7 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       motion_(motion),
       limits_(limits),
       budget_(budget),
-      patch_of_(a.mesh.triangles.size(), kNone),
+      patch_of_(a.mesh.triangles.size(), kNoIndex),
       unclear_(
           std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())) {}
 
@@ -93,12 +81,12 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   }
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
     const std::uint32_t t = a_.bvh.order()[k];
-    if (patch_of_[t] == kNone) {
+    if (patch_of_[t] == kNoIndex) {
       Patch patch{a_.bvh.corners(t), {}, t};
       const double most = allowed(patch);
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t v = a_.mesh.triangles[t][c];
-        // One displacement per vertex, whatever triangle it is seen from.
+        // One displacement per vertex, the same in all of its triangles, so that the moved surface stays closed.
         patch.inward[c] = (limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
       }
       patch_of_[t] = add(patch);
@@ -107,7 +95,7 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   }
 }
 
-/// Cuts winding paths into pieces that are roughly straight before looking at triangles.
+/// Divides curved paths into roughly straight pieces before any triangle is tested.
 bool DirectedCheck::descend(double s0, double s1) {
   const Interval i = interval(s0, s1);
   if (s1 - s0 > 1 && i.margin > 0.05 * a_.box.size().maxCoeff()) {
@@ -119,19 +107,20 @@ bool DirectedCheck::descend(double s0, double s1) {
   return process(i, std::move(list), true);
 }
 
-/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion. Roughly
-/// first: most of a part is not near.
+/// Certifies many turns along a thread together by the vertex rule, first with coarse cells, since most of a part is
+/// not near. Patches that remain are checked like any other motion.
 bool DirectedCheck::wind(const Winding& winding) {
   List list;
   if (!a_.bvh.nodes().empty())
     collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
-  if (!clear_unrolled(unrolled(winding, list, kRoughCell), winding, winding.begin, winding.end, list)) return false;
+  if (!clear_unrolled(unrolled(winding, list, 0.5 * limits_.penetration), winding, winding.begin, winding.end, list))
+    return false;
   if (list.empty()) return true;
-  const UnrolledMesh finely = unrolled(winding, list, kFineCell);  // before the list is given away
+  const UnrolledMesh finely = unrolled(winding, list, 0.1 * limits_.penetration);  // before the list is moved from
   return wind(finely, winding, winding.begin, winding.end, std::move(list));
 }
 
-/// B, where the patches listed come near it.
+/// The part of B near the listed patches, in unrolled coordinates.
 UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, double cell) const {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   Ring ring;
@@ -148,7 +137,7 @@ DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Pla
   return seen;
 }
 
-/// Takes what is certified off the list. False: the check failed.
+/// Removes the certified patches from the list. False: the check failed.
 bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
                                    List& list) {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
@@ -157,7 +146,7 @@ bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& win
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Patch& patch = patches_[list[k]];
     const Glance seen = k < known.size() && known[k].done ? known[k] : glance(other, start, from, to, list[k]);
-    if (!budget_.spend_tests(1 + seen.cells / kCellsOfTest))
+    if (!budget_.spend_tests(1 + seen.cells / 256))  // 256 cells take about as long as one sweep test
       return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
     if (seen.clear)
       pieces_.push_back({list[k], static_cast<double>(from), static_cast<double>(to)});
@@ -173,8 +162,9 @@ bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std:
   const std::size_t all = list.size();
   if (!clear_unrolled(other, winding, from, to, list)) return false;
   if (list.empty()) return true;
-  const bool few = list.size() < kFew || 2 * list.size() < all;
-  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < kShortWinding)
+  // Halving helps only if it certifies many patches. A radian is little more than an ordinary interval.
+  const bool few = list.size() < 64 || 2 * list.size() < all;
+  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < 1)
     return process(interval(static_cast<double>(from), static_cast<double>(to)), std::move(list), true);
   const std::size_t middle = from + (to - from) / 2;
   return wind(other, winding, from, middle, list) && wind(other, winding, middle, to, std::move(list));
@@ -208,9 +198,10 @@ bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved
   return seen != Sighting::unclear;
 }
 
-/// Along a close fit a triangle fails at the same bend again and again: do not ask where it did shortly before.
+/// In a close fit the same triangle fails at the same curvature in interval after interval. The test is skipped where
+/// it failed recently, except in short intervals.
 bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
-  return i.s1 - i.s0 <= kShortest || margin < (*unclear_)[triangle];
+  return i.s1 - i.s0 <= 1.0 / 64 || margin < (*unclear_)[triangle];
 }
 
 bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
@@ -228,12 +219,12 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
     if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
       if (!far) pieces_.push_back({id, i.s0, i.s1});
-      (*unclear_)[patch.triangle] *= kForget;
+      (*unclear_)[patch.triangle] *= 1.1;  // a success makes tests at a slightly larger margin worth while again
       return true;
     }
-    if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
+    if (bent) (*unclear_)[patch.triangle] = margin;  // no other rule applies there
   }
-  if (bent) {  // too bent to be judged as straight
+  if (bent) {  // too curved for the rules that follow
     later.push_back(id);
     return true;
   }
@@ -256,7 +247,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     return true;
   };
   if (leaves(moved_along(patch, -a_.normals[patch.triangle], e))) return true;
-  // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
+  // Tries the shortest way out in the middle of the interval, then that at the time at which each corner is deepest.
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
     const auto deepest = static_cast<std::size_t>(seen.deepest);
@@ -273,11 +264,12 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     }
   }
   if (depth > 0 && leaves(moved_along(patch, mid.r.transpose() * center.out, e))) return true;
-  // What lies on one side of a ridge leaves together, the way its deepest corner does.
+  // Points on one side of a ridge have nearly the same way out, that of the deepest corner.
   const auto deepest = static_cast<std::size_t>(seen.deepest);
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
-  if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  // A ridge often lies along the motion: cut there before the interval is.
+  // Resolution limit: a patch and interval that move points by less than an eighth of the leeway are not divided.
+  if (reach < leeway / 8) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
+  // A ridge often lies along the motion, so the patch is cut along it before the interval is halved.
   const auto ridge = ridge_on(patch, seen);
   if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
     later.push_back(id);
@@ -293,10 +285,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   return true;
 }
 
-/// What the vertex rule certified stays off the surface of B; here it is shown to be on the outer side of it.
+/// Patches that the vertex rule certified do not meet the surface of B. This proves them to be on its outer side.
 bool DirectedCheck::sides() {
   if (by_shrunken_copy_) {
-    // Each shell of the shrunken copy moves off the surface at all times: one corner at one time tells its side.
+    // No shell of the shrunken copy meets the surface at any time, so one vertex at one time tells its side.
     const Placement start(motion_.at(0));
     bool all_outside = true;
     for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {

@@ -1,5 +1,5 @@
-// Lists of patches on several threads. Each patch is settled by itself, so the list can be cut; what a piece takes of
-// the budget, and finds, is put together as if the pieces had had their turns.
+// Parallel one-sided check. Patches are independent of each other, so their list can be cut into pieces. Results and
+// spent budget of the pieces are merged in order, as if they had been processed one after the other.
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -11,16 +11,15 @@
 namespace dismantle::geometry {
 namespace {
 
-/// Patches that are worth a thread's coming; a list is cut into so many pieces at most, of so many patches at least.
-constexpr std::size_t kWorthHelp = 128, kPieces = 8, kLeastPiece = 32;
-constexpr std::size_t kGlances = 16;  // at a time
+/// Shorter lists are not worth the synchronization of threads. Does not change results.
+constexpr std::size_t kWorthHelp = 128;
 
 }  // namespace
 
-/// A piece of a list, settled as if it were the first.
+/// A piece of a list, processed as if it were the first.
 struct DirectedCheck::Share {
   List list;
-  std::vector<double> unclear;  // as it was before, by patch of the list
+  std::vector<double> unclear;  // by patch of the list: the value before
   Budget budget;
   std::uint64_t patches_at_first;
   std::optional<DirectedCheck> check;
@@ -43,9 +42,10 @@ bool DirectedCheck::has_help() const {
   return budget_.context != nullptr && budget_.context->executor && budget_.context->executor->threads() > 1;
 }
 
-/// From the end, where turns begin. Patches of one triangle are next to each other, and stay together.
+/// Pieces from the end of the list, where processing begins: at most 8, of at least 32 patches. Patches of one triangle
+/// are next to each other, and stay together.
 std::vector<DirectedCheck::List> DirectedCheck::cut(const List& list) const {
-  const std::size_t size = std::max(kLeastPiece, list.size() / kPieces + 1);
+  const std::size_t size = std::max<std::size_t>(32, list.size() / 8 + 1);
   std::vector<List> pieces;
   for (std::size_t end = list.size(); end > 0;) {
     std::size_t begin = end > size ? end - size : 0;
@@ -84,14 +84,14 @@ bool DirectedCheck::settle_shared(const Interval& i, const List& list, bool vert
       if (!s.holds) return false;
       continue;
     }
-    // Not begun, or more than what those before it leave of the budget.
+    // The piece was not begun, or it spent more than the pieces before it left of the budget: repeat it in order.
     for (std::size_t n = 0; n < s.list.size(); ++n) (*unclear_)[patches_[s.list[n]].triangle] = s.unclear[n];
     if (!settle_in_turn(i, s.list, vertex_rule, later)) return false;
   }
   return true;
 }
 
-/// False: in its turn it would have come out otherwise.
+/// Merges the result of a piece. False: in order it would have had another result.
 bool DirectedCheck::take_over(Share& share, List& later) {
   if (!share.done) return false;
   const std::uint64_t tests = share.budget.tests_done, patches = share.patches_at_first - share.budget.patches_left;
@@ -111,15 +111,16 @@ bool DirectedCheck::take_over(Share& share, List& later) {
   return true;
 }
 
-/// Those of a list as far as threads came before they were told to stop; none where nobody helps.
+/// glance() of the patches of a list, in parallel; only some are done when told to stop. Empty without idle threads.
 std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& other, const Winding& winding,
                                                           std::size_t from, std::size_t to, const List& list) const {
   if (!has_help() || list.size() < kWorthHelp) return {};
   std::vector<Glance> seen(list.size());
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
-  parallel_for((list.size() + kGlances - 1) / kGlances, *budget_.context,
+  constexpr std::size_t chunk = 16;
+  parallel_for((list.size() + chunk - 1) / chunk, *budget_.context,
                [&](std::size_t part) {
-                 for (std::size_t k = part * kGlances; k < std::min(list.size(), (part + 1) * kGlances); ++k)
+                 for (std::size_t k = part * chunk; k < std::min(list.size(), (part + 1) * chunk); ++k)
                    seen[k] = glance(other, start, from, to, list[k]);
                },
                [&] { return budget_.context->should_stop(); });

@@ -7,17 +7,16 @@
 namespace dismantle::geometry {
 namespace {
 
-constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
-
-/// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
-/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample) for those within
-/// `b`, until it says that this is enough: then true.
+/// Samples up to 96 vertices of `a` at 24 to 480 times. On paths of many segments only triangles in the swept box of
+/// `b` are sampled (`backward`: the motion of `b` relative to `a`); on short paths the search for these would take
+/// longer than the samples. Calls take(sample) for samples within `b`, until it returns true; then returns true.
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, const Take& take) {
   const std::size_t segments = motion.segments();
-  const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
-  const bool all = times == kLeastTimes;
+  constexpr std::size_t least_times = 24, most_times = 480;
+  const std::size_t times = std::clamp(2 * segments, least_times, most_times);
+  const bool all = times == least_times;
   std::vector<std::uint32_t> near;
   if (!all) {
     a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
@@ -27,8 +26,8 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
   for (std::size_t i = 0; i < times; ++i) {
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
-    // Another selection each time, so that together they cover more.
-    const std::size_t count = std::min(kVertices, triangles);
+    // Another selection at each time, so that all of them together cover more.
+    const std::size_t count = std::min<std::size_t>(96, triangles);
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t chosen = (k * triangles / count + i * 7919) % triangles, t = all ? chosen : near[chosen];
       const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));

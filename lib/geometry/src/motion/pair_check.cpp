@@ -9,21 +9,18 @@
 namespace dismantle::geometry {
 namespace {
 
-constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;  // per pair of solids, for passes()
-constexpr std::size_t kMany = 1000;  // triangles of both, for the work to be worth a thread's coming
-
 Finding second_of_pair(Finding f) {
   f.of_second = true;
   return f;
 }
 
-/// The second direction, begun by an idle thread while the first is looked at, with the budget that both have.
+/// The check of the second surface, begun by an idle thread while the first is checked, with the whole budget.
 class Ahead {
  public:
   Ahead(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, const Budget& budget)
       : budget_(budget) {
     if (budget.context == nullptr || !budget.context->executor) return;
-    if (a.mesh.triangles.size() + b.mesh.triangles.size() < kMany) return;
+    if (a.mesh.triangles.size() + b.mesh.triangles.size() < 1000) return;  // not worth a task
     own_.deadline = budget.context->deadline;
     own_.executor = budget.context->executor;
     budget_.context = &own_;
@@ -34,7 +31,7 @@ class Ahead {
   Ahead(const Ahead&) = delete;
   Ahead& operator=(const Ahead&) = delete;
 
-  /// What is found with the budget that the first direction has left, if it was begun and took no more than that.
+  /// The result, if the check was begun and spent no more than the budget that the first one has left.
   std::optional<Finding> found(Budget& left) {
     if (!task_ || task_.withdraw()) return std::nullopt;
     task_.wait(*left.context, own_.cancel);
@@ -53,7 +50,7 @@ class Ahead {
   Budget budget_;
   const Budget before_ = budget_;
   Finding found_;
-  Executor::TaskHandle task_;  // last: its destructor waits for the thread, which uses the above
+  Executor::TaskHandle task_;  // last: its destructor waits for the thread, which uses the members above
 };
 
 }  // namespace
@@ -68,8 +65,8 @@ Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward
   DirectedCheck check(first, second, there, limits, budget);
   const Finding one = check.run();
   if (one.answer != Answer::certified) return swap ? second_of_pair(one) : one;
-  // If one shrunken copy of `first` never touched the surface of `second`, and `second` is not within it, then the
-  // points of `second` in `first` are all in the layer that was taken off: no deeper than the limit either.
+  // If one shrunken copy of `first` never touched the surface of `second`, and `second` is not within it, then all
+  // points of `second` in `first` are in the layer that was removed. So they are no deeper than the limit either.
   if (check.by_shrunken_copy() && starts_off(second, first, Placement(back.at(0)), limits.most())) return one;
   const std::optional<Finding> known = ahead.found(budget);
   const Finding two = known ? *known : DirectedCheck(second, first, back, limits, budget).run();
@@ -90,9 +87,9 @@ bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const
       grown = y.box;
       grown.inflate(limits.most());
       const RelativeMotion backward(rest, path, grown);
-      // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
+      // Most pairs that do not pass violate the limits at a sample. That takes much less time than a failing proof.
       if (sample_beyond(x, y, forward, backward, limits)) return false;
-      Budget budget{kQuickTests, kQuickPatches};
+      Budget budget{60'000, 6'000};  // tests and patches: some hundredths of a second
       if (check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
   return true;

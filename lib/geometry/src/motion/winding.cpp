@@ -12,18 +12,20 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
-/// Windings that turn less than this (rad) are as quickly looked at as they are.
+/// Helical segments of less total rotation (rad) are checked as fast without unrolling.
 constexpr double kLeastTurn = 1;
-/// Segments that turn more or less than this (rad) are left alone: their axes or their ways are not known as well.
+/// A segment that rotates by less (rad) does not determine its axis well; one that rotates by more has a path that the
+/// bound between instants does not cover well.
 constexpr double kLeastStep = 1e-3, kMostStep = 1;
-/// The most that a winding may be off the screw (assembly units), and what covers rounding.
-constexpr double kMostOff = 1e-5, kRounding = 1e-9;
-/// Cells are as much wider as it takes to have no more of them than that.
+/// The largest deviation from the exact screw, and the rounding of positions (both assembly units).
+constexpr double kMostOff = 1e-5, kPositionRounding = 1e-9;
+/// Cells are enlarged until there are no more than this: 24 MB.
 constexpr long kMostCells = 1'500'000;
-/// Without a lead worth that much (assembly units) turns are not told apart.
+/// With a smaller lead (assembly units) successive turns are not distinguished.
 constexpr double kLeastLead = 0.02;
-/// Triangles are divided until they are as good as straight within a cell, or so often.
+/// Triangles are divided until they are nearly straight within a cell, but at most this often.
 constexpr int kDepth = 5;
+/// The resolution of phi in a cell.
 constexpr int kBits = 128;
 
 /// The screw motion from one pose to another by the shorter turn, as a velocity field v + w x x: one unit of time.
@@ -54,13 +56,14 @@ Field field_of(const Winding& w, double angle) {
   return f;
 }
 
-/// Where the screw takes `pose` while it turns by `angle`.
+/// `pose` after the screw motion by `angle`.
 Pose screwed(const Winding& w, const Pose& pose, double angle) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, w.axis));
   return {q * (pose.t - w.origin) + w.origin + angle * w.pitch * w.axis, (q * pose.q).normalized()};
 }
 
-/// The longest winding that begins at instant k. One segment has told the screw; the others have to agree.
+/// The longest helical segment that begins at instant k. Its first segment determines the screw; the others have to
+/// agree.
 bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
   double angle = 0;
   const Pose start = motion.at(static_cast<double>(k));
@@ -76,8 +79,8 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
     if (!axis_of(from, to, own, step)) break;
     const double turned = step * own.axis.dot(w.axis);
     if (turned < 0.5 * step) break;
-    // Both ways are screw motions. Between two instants they part by no more than at these, and an eighth of what
-    // their accelerations (w x velocity) differ by.
+    // Both paths are screw motions. Between two instants they differ by no more than at the instants, plus an eighth of
+    // the difference of their accelerations (w x velocity).
     const Field is = field_of(own, step), wanted = field_of(w, turned);
     const Pose ideal = screwed(w, start, w.turned.back() + turned);
     double off_next = 0, speed = 0, apart = 0;
@@ -96,7 +99,7 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
     w.turned.push_back(w.turned.back() + turned);
     off_here = off_next;
   }
-  w.off += kRounding;
+  w.off += kPositionRounding;
   return w.end > k && w.turned.back() >= kLeastTurn;
 }
 
@@ -144,17 +147,18 @@ Unrolled unroll(const Winding& w, const Corners& t, double off) {
     most_r = std::max(most_r, x.norm());
   }
   const double least_r = center.norm() - radius;
-  u.r_lo = std::max(0.0, least_r - off) - kRounding;
-  u.r_hi = most_r + off + kRounding;
+  u.r_lo = std::max(0.0, least_r - off) - kPositionRounding;
+  u.r_hi = most_r + off + kPositionRounding;
   const auto [z_least, z_most] = std::minmax({z[0], z[1], z[2]});
-  u.z_lo = z_least - off - kRounding;
-  u.z_hi = z_most + off + kRounding;
+  u.z_lo = z_least - off - kPositionRounding;
+  u.z_hi = z_most + off + kPositionRounding;
   u.bent = least_r < 0.5 * radius || least_r < 8 * off;
   if (u.bent) return u;
   // r and phi are not linear, but nearly: at a mean of the corners they differ from the mean of their values there by
   // at most half the mean squared distance of the corners times the second derivative, 1 / r and 1 / r^2. As the
   // length of a vector r is convex: never more than the mean.
-  const double sag = 0.5 * radius * radius / least_r, turn = sag / least_r + 2 * off / (least_r - off) + kRounding;
+  const double sag = 0.5 * radius * radius / least_r,
+               turn = sag / least_r + 2 * off / (least_r - off) + kPositionRounding;
   const double about = std::atan2(center.y(), center.x());
   u.phi_lo = std::numeric_limits<double>::infinity();
   u.phi_hi = -u.phi_lo;
@@ -165,9 +169,9 @@ Unrolled unroll(const Winding& w, const Corners& t, double off) {
     u.phi_hi = std::max(u.phi_hi, phi + turn);
     u.p[i] = {flat[i].norm(), z[i] - pitch * phi};
   }
-  u.below = sag + off + kRounding;
-  u.above = off + kRounding;
-  u.beside = pitch * turn + off + kRounding;
+  u.below = sag + off + kPositionRounding;
+  u.above = off + kPositionRounding;
+  u.beside = pitch * turn + off + kPositionRounding;
   return u;
 }
 
@@ -178,7 +182,7 @@ void Ring::add(const Winding& winding, const Corners& t) {
   r_lo = std::min(r_lo, u.r_lo);
   r_hi = std::max(r_hi, u.r_hi);
   z_lo = std::min(z_lo, u.z_lo);
-  z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + kRounding);
+  z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + kPositionRounding);
 }
 
 UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell)
@@ -212,7 +216,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   for (const std::uint32_t t : there) enter(bvh.corners(t), kDepth);
 }
 
-/// Takes the range of phi of a triangle into that of the mesh.
+/// Extends the range of phi of the mesh by that of a triangle.
 void UnrolledMesh::extend(const Corners& t, int depth) {
   const Unrolled u = unroll(winding_, t, 0);
   if (!near(u)) return;
@@ -229,7 +233,7 @@ void UnrolledMesh::extend(const Corners& t, int depth) {
     }
 }
 
-/// The pieces of the range of phi that [lo, hi] has a share in; what lies beyond the range counts with its ends.
+/// The pieces of the range of phi that [lo, hi] overlaps; parts beyond the range count with its ends.
 UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
   const double piece = std::max(1e-9, phi_hi_ - phi_lo_) / kBits;
   const auto index = [&](double phi) {
@@ -240,7 +244,7 @@ UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
   return b;
 }
 
-/// Of what may be at any angle: psi is brought into [0, lead), so that phi tells the height.
+/// bits() of a triangle that may be at any angle: psi is reduced to [0, lead), so that phi determines the height.
 UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, double to) const {
   const double pitch = lead_ / (2 * kPi);
   return bits(u.z_lo / pitch - 2 * kPi + from - kLeastStep, u.z_hi / pitch + to + kLeastStep);
@@ -251,8 +255,8 @@ std::pair<long, long> UnrolledMesh::rows_of(double lo, double hi) const {
           std::min(rows_ - 1, static_cast<long>(std::floor((hi - ring_.r_lo) / cell_)))};
 }
 
-/// Calls f(cell, turns) for all cells that the triangle may have a share in, `turns` those by which it is wound back to
-/// get there. Ends with false as soon as f does. Rows for which in_row(row) is false are left out.
+/// Calls f(cell, turns) for all cells that the triangle may overlap, `turns` being the number of turns by which it is
+/// shifted. Returns false as soon as f does. Rows for which in_row(row) is false are left out.
 template <class Row, class Cell>
 bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f) const {
   const auto [first, last] = std::minmax({u.p[0].x(), u.p[1].x(), u.p[2].x()});
@@ -260,9 +264,9 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
   const double column = lead_ / static_cast<double>(columns_);
   for (long row = row0; row <= row1; ++row) {
     if (!in_row(row)) continue;
-    // psi of what has its r, without slack, in [r0, r1].
-    const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - kRounding;
-    const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + kRounding;
+    // Range of psi of the points whose r, without slack, is in [r0, r1].
+    const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - kPositionRounding;
+    const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + kPositionRounding;
     double lo = std::numeric_limits<double>::infinity(), hi = -lo;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 &a = u.p[i], &b = u.p[(i + 1) % 3];
@@ -275,8 +279,8 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
         }
     }
     if (lo > hi) continue;
-    const long c0 = static_cast<long>(std::floor((lo - u.beside - kRounding) / column));
-    const long c1 = static_cast<long>(std::floor((hi + u.beside + kRounding) / column));
+    const long c0 = static_cast<long>(std::floor((lo - u.beside - kPositionRounding) / column));
+    const long c1 = static_cast<long>(std::floor((hi + u.beside + kPositionRounding) / column));
     for (long c = c0; c <= c1; ++c) {
       const long turns = c >= 0 ? c / columns_ : -((-c + columns_ - 1) / columns_);
       if (!f(static_cast<std::size_t>(row * columns_ + (c - turns * columns_)), turns)) return false;
@@ -323,7 +327,7 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
   ++cells;
   if (!near(u)) return true;
   const auto none = [](const Bits& x, const Bits& y) { return (x[0] & y[0]) == 0 && (x[1] & y[1]) == 0; };
-  // Whatever its psi: does anything reach so near the axis at these heights?
+  // For any psi: does a triangle of the mesh come so near to the axis at these heights?
   const Bits any = bits_of_bent(u, from, to);
   const auto [row0, row1] = rows_of(u.r_lo, u.r_hi);
   bool alone = true;

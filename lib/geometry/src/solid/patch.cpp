@@ -42,39 +42,40 @@ Corners moved_by_vertices(const Patch& patch, double depth) {
 }
 
 Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
-  constexpr double kAcross = 0.02;
-  static const double along = std::sqrt(1 - kAcross * kAcross);
+  constexpr double across_share = 0.02;  // small, so that the displacement along the direction is nearly all of it
+  static const double along = std::sqrt(1 - across_share * across_share);
   Corners moved = patch.p;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 across = patch.inward[i] - patch.inward[i].dot(direction) * direction;
-    moved[i] += depth * (along * direction + kAcross * across);
+    moved[i] += depth * (along * direction + across_share * across);
   }
   return moved;
 }
 
 Escape escape_at(const Vec3& point, const Solid& solid) {
-  constexpr double kOnSurface = 1e-9;
+  constexpr double on_surface = 1e-9;  // the direction to a closer point is rounding, so the normal is used
   const ClosestPoint c = solid.bvh.closest(point);
   const bool inside = solid.bvh.inside(point);
-  if (c.distance < kOnSurface) return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
+  if (c.distance < on_surface) return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
   return {inside ? c.distance : -c.distance, (inside ? Vec3(c.point - point) : Vec3(point - c.point)) / c.distance};
 }
 
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
-  constexpr double kSameWay = 0.7, kNearEnd = 0.02;
+  // Ways out that differ by less than 45 degrees are of one side; a cut near the end of an edge leaves a sliver.
+  constexpr double same_side = 0.7, near_end = 0.02;
   if (patch.halved >= 2) return std::nullopt;
   std::optional<Ridge> best;
-  double least = kSameWay;
+  double least = same_side;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const double agreement = probe.out[i].dot(probe.out[j]);
     if (agreement >= least || probe.depth[i] <= 0 || probe.depth[j] <= 0) continue;
-    // Going from i to j the way out of i gets longer by a, going back that of j by b.
+    // From i to j the distance to the exit of i grows by a; from j to i that to the exit of j grows by b.
     const Vec3 edge = patch.p[j] - patch.p[i];
     const double a = -edge.dot(probe.out[i]), b = edge.dot(probe.out[j]);
     if (!(a + b > 0)) continue;
     const double t = (probe.depth[j] - probe.depth[i] + b) / (a + b);
-    if (!(t > kNearEnd && t < 1 - kNearEnd)) continue;
+    if (!(t > near_end && t < 1 - near_end)) continue;
     least = agreement;
     best = Ridge{i, t};
   }
@@ -103,13 +104,12 @@ Probe probe(const Patch& patch, const Placement& place, const Solid& other) {
 
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth) {
   const double worst = std::max(0.0, probe.depth[static_cast<std::size_t>(probe.deepest)]);
-  constexpr double kMostAcross = 0.25;
   const double slack = std::max(0.0, depth - worst);
   Corners moved = patch.p;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& out = probe.out[i];
     const double push = std::clamp(probe.depth[i] + 0.5 * slack, 0.0, depth);
-    const double across = std::min(std::sqrt(depth * depth - push * push), kMostAcross * depth);
+    const double across = std::min(std::sqrt(depth * depth - push * push), 0.25 * depth);
     moved[i] += push * out + across * (patch.inward[i] - patch.inward[i].dot(out) * out);
   }
   return moved;

@@ -10,7 +10,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Chords over more segments than this are verified with the box alone: too long to help anyway.
+/// Chords over more segments use the bound of the box alone: they are divided anyway.
 constexpr std::size_t kMostOffsets = 24;
 
 /// Velocity field of a screw motion, constant in time and in world axes: v(x) = v + w x (x - origin).

@@ -15,9 +15,10 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A vertex direction that enters some face by less than this sine is useless.
+/// The least sine by which the inward direction of a vertex has to enter every face around it. With less, the displaced
+/// surface hardly leaves that face.
 constexpr double kLeastSine = 0.05;
-/// Triangles lower than this have no normal to speak of.
+/// Triangles of less height (assembly units) have no reliable normal.
 constexpr double kSliverHeight = 1e-7;
 
 /// By triangle: number of its shell, counted in order of first appearance.
@@ -202,8 +203,8 @@ Solid::Solid(const Mesh& m) : frame(tight_frame(m)), mesh(turned(m, frame)), bvh
 }
 
 void Solid::measure_thickness(double reach) {
-  constexpr double kAlmostOpposite = -0.9;
-  static constexpr std::array<std::array<double, 3>, 4> kSamples = {
+  constexpr double almost_opposite = -0.9;  // cosine between normals: 26 degrees, a wedge and not a corner
+  static constexpr std::array<std::array<double, 3>, 4> samples = {
       {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     thickness[t] = kInfinity;
@@ -211,10 +212,10 @@ void Solid::measure_thickness(double reach) {
     const auto blocks = [&](std::uint32_t other) {
       if (other == t) return false;
       const double facing = normals[t].dot(normals[other]);
-      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < kAlmostOpposite;
+      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < almost_opposite;
       return facing < 0;  // an opposite side faces away
     };
-    for (const auto& w : kSamples) {
+    for (const auto& w : samples) {
       const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
       thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
     }

@@ -8,13 +8,13 @@ namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-/// Far above the rounding of coordinates up to thousands of units, far below any tolerance.
-constexpr double kRounding = 1e-11;
+/// Far above the rounding of coordinates up to thousands of assembly units, far below any tolerance.
+constexpr double kSweepRounding = 1e-11;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(margin + kRounding) {
+Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(margin + kSweepRounding) {
   for (std::size_t i = 0; i < 3; ++i) {
     hull_[i] = begin[i];
     hull_[i + 3] = end[i];
@@ -25,14 +25,14 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
   box_.inflate(margin_);
   motion_ = ((end[0] - begin[0]) + (end[1] - begin[1]) + (end[2] - begin[2])) / 3;
   for (std::size_t i = 0; i < 3; ++i)
-    turning_ = turning_ || (end[i] - begin[i] - motion_).squaredNorm() > kRounding * kRounding;
+    turning_ = turning_ || (end[i] - begin[i] - motion_).squaredNorm() > kSweepRounding * kSweepRounding;
 
   const Vec3 normal = edges_[0].cross(edges_[1]);
   add_axis(normal);
   if (turning_) add_axis((end[1] - end[0]).cross(end[2] - end[1]));
-  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
+  const bool moving = motion_.squaredNorm() > kSweepRounding * kSweepRounding;
   for (const auto& e : edges_) add_axis(moving ? e.cross(motion_) : e.cross(normal));
-  // A sliver that moves along itself has sides whose normals are all but that of its face.
+  // The sides of a sliver that moves along itself have nearly the normal of its face.
   if (moving) add_axis(normal.cross(motion_));
 }
 
@@ -83,7 +83,7 @@ bool Sweep::apart(const Corners& t) const {
   }
   const std::array<Vec3, 3> sides = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   if (apart_along(sides[0].cross(sides[1]), t)) return true;
-  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
+  const bool moving = motion_.squaredNorm() > kSweepRounding * kSweepRounding;
   for (const auto& side : sides) {
     if (moving && apart_along(side.cross(motion_), t)) return true;
     for (const auto& e : edges_)

@@ -1,4 +1,4 @@
-/// Certified continuous check of the surface of one solid against another solid that it moves past.
+/// One-sided certified continuous collision check: the surface of one solid against another solid that it moves past.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,15 +8,15 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/run_context.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/winding.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::geometry {
 
-/// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
+/// The allowed depth. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
 struct Limits {
   double overlap = 0;      ///< >= 0, the pair's when assembled
   double penetration = 0;  ///< > 0
@@ -24,7 +24,7 @@ struct Limits {
   double most() const { return overlap + penetration; }
 };
 
-/// What the check of one direction says.
+/// The result of the check of one surface.
 enum class Answer {
   certified,
   violated,   ///< a point beyond its limit was found
@@ -32,7 +32,7 @@ enum class Answer {
   exhausted,  ///< neither, within the budget
 };
 
-/// The answer of the check of one direction, and the place where it fails.
+/// The result of the check of one surface, and the place where it fails.
 struct Finding {
   Answer answer = Answer::certified;
   // Unless certified:
@@ -65,14 +65,14 @@ struct Budget {
   }
 };
 
-/// The surface of `a` against `b`. One object per question. Idle threads of the executor in the budget's context help;
-/// what is found, and what that takes, does not depend on them.
+/// Checks the surface of `a` against `b`. One object per check. Idle threads of the executor in the budget's context
+/// help; neither the result nor the budget spent depends on them.
 class DirectedCheck {
  public:
   DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
   Finding run();
-  /// After a certified run: all of it by the vertex rule. Then one and the same shrunken copy of A stayed off the
-  /// surface of B at all times.
+  /// After a certified run: was all of it certified by the vertex rule? Then one and the same shrunken copy of A did
+  /// not meet the surface of B at any time.
   bool by_shrunken_copy() const { return by_shrunken_copy_; }
 
  private:
@@ -81,7 +81,7 @@ class DirectedCheck {
     Placement at0, at1;
     RelativeMotion::Bend bend;
   };
-  struct Piece {  // certified by the vertex rule except for which side it is on
+  struct Piece {  // certified by the vertex rule, except for the side of B's surface on which it is
     std::uint32_t patch;
     double s0, s1;
   };
@@ -128,8 +128,9 @@ class DirectedCheck {
   Limits limits_;
   Budget& budget_;
   std::vector<Patch> patches_;
-  std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
-  /// By triangle of A: margins from there on proved nothing lately. Of all shares; no two have patches of one triangle.
+  std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it is needed
+  /// By triangle of A: the margin from which on recent tests failed. All shares use it; no two have patches of one
+  /// triangle.
   std::shared_ptr<std::vector<double>> unclear_;
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;

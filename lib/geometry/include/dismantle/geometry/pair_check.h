@@ -1,4 +1,4 @@
-/// Both directions of the check of two solids.
+/// Continuous collision check of two solids: the surface of each against the other.
 #pragma once
 
 #include "dismantle/geometry/directed_check.h"
@@ -9,8 +9,8 @@ namespace dismantle::geometry {
 Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
                    const Limits& limits, Budget& budget);
 
-/// Do the solids of `a`, along `poses_a`, keep to the limits with those of `b`, which is at `pose_b`? True
-/// is proved for every instant; false: they do not, or a small fixed budget did not suffice for a proof.
+/// Do the solids of `a`, along `poses_a`, penetrate those of `b`, which stays at `pose_b`, within the limits only? True
+/// is proved for every instant. False: they do not, or a small fixed budget did not suffice for a proof.
 bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
             const Pose& pose_b, const Limits& limits);
 

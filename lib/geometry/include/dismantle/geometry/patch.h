@@ -1,8 +1,8 @@
 /// A (piece of a) triangle and the translations that move it out of another solid.
 ///
-/// The displacement rule behind all of them: let the corners of a triangle be moved by at most e each, the rest
-/// linearly with them. If the moved triangle lies outside solid B without crossing its surface, no point of the
-/// triangle is deeper than e in B, for the way that the point was moved leads out through the surface of B.
+/// The displacement rule: move the corners of a triangle by at most e each, and the other points linearly with them. If
+/// the moved triangle lies outside solid B without crossing its surface, no point of the triangle is deeper than e in
+/// B, because the displacement of the point leads out through the surface of B.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,11 +34,11 @@ struct Patch {
 
 /// Corners moved by `depth` times the patch's own inward directions: the vertex rule. Neighbours stay joined.
 Corners moved_by_vertices(const Patch& patch, double depth);
-/// Corners moved all the same way (unit `direction`), and a little across it by the vertex rule: faces that adjoin the
-/// edge may touch something. Along the inward normal of the face for one.
+/// Corners moved in one direction (unit), for instance the inward normal of the face, and a little across it by the
+/// vertex rule, since faces that adjoin the edge may touch something.
 Corners moved_along(const Patch& patch, const Eigen::Vector3d& direction, double depth);
 
-/// Where the corners of a patch are with respect to a solid.
+/// Depths of the corners of a patch in a solid.
 struct Probe {
   std::array<double, 3> depth;  ///< > 0 inside, < 0 outside; distance to the surface
   Corners out;                  ///< unit, frame of the patch's part: the shortest way out
@@ -47,28 +47,28 @@ struct Probe {
   /// Takes over every corner that is deeper in `other`.
   void deepen(const Probe& other);
 };
-/// How a patch that is placed lies against another solid.
+/// Depths of the corners of a placed patch in another solid.
 Probe probe(const Patch& patch, const Placement& place, const Solid& other);
-/// Corners moved the shortest way out and half of what `depth` leaves over beyond the surface, and across that by the
-/// vertex rule; none by more than `depth`.
+/// Corners moved along the shortest way out and beyond the surface by half of the rest of `depth`, and across that by
+/// the vertex rule; none by more than `depth`.
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth);
 
-/// Where one point is with respect to a solid, in whose frame all of this is.
+/// Depth of a point in a solid, in the frame of the solid.
 struct Escape {
   double depth;         ///< > 0 inside, < 0 outside; distance to the surface
   Eigen::Vector3d out;  ///< unit: the shortest way out
 };
-/// Where `point` is with respect to `solid`.
+/// Depth of `point` in `solid`.
 Escape escape_at(const Eigen::Vector3d& point, const Solid& solid);
 
-/// An edge of the patch whose ends have different ways out, and the place on it where both ways are equally long: there
-/// the depth has a ridge, and pieces on either side of it are easier to verify. None after two halvings in a row: where
-/// ridges meet, cutting along one would never come to an end.
+/// An edge of the patch whose ends have different shortest ways out, and the point on it where both are equally long.
+/// The depth has a ridge there, and pieces on either side of it are easier to certify. None after two halvings in a
+/// row: where ridges meet, cutting along one of them would not end.
 struct Ridge {
   std::size_t edge;
   double t;
 };
-/// True when the probed point is on a ridge.
+/// The ridge that crosses the patch, if there is one.
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe);
 
 /// The corners at a placement.

@@ -1,4 +1,4 @@
-/// How one part moves in the frame of another, with bounds on how far that is from straight lines.
+/// The motion of one part in the frame of another, with bounds of its deviation from straight lines.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,30 +23,30 @@ struct Placement {
 /// Time runs from 0 to segments(); segment k joins instants k and k + 1 by the screw motions of both parts.
 class RelativeMotion {
  public:
-  /// Poses of part A and of part B, instant by instant; one pose alone stay fixed. `box` holds the points of A
-  /// (its assembled frame) for which deviation() has to hold. At least one pose each; equal numbers if both move.
+  /// Poses of part A and of part B by instant; a part with a single pose stays fixed. `box` holds the points of A (its
+  /// assembled frame) for which deviation() has to hold. At least one pose each; equal numbers if both move.
   RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const Aabb& box);
 
   std::size_t segments() const { return at_instant_.size() - 1; }
   /// Takes points of A to the frame of B.
   Pose at(double s) const;
-  /// One of the parts stay fixed in segment k, so that the other's screw motion is the relative motion.
+  /// Does one of the parts stay fixed in segment k? Then the other's screw motion is the relative motion.
   bool is_screw(std::size_t k) const { return screws_[k].known; }
   const std::array<Eigen::Vector3d, 8>& corners() const { return corners_; }  ///< of the box
-  /// No point of the box leaves where it is in the frame of B by more than `tolerance`.
+  /// Does no point of the box move by more than `tolerance` in the frame of B?
   bool constant(double tolerance) const;
   /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are
   /// (1 - w) x(s0) + w x(s1) for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
   double deviation(double s0, double s1) const;
-  /// A segment on which one of the parts stay fixed: velocity v + w x (x - origin) of the other where the points of
-  /// A are at its beginning (world).
+  /// A segment in which one of the parts stays fixed: velocity v + w x (x - origin) of the other at the positions of
+  /// A's points at its beginning (assembled frame).
   struct Screw {
     bool known = false;
     Eigen::Vector3d w, v, origin;
     Placement start;
   };
-  /// The same for a few points: a turn bends the ways of what is near its axis far less than those of the corners of
-  /// the box. Made once for an interval as above, asked for many places.
+  /// deviation() for a few points: a rotation bends the paths of points near its axis far less than those of the
+  /// corners of the box. Computed once for an interval, evaluated at many points.
   class Bend {
    public:
     /// Bound for the points within `radius` of `center`, all of them in the box.
@@ -68,7 +68,7 @@ class RelativeMotion {
   Bend bend(double s0, double s1) const;
   /// Box in the frame of B that holds the box of A at all times.
   Aabb swept_box() const;
-  /// The same by segment. Not empty when A or B moves.
+  /// swept_box() of each segment. Not empty when A or B moves.
   std::vector<Aabb> segment_boxes() const;
 
  private:
@@ -77,7 +77,7 @@ class RelativeMotion {
   std::array<Eigen::Vector3d, 8> corners_;
   std::vector<Placement> at_instant_;
   std::vector<Screw> screws_;  // by segment
-  std::vector<double> bend_;   // by segment: bound of the second derivative of a point's way in the frame of B
+  std::vector<double> bend_;   // by segment: bound of the second derivative of a point's path in the frame of B
 };
 
 }  // namespace dismantle::geometry

@@ -1,4 +1,4 @@
-/// A part as the verifier uses it: closed shells grouped into solids, with all that sweeps need of each, built once.
+/// A part as the verifier uses it: closed shells grouped into solids, with the data that sweeps need, computed once.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@
 
 namespace dismantle::geometry {
 
-/// One outer shell and the voids within it. A part whose shells overlap is checked solid by solid: the surface of
-/// one shell inside another must not make a deep penetration look shallow. Immutable.
+/// One outer shell and the voids within it. A part whose shells overlap is checked solid by solid, because the surface
+/// of one shell inside another would make a deep penetration look shallow.
 struct Solid {
   explicit Solid(const Mesh& m);
 
   /// A rotation: assembled = frame * local. Everything below is in the local frame, whose axes follow the largest flat
-  /// faces, so that boxes fit tightly however the part was turned in the input.
+  /// faces, so that boxes fit tightly for any orientation of the part in the input.
   Pose frame;
   Mesh mesh;
   TriangleBvh bvh;

@@ -19,8 +19,8 @@ enum class Sighting {
   unclear,  ///< may meet one
 };
 
-/// Convex hull of a triangle at two places, grown by a margin. Tests are one-sided: what is reported clear is more
-/// than the margin away; what is not may be clear as well.
+/// Convex hull of a triangle at two positions, enlarged by a margin. Tests are one-sided: a triangle that is reported
+/// clear is more than the margin away; one that is not may be clear as well.
 class Sweep {
  public:
   Sweep(const Corners& begin, const Corners& end, double margin);

@@ -1,8 +1,8 @@
-/// Long screw motions in unrolled coordinates, where a point that turns about an axis and advances moves straight.
+/// Helical sweeps in unrolled coordinates, in which a point on a screw motion moves along a straight line.
 ///
-/// Around the axis of a screw motion a point has a radius r, an angle phi and a height z. The motion changes phi, and z
-/// in proportion (`pitch`, per rad); r and psi = z - pitch phi stay what they were. So the surface that a triangle
-/// sweeps in many turns is no more than the triangle's own (r, psi), for a range of phi.
+/// Relative to the axis of a screw motion a point has a radius r, an angle phi and a height z. The motion changes phi,
+/// and z in proportion (`pitch`, per rad); r and psi = z - pitch phi are constant. So the surface that a triangle
+/// sweeps in many turns is the triangle's own set of (r, psi), for a range of phi.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,56 +13,56 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/sweep.h"
+#include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::geometry {
 
-/// Instants between which the motion is one and the same screw motion, in the frame of B.
+/// A helical segment: instants between which the motion is one and the same screw motion, in the frame of B.
 struct Winding {
   std::size_t begin = 0, end = 0;      ///< instants
   Eigen::Vector3d origin, axis, side;  ///< a point of the axis; unit; unit and square to it: where phi is zero
   double pitch = 0;                    ///< advance along the axis per rad, either sign
   std::vector<double> turned;          ///< rad since `begin`, by instant: grows
-  double off = 0;                      ///< largest distance of a point from where the screw takes it, at any time
+  double off = 0;                      ///< bound of the distance of a point from its position on the screw, at any time
 
   double turned_at(std::size_t instant) const { return turned[instant - begin]; }
 };
 
-/// The long ones among them, one after the other.
+/// The long helical segments of a motion, in order.
 std::vector<Winding> windings(const RelativeMotion& motion);
 
-/// Where a triangle is, unrolled. Its r and psi lie in the hull of `p`, grown by the slacks.
+/// A triangle in unrolled coordinates. Its r and psi lie in the convex hull of `p`, enlarged by the slacks.
 struct Unrolled {
   std::array<Eigen::Vector2d, 3> p;  ///< (r, psi)
   double below = 0, above = 0;       ///< slack of r
   double beside = 0;                 ///< slack of psi, either way
   double phi_lo = 0, phi_hi = 0;     ///< with slack, in one of its turns
-  bool bent = false;                 ///< too near the axis: no more is known than what follows
+  bool bent = false;                 ///< too near the axis: only the bounds below are valid
   double r_lo = 0, r_hi = 0;         ///< with slack
   double z_lo = 0, z_hi = 0;         ///< with slack
 };
 
-/// Distances from the axis and heights along it (upwards: the direction of the advance).
+/// A range of distances from the axis and of heights along it (upwards: the direction of the advance).
 struct Ring {
   double r_lo = std::numeric_limits<double>::infinity(), r_hi = 0;
   double z_lo = std::numeric_limits<double>::infinity(), z_hi = -std::numeric_limits<double>::infinity();
 
-  /// All that the triangle passes from the first instant of the winding, where it is at `t`, to the last.
+  /// Adds all positions of the triangle from the first instant of the winding, where it is at `t`, to the last.
   void add(const Winding& winding, const Corners& t);
 };
 
-/// All places that a mesh takes up, unrolled, as a raster of r and psi; each cell tells where along phi it is taken.
-/// Threads have equal profiles everywhere: thousands of triangles share a few cells.
+/// The points of a mesh in unrolled coordinates, as a raster of r and psi; each cell stores the occupied ranges of phi.
+/// The profile of a thread is the same all along it, so thousands of triangles share a few cells.
 class UnrolledMesh {
  public:
-  /// Only what comes near `asked`, see Ring. Cells are `cell` wide (assembly units): what is nearer than two of them
-  /// looks as if it touched.
+  /// Only triangles near `asked` are entered. Cells are `cell` wide (assembly units). Triangles closer than two cells
+  /// count as touching.
   UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell);
 
   /// True: proved that the triangle, `moved` at the first instant of the winding (frame of B), meets no triangle of the
-  /// mesh from instant `from` to instant `to`. Adds to `cells` how many were looked at.
+  /// mesh from instant `from` to instant `to`. Adds the number of visited cells to `cells`.
   bool clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const;
 
  private:
