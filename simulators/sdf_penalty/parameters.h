@@ -74,7 +74,7 @@ struct Parameters {
            .max = 0.1,
            .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
     s.add("adaptive", &Parameters::adaptive,
-          {.doc = "Second order: as many time steps at once as lead no point further than `max_travel`."});
+          {.doc = "Second order: as many time steps in one as lead no point further than `max_travel`."});
     s.add("rest_share", &Parameters::rest_share,
           {.unit = "1",
            .min = 0,

@@ -274,7 +274,8 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
         result.fail(Outcome::timeout);
       } else {
         result.fail(Outcome::crashed,
-                    fmt::format("path planner '{}' stopped although no limit was reached and the run was not cancelled", planner_id_));
+                    fmt::format("path planner '{}' stopped although no limit was reached and the run was not cancelled",
+                                planner_id_));
         context.log(LogLevel::error, result.message);
       }
     }

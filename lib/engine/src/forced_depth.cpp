@@ -126,7 +126,7 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
   if (!motion.straight()) return worst;
   const Eigen::Vector3d& along = motion.twist.linear;
   // Points of `of` move through `in` along `way`; `sign`: the motion itself, or against it.
-  const auto look = [&](const PlacedPart& of, const PlacedPart& in, double sign, double distance) {
+  const auto trace_rays = [&](const PlacedPart& of, const PlacedPart& in, double sign, double distance) {
     const bool moves = sign > 0;
     const double allowed = assembly_.initial_overlap(of.part, in.part);
     const auto& vertices = assembly_.parts[of.part].mesh->vertices;
@@ -153,8 +153,8 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
     for (const PlacedPart& q : motion.fixed) {
       const double distance = reach(q, along) + reach(p, -along);
       if (distance <= 0 || !in_reach(p, q, along, distance)) continue;
-      look(p, q, 1, distance);
-      look(q, p, -1, distance);
+      trace_rays(p, q, 1, distance);
+      trace_rays(q, p, -1, distance);
       if (worst && worst->excess() > enough) return worst;
     }
   return worst;

@@ -88,7 +88,7 @@ double brute_force(const PlanStep& step, const NamedBoxes& parts, const std::map
   return most;
 }
 
-/// Gives up at once.
+/// Gives up immediately.
 std::shared_ptr<SequencePlanner> gives_up() {
   return std::make_shared<fake::Custom>([](const Assembly& a, PathOracle&, SequenceObserver&, RunContext&) {
     SequenceResult result;

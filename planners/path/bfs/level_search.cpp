@@ -51,7 +51,7 @@ LevelSearch::LevelSearch(const PathQuery& query, MotionSpace space, const Parame
   world_->allow_overlap_everywhere();
   begin();
   if (earlier == nullptr) return;
-  for (const Lesson& l : earlier->lessons) world_->add_contact_sample(l.part, l.other, l.point);
+  for (const path::ContactSample& s : earlier->samples) world_->add_contact_sample(s.part, s.other, s.point);
   levels_ = *earlier;
   for (const Node& node : levels_.nodes) remember(node.state);
   resumed_ = levels_.nodes.size();
@@ -85,7 +85,7 @@ std::int32_t LevelSearch::add(Node node) {
   return static_cast<std::int32_t>(levels_.nodes.size() - 1);
 }
 
-/// Who came by the longest way first: who turns a screw out has passed most states.
+/// States with the longest path first: one that turns a screw out has passed most states.
 void LevelSearch::next_level() {
   levels_.level = std::exchange(levels_.next, {});
   levels_.at = 0;
@@ -120,7 +120,7 @@ LevelSearch::End LevelSearch::verify(std::int32_t last, PathResult& result) {
   result.message = check.reason;
   if (check.has_witness) {
     world_->add_contact_sample(check.part, check.other, check.point);
-    levels_.lessons.push_back({check.part, check.other, check.point});
+    levels_.samples.push_back({check.part, check.other, check.point});
   }
   return End::refused;
 }
@@ -156,12 +156,12 @@ LevelSearch::End LevelSearch::expand(std::int32_t from, PathResult& result) {
   path::StateSet passed(bodies_, parameters_.similarity_translation, parameters_.similarity_rotation);
   for (const auto& instant : path_to(from)) passed.add(at(instant), 0);
   for (; levels_.action < actions_.size(); ++levels_.action) {
-    const std::size_t known = levels_.lessons.size();
+    const std::size_t known = levels_.samples.size();
     const End end = follow(from, actions_[levels_.action], passed, result);
     if (end == End::solved || end == End::stopped) return end;
     if (end != End::refused) continue;
     if (refused_ > static_cast<std::uint64_t>(parameters_.max_refusals)) return end;
-    if (levels_.lessons.size() == known) continue;
+    if (levels_.samples.size() == known) continue;
     begin();  // what was found so far may have leaked through the same place
     return End::searched;
   }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "dismantle/path/resume.h"
 #include "dismantle/path/state_set.h"
 #include "dismantle/path_planner.h"
 #include "parameters.h"
@@ -21,12 +22,6 @@ struct Node {
   std::size_t instants = 0;  ///< from the start
 };
 
-/// A place where the verifier found the world too permissive (World::add_contact_sample).
-struct Lesson {
-  PartId part, other;
-  Eigen::Vector3d point;
-};
-
 /// What a search in one motion space has reached.
 struct Levels {
   std::vector<Node> nodes;          ///< parents before their children
@@ -34,7 +29,7 @@ struct Levels {
   std::vector<std::int32_t> next;   ///< children of those
   std::size_t at = 0;               ///< the first of `level` that has not been given all actions
   std::size_t action = 0;           ///< the next that it is given
-  std::vector<Lesson> lessons;
+  std::vector<path::ContactSample> samples;
   std::uint64_t work = 0;  ///< simulated steps that led here
 };
 

@@ -2,19 +2,10 @@
 
 #include <algorithm>
 
+#include "dismantle/path/resume.h"
 #include "dismantle/path/time_limit.h"
 
 namespace dismantle::bfs {
-namespace {
-
-std::vector<PartId> fixed_parts(const Scene& scene) {
-  std::vector<PartId> parts;
-  for (const auto& s : scene.fixed) parts.push_back(s.part);
-  std::sort(parts.begin(), parts.end());
-  return parts;
-}
-
-}  // namespace
 
 PublishedSearch::PublishedSearch(const PathQuery& query, const Parameters& parameters, RunContext& context)
     : query_(query),
@@ -23,7 +14,7 @@ PublishedSearch::PublishedSearch(const PathQuery& query, const Parameters& param
       deadline_(path::deadline_of(query, context)),
       steps_left_(query.budget.max_steps) {
   const auto* reached = dynamic_cast<const ReachedLevels*>(query.resume_from);
-  if (reached != nullptr && reached->fixed == fixed_parts(query.scene)) earlier_ = reached;
+  if (reached != nullptr && reached->fixed == path::fixed_parts(query.scene)) earlier_ = reached;
   now_.fail(Outcome::depth_limit);
 }
 
@@ -112,7 +103,7 @@ PathResult PublishedSearch::result() {
   std::shared_ptr<ReachedLevels> reached;
   if (result.outcome() == Outcome::depth_limit || result.outcome() == Outcome::exhausted) {
     reached = std::make_shared<ReachedLevels>();
-    reached->fixed = fixed_parts(query_.scene);
+    reached->fixed = path::fixed_parts(query_.scene);
   }
   PathResult all;
   for (const auto* search : {&translation_, &rigid_}) {

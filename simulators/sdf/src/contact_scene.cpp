@@ -19,7 +19,7 @@ constexpr double kOnEdge = 2e-4;
 constexpr double kEnoughCertain = 0.6;
 /// Distances that are linear over less than this are not worth remembering.
 constexpr double kLeastFlat = 5e-4;
-/// Odometer reading at which a block wakes that has a point within the margin: at once.
+/// Odometer reading at which a block wakes that has a point within the margin: immediately.
 constexpr double kHeld = -2;
 
 /// What a way from an anchor and its distance may be off: both are kept in single precision.

@@ -1,4 +1,4 @@
-// Wrenches as accelerations, and several time steps at once, against the fixed step.
+// Wrenches as accelerations, and several time steps in one, against the fixed step.
 #include <algorithm>
 #include <cmath>
 

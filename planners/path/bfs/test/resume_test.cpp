@@ -190,7 +190,7 @@ TEST(Resume, WhoIsOutAtTheStartHasNothingToDo) {
 }
 
 /// What the verifier has taught is not forgotten, unless it was about what has left.
-TEST(Resume, LessonsAreKept) {
+TEST(Resume, ContactSamplesAreKept) {
   for (const bool about_gate : {false, true}) {
     const RandomMaze m = random_maze(4);
     Maze leaky = m.maze;

@@ -11,7 +11,7 @@
 namespace dismantle::push {
 namespace {
 
-/// Way between two looks at penetration while gliding: as it begins, the longest that it grows to in the first turn,
+/// Distance between two checks of penetration on a screw: as it begins, the longest that it grows to in the first turn,
 /// and the shortest tried before giving up (assembly units). What is thinner than a step may be jumped; the verifier
 /// sees it, and from then on steps do not grow.
 constexpr double kGlideStep = 0.1, kMostGlideStep = 2.4, kLeastGlideStep = 0.0125;
@@ -27,7 +27,7 @@ constexpr double kGlideClearance = 0.02;
 constexpr double kLeastGlide = 0.15;
 /// What is kept of a glide that got stuck.
 constexpr double kKept = 0.75;
-/// Way between two looks at everything else.
+/// Distance between two checks of separation and of known states.
 constexpr double kGlideLook = 0.3;
 
 State moved(const State& start, const Twist& twist, const Eigen::Vector3d& center, double way) {

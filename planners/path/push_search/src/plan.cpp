@@ -29,7 +29,7 @@ const Tree* reached_in(const PathQuery& query, MotionSpace space) {
   return tree ? &*tree : nullptr;
 }
 
-/// Whoever can follow screws, in one piece: asks whether nothing else leads on.
+/// True for searches of one part that follow screws: they ask first whether nothing but a screw leads on.
 bool may_screw(const PathQuery& query, const Tactics& tactics) {
   return tactics.motion == Motion::automatic && query.goal.any_of.empty() && !tactics.turning.empty() &&
          tactics.turning.front() == Stage::twists;

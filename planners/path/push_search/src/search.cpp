@@ -164,7 +164,7 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   result.message = first.reason;
   if (!first.has_witness) return RunEnd::refused;
   world_->add_contact_sample(first.part, first.other, first.point);
-  lessons_.push_back({first.part, first.other, first.point});
+  samples_.push_back({first.part, first.other, first.point});
   return RunEnd::refused_learned;
 }
 

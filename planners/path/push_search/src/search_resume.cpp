@@ -3,28 +3,19 @@
 #include <iterator>
 #include <utility>
 
+#include "dismantle/path/resume.h"
 #include "dismantle/push/search.h"
 
 namespace dismantle::push {
-namespace {
-
-std::vector<PartId> fixed_parts(const Scene& scene) {
-  std::vector<PartId> parts;
-  for (const auto& s : scene.fixed) parts.push_back(s.part);
-  std::sort(parts.begin(), parts.end());
-  return parts;
-}
-
-}  // namespace
 
 Tree Search::tree() const {
   Tree tree;
-  tree.fixed = fixed_parts(query_.scene);
+  tree.fixed = path::fixed_parts(query_.scene);
   tree.nodes = nodes_;
   tree.passed = passed_;
   tree.passed_before = passed_before_;
   tree.relaxed = !may_relax_;
-  tree.lessons = lessons_;
+  tree.samples = samples_;
   tree.short_glides = short_glides_;
   return tree;
 }
@@ -33,7 +24,7 @@ Tree Search::tree() const {
 /// not there any more may lead on now, from where it ended: that state is given all its actions again, as if it were
 /// new. All other states keep the actions that they have had.
 void Search::resume(const Tree& tree) {
-  const std::vector<PartId> fixed = fixed_parts(query_.scene);
+  const std::vector<PartId> fixed = path::fixed_parts(query_.scene);
   std::vector<PartId> left;
   std::set_difference(tree.fixed.begin(), tree.fixed.end(), fixed.begin(), fixed.end(), std::back_inserter(left));
   others_left_ = !left.empty();
@@ -41,12 +32,12 @@ void Search::resume(const Tree& tree) {
     world_->allow_overlap_everywhere();
     may_relax_ = false;
   }
-  for (const Lesson& lesson : tree.lessons) {
-    if (std::binary_search(left.begin(), left.end(), lesson.part) ||
-        std::binary_search(left.begin(), left.end(), lesson.other))
+  for (const path::ContactSample& sample : tree.samples) {
+    if (std::binary_search(left.begin(), left.end(), sample.part) ||
+        std::binary_search(left.begin(), left.end(), sample.other))
       continue;
-    world_->add_contact_sample(lesson.part, lesson.other, lesson.point);
-    lessons_.push_back(lesson);
+    world_->add_contact_sample(sample.part, sample.other, sample.point);
+    samples_.push_back(sample);
   }
   short_glides_ = tree.short_glides;
   clear();

@@ -12,7 +12,7 @@
 namespace dismantle::push {
 namespace {
 
-/// Ways along a screw at which we look whether the hulls are apart: the first one (assembly units), the factor by which
+/// Distances along a screw at which the hulls are tested for separation: the first one (assembly units), the factor by which
 /// they grow, the most. In the first turn none of them is further than the share of a turn from the one before.
 constexpr double kFirstWayOut = 0.1, kWayOutFactor = 1.25, kMostWayOut = 2000, kWayOutShare = 1.0 / 16;
 constexpr double kFullTurn = 2 * std::numbers::pi;

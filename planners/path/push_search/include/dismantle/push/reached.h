@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/path/resume.h"
 #include "dismantle/path_planner.h"
 
 namespace dismantle::push {
@@ -31,12 +32,6 @@ struct Middle {
   Path way;
 };
 
-/// A place where the verifier found the world too permissive (World::add_contact_sample).
-struct Lesson {
-  PartId part, other;
-  Eigen::Vector3d point;
-};
-
 /// Of a search in one motion space.
 struct Tree {
   std::vector<PartId> fixed;  ///< ascending
@@ -44,7 +39,7 @@ struct Tree {
   std::vector<Middle> passed;
   std::size_t passed_before = 0;  ///< states in the middle of runs that became nodes, or were dropped
   bool relaxed = false;           ///< World::allow_overlap_everywhere
-  std::vector<Lesson> lessons;
+  std::vector<path::ContactSample> samples;
   bool short_glides = false;
 };
 

@@ -139,7 +139,7 @@ class Search {
   std::uint64_t sweep_end_ = 0;  ///< expansions at which it ends
   bool may_relax_ = true;
   bool short_glides_ = false;  ///< the verifier refused one
-  std::vector<Lesson> lessons_;
+  std::vector<path::ContactSample> samples_;
   bool begun_ = false;                                 ///< run() has been called
   bool others_left_ = false;                           ///< there are fewer fixed parts than in the search resumed
   std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes taken over
