@@ -108,14 +108,14 @@ TEST_P(EachPlanner, GivesUpWhenItsBudgetIsSpent) {
   EXPECT_EQ(r.plan.unsolved[0].outcome, Outcome::timeout);
 }
 
-/// What is shut in is not searched for, whatever the planner, and the proof is told.
+/// An enclosed part is not searched for by any planner, and the report has the proof.
 TEST_P(EachPlanner, IsNotAskedAboutAClosedBox) {
   const RunResult r = plan("closed_box", {}, GetParam(), {"run.path_steps=300", "sequence_planner.type=queue"});
   EXPECT_EQ(r.plan.status, PlanStatus::partial);
   ASSERT_EQ(r.plan.unsolved.size(), 2u);
   for (const auto& u : r.plan.unsolved) {
     EXPECT_EQ(u.outcome, Outcome::infeasible);
-    EXPECT_NE(u.message.find("shut in"), std::string::npos) << u.message;
+    EXPECT_NE(u.message.find("enclosed by"), std::string::npos) << u.message;
     ASSERT_TRUE(u.certificate);
     EXPECT_EQ(r.plan.certificates.at(*u.certificate).kind, "enclosed_ball");
   }

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "configuration_cells/pocket.h"
+#include "configuration_cells/cage.h"
 #include "dismantle/immobility/query.h"
 
 namespace dismantle::immobility {
@@ -13,22 +13,50 @@ void ConfigurationCellsParams::describe(Schema<ConfigurationCellsParams>& s) {
   s.add("walk_checks", &ConfigurationCellsParams::walk_checks,
         {.unit = "1",
          .min = 1,
-         .doc = "Poses that a random walk looks at first: where it gets away there is nothing to prove."});
+         .doc = "State checks of the random search that precedes the proof. If it separates the parts, no proof is "
+                "tried; too few checks waste time on proofs that must fail."});
   s.add("max_divisions", &ConfigurationCellsParams::max_divisions,
-        {.unit = "1", .min = 1, .doc = "Boxes of poses that are divided before the proof is given up."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Cells of relative poses that are divided before the proof is given up. Time grows in proportion: "
+                "about half a minute for the default."});
+  s.add("patience", &ConfigurationCellsParams::patience,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Divisions without progress after which the random search is sent to where cells lead, and "
+                "after which the decomposed box grows on a side that all of them lead to. Less reacts sooner to long "
+                "free motions, more spends fewer state checks."});
+  s.add("sample_spacing", &ConfigurationCellsParams::sample_spacing,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .min_open = true,
+         .doc = "Advanced. Distance between the points inside the parts of which the proof is made. Fewer points are "
+                "faster, and miss contacts of small features. Large parts have a larger one, so that each has at most "
+                "some thousand points."});
+  s.add("smallest_cell", &ConfigurationCellsParams::smallest_cell,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .min_open = true,
+         .doc = "Advanced. Cells whose poses differ by less displacement are not divided; if a way out leads through "
+                "one, the proof is given up."});
+  s.add("separation", &ConfigurationCellsParams::separation,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .min_open = true,
+         .doc = "Advanced. Displacement at which the random search takes the parts for separated, or the radius of "
+                "the smaller part, if that is more. It has to be more than parts that are held can slide."});
 }
 
 std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& query, const RunContext& context) const {
   const auto pair = pair_of(query);
   if (!pair || !near_each_other(query, pair->first, pair->second)) return std::nullopt;
-  // Turns of a small part move its points less, so its poses need fewer boxes.
+  // The smaller part moves: a rotation displaces its points less, so fewer cells are needed.
   auto [a, b] = *pair;
   if (extent_of(query, b) < extent_of(query, a)) std::swap(a, b);
-  const PocketEffort effort{static_cast<std::size_t>(params_.walk_checks),
-                            static_cast<std::size_t>(params_.max_divisions)};
-  const auto found_in = pocket(solids_of(query, a), solids_of(query, b), depth_allowed(query, a, b), effort, context);
-  if (!found_in) return std::nullopt;
-  const Vector6 most = found_in->lo.cwiseAbs().cwiseMax(found_in->hi.cwiseAbs());
+  const auto cage = cage_by_configuration_cells(solids_of(query, a), solids_of(query, b), depth_allowed(query, a, b),
+                                                query.tolerance, params_, context);
+  if (!cage) return std::nullopt;
+  const Vector6 most = cage->lo.cwiseAbs().cwiseMax(cage->hi.cwiseAbs());
   const double depth = query.assembly.initial_overlap(a, b) + query.margin();
   const double shift = most.tail<3>().norm(), turn = most.head<3>().norm();
   Certificate found;
@@ -36,14 +64,13 @@ std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& quer
   found.numbers = {{"depth", {depth}},
                    {"shift", {shift}},
                    {"turn", {turn}},
-                   {"lower", {found_in->lo.data(), found_in->lo.data() + 6}},
-                   {"upper", {found_in->hi.data(), found_in->hi.data() + 6}},
-                   {"cells", {static_cast<double>(found_in->cells)}}};
+                   {"lower", {cage->lo.data(), cage->lo.data() + 6}},
+                   {"upper", {cage->hi.data(), cage->hi.data() + 6}},
+                   {"cells", {static_cast<double>(cage->cells)}}};
   found.text = fmt::format(
-      "{0} and {1} hold each other as rigid bodies: cutting in by less than {2:.4g}, {0} comes no further than {3:.4g} "
-      "past {1} and turns by no more than {4:.4g} rad (proved over {5} boxes of poses)",
-      name_of(query, a), name_of(query, b), input_length(query, depth), input_length(query, shift), turn,
-      found_in->cells);
+      "{0} and {1} hold each other as rigid bodies: while they penetrate less than {2:.4g}, {0} moves no further than "
+      "{3:.4g} relative to {1} and turns by no more than {4:.4g} rad (proved over {5} cells of poses)",
+      name_of(query, a), name_of(query, b), input_length(query, depth), input_length(query, shift), turn, cage->cells);
   return found;
 }
 

@@ -1,4 +1,4 @@
-/// Two parts of any shape that hold each other: boxes of relative poses that no motion leaves.
+/// Two parts of any shape that cannot be separated: a region of relative poses that no motion leaves.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,18 @@
 
 namespace dismantle::immobility {
 
+/// Lengths are multiples of the tolerance. All of these decide only how hard a proof is tried.
 struct ConfigurationCellsParams {
   std::int64_t walk_checks = 6000;
   std::int64_t max_divisions = 100'000;
+  std::int64_t patience = 500;
+  double sample_spacing = 2;
+  double smallest_cell = 0.05;
+  double separation = 300;
   static void describe(Schema<ConfigurationCellsParams>& s);
 };
 
-/// With the whole tolerance less is proved than with half of it. See pocket.h for the proof.
+/// The proof is in cage.h. For the whole tolerance it succeeds less often than for half of it.
 class ConfigurationCells final : public ImmobilityProver {
  public:
   explicit ConfigurationCells(const ConfigurationCellsParams& params = {}) : params_(params) {}

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dismantle/immobility/free_part.h"
+#include "dismantle/geometry/numerics.h"
+#include "dismantle/immobility/free_space_bound.h"
 
 namespace dismantle::immobility {
 namespace {
 
 using Mat3 = Eigen::Matrix3d;
 using Vec3 = Eigen::Vector3d;
-
-constexpr int kRounds = 6;
-constexpr double kAgain = 0.8;        // of some width left over: once more
-constexpr double kWorthwhile = 0.95;  // half spaces that cut off less of the cell are left out
-constexpr double kLeastMove = 1e-3;   // of the width, of a face
-constexpr double kRounding = 1e-9;
 
 /// d/dw exp(w) p = (J e_i) x exp(w) p.
 Mat3 left_jacobian(const Vec3& w) {
@@ -27,109 +22,110 @@ Mat3 left_jacobian(const Vec3& w) {
   return Mat3::Identity() + a * k + b * k * k;
 }
 
-/// Columns (J e_i) x p.
-Mat3 turning(const Mat3& jacobian, const Vec3& p) {
+/// Derivative of exp(w) p: columns (J e_i) x p.
+Mat3 derivative(const Mat3& jacobian, const Vec3& p) {
   Mat3 m;
   for (int i = 0; i < 3; ++i) m.col(i) = jacobian.col(i).cross(p);
   return m;
 }
 
-/// Where a pin is over a cell, in the frame of the solid that it faces: at + slope * (x - centre), and no more than
-/// `rest` from there; all that is within the box at +- half.
-struct Spread {
+/// Positions of a sample over a cell, in the frame of its obstacle: within `rest` of at + slope * (x - centre), and
+/// within the box at +- half.
+struct Positions {
   Vec3 at, half;
   Eigen::Matrix<double, 3, 6> slope;
   double rest = 0;
 };
 
-class View {
+class Linearization {
  public:
-  View(const PoseCell& cell, const Pinned& pinned) : pinned_(pinned) {
+  Linearization(const PoseCell& cell, const SampledPair& pair) : pair_(pair) {
     const Vector6 middle = cell.center();
     half_ = 0.5 * cell.size();
     const Vec3 w = middle.head<3>();
-    turn_ = rotation_from_vector(w).toRotationMatrix();
+    rotation_ = rotation_from_vector(w).toRotationMatrix();
     shift_ = middle.tail<3>();
     there_ = left_jacobian(w);
     back_ = left_jacobian(-w);
-    turn_reach_ = half_.head<3>().norm();
-    shift_reach_ = half_.tail<3>().norm();
+    half_turn_ = half_.head<3>().norm();
+    half_shift_ = half_.tail<3>().norm();
   }
 
-  Spread spread(const Pin& pin) const {
-    const Pinned::Faced& faced = pinned_.faced(pin);
-    const Mat3& f = faced.turn;
-    Spread s;
+  Positions positions(const InteriorSample& sample) const {
+    const SampledPair::Obstacle& obstacle = pair_.obstacle(sample);
+    const Mat3& f = obstacle.rotation;
+    Positions s;
     Vec3 p;
-    if (pin.of_a) {
-      const Vec3 turned = turn_ * pin.at;
+    if (sample.of_a) {
+      const Vec3 turned = rotation_ * sample.at;
       p = turned + shift_;
-      s.slope << f * turning(there_, turned), f;
-      s.rest = 0.5 * turn_reach_ * turn_reach_ * pin.at.norm();
+      s.slope << f * derivative(there_, turned), f;
+      s.rest = 0.5 * half_turn_ * half_turn_ * sample.at.norm();
     } else {
-      // exp(-w) (at - shift): the turn and the shift multiply.
-      const Vec3 from = pin.at - shift_;
-      p = turn_.transpose() * from;
-      s.slope << -f * turning(back_, p), -f * turn_.transpose();
-      s.rest = 0.5 * turn_reach_ * turn_reach_ * from.norm() + turn_reach_ * shift_reach_;
+      // exp(-w) (at - shift): the product of rotation and shift is of second order, too.
+      const Vec3 from = sample.at - shift_;
+      p = rotation_.transpose() * from;
+      s.slope << -f * derivative(back_, p), -f * rotation_.transpose();
+      s.rest = 0.5 * half_turn_ * half_turn_ * from.norm() + half_turn_ * half_shift_;
     }
-    s.rest += kRounding;
-    s.at = f * (p + pinned_.center()) + faced.to_local.t;
+    s.rest += obstacle.rounding;
+    s.at = f * (p + pair_.center()) + obstacle.to_local.t;
     s.half = s.slope.cwiseAbs() * half_;
     s.half.array() += s.rest;
     return s;
   }
 
  private:
-  const Pinned& pinned_;
+  const SampledPair& pair_;
   Vector6 half_;
-  Mat3 turn_, there_, back_;
+  Mat3 rotation_, there_, back_;
   Vec3 shift_;
-  double turn_reach_, shift_reach_;
+  double half_turn_, half_shift_;
 };
 
-/// The half spaces of all pins, from the cell's centre. Nothing: the cell is empty.
-bool gather(PoseCell& cell, const Pinned& pinned, Polytope& polytope) {
-  const View view(cell, pinned);
+/// Collects the half spaces of all samples, relative to the cell's centre. False: the cell is empty.
+bool gather(PoseCell& cell, const SampledPair& pair, Polytope& polytope) {
+  const Linearization linear(cell, pair);
   const Vector6 reach = 0.5 * cell.size();
   polytope.lo = -reach;
   polytope.hi = reach;
   polytope.a.clear();
   polytope.b.clear();
-  auto kept = std::make_shared<PinList>();
-  cell.center_open = true;
-  for (const std::uint32_t number : *cell.pins) {
-    const Pin& pin = pinned.pins()[number];
-    const Pinned::Faced& faced = pinned.faced(pin);
-    const Spread s = view.spread(pin);
-    const FreePart part = free_part(faced, s.at, s.half);
-    if (part.none) return false;
-    if (part.all) continue;
+  auto kept = std::make_shared<SampleList>();
+  cell.center_free = true;
+  for (const std::uint32_t number : *cell.samples) {
+    const InteriorSample& sample = pair.samples()[number];
+    const SampledPair::Obstacle& obstacle = pair.obstacle(sample);
+    const Positions s = linear.positions(sample);
+    const FreeSpaceBound free = free_space_bound(obstacle, s.at, s.half);
+    if (free.none) return false;
+    if (free.all) continue;
     kept->push_back(number);
-    if (cell.center_open && faced.occupied.inside(s.at)) cell.center_open = false;
-    for (const HalfSpace& h : part.within) {
+    if (cell.center_free && obstacle.occupied.inside(s.at)) cell.center_free = false;
+    for (const HalfSpace& h : free.half_spaces) {
       const Vector6 a = -s.slope.transpose() * h.normal;
       const double b = h.normal.dot(s.at) + s.rest - h.least, most = a.cwiseAbs().dot(reach);
       if (b < -most) return false;
-      if (b < kWorthwhile * most) polytope.add(a, b);
+      if (b < 0.95 * most) polytope.add(a, b);  // one that cuts off less is not worth the time of its row
     }
   }
-  cell.pins = std::move(kept);
+  cell.samples = std::move(kept);
   return true;
 }
 
-/// Moves the faces in as far as the half spaces allow. Nothing: they have nothing in common.
+/// Moves the faces inwards as far as the half spaces allow. False: the half spaces have no common point.
 bool shrink(PoseCell& cell, Polytope& polytope) {
   const Vector6 middle = cell.center(), size = cell.size();
   for (int d = 0; d < 6; ++d)
     for (const bool upper : {false, true}) {
       const LinearBound m = maximum(Vector6((upper ? 1.0 : -1.0) * Vector6::Unit(d)), polytope);
       if (m.empty) return false;
-      const double by = m.value + kRounding;
-      if (upper && by < polytope.hi[d] - kLeastMove * size[d]) {
+      const double by = m.value + kRounding * size[d];
+      // A face that would move by less than a thousandth of the width stays, and is still shared with the neighbours.
+      if (upper && by < polytope.hi[d] - 1e-3 * size[d]) {
         polytope.hi[d] = by;
         cell.hi[d] = middle[d] + by;
-      } else if (!upper && -by > polytope.lo[d] + kLeastMove * size[d]) {
+      } else if (!upper && -by > polytope.lo[d] + 1e-3 * size[d]) {
         polytope.lo[d] = -by;
         cell.lo[d] = middle[d] - by;
       }
@@ -146,22 +142,23 @@ bool PoseCell::touches(const PoseCell& other) const {
   return true;
 }
 
-void contract(PoseCell& cell, const Pinned& pinned, const PinList& in_use) {
-  if (cell.known < in_use.size()) {
-    auto more = std::make_shared<PinList>(*cell.pins);
-    more->insert(more->end(), in_use.begin() + static_cast<std::ptrdiff_t>(cell.known), in_use.end());
-    cell.pins = std::move(more);
-    cell.known = in_use.size();
+void contract(PoseCell& cell, const SampledPair& pair, const SampleList& active) {
+  if (cell.known < active.size()) {
+    auto more = std::make_shared<SampleList>(*cell.samples);
+    more->insert(more->end(), active.begin() + static_cast<std::ptrdiff_t>(cell.known), active.end());
+    cell.samples = std::move(more);
+    cell.known = active.size();
   }
   static thread_local Polytope polytope;
-  for (int round = 0; round < kRounds; ++round) {
+  // A smaller cell has a smaller remainder, so contraction is repeated while some width shrinks by a fifth.
+  for (int round = 0; round < 6; ++round) {
     const Vector6 before = cell.size();
-    if (!gather(cell, pinned, polytope) || !shrink(cell, polytope)) {
+    if (!gather(cell, pair, polytope) || !shrink(cell, polytope)) {
       cell.empty = true;
-      cell.pins.reset();
+      cell.samples.reset();
       return;
     }
-    if (!(cell.size().cwiseQuotient(before).minCoeff() < kAgain)) return;
+    if (!(cell.size().cwiseQuotient(before).minCoeff() < 0.8)) return;
   }
 }
 

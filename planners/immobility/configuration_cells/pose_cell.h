@@ -1,35 +1,36 @@
-/// Boxes of poses, and what of them pins leave over.
+/// Boxes of relative poses, and the contraction of a box to its free poses.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "dismantle/immobility/pins.h"
+#include "dismantle/immobility/interior_samples.h"
 
 namespace dismantle::immobility {
 
-using PinList = std::vector<std::uint32_t>;  // numbers of pins
+using SampleList = std::vector<std::uint32_t>;  ///< indices of interior samples
 
-/// A box of the six coordinates of Pinned. Poses of it at which a pin is inside what it faces are out of bounds.
+/// A box in the six coordinates of SampledPair. A pose at which a sample is inside its obstacle is not free.
 struct PoseCell {
   Vector6 lo = Vector6::Zero(), hi = Vector6::Zero();
-  bool empty = false;             ///< all of it is out of bounds
-  bool center_open = false;       ///< no pin that was asked is inside at the centre
-  std::shared_ptr<PinList> pins;  ///< those that may be inside somewhere
-  std::size_t known = 0;          ///< so many of the pins in use have been looked at
+  bool empty = false;                   ///< no pose of it is free
+  bool center_free = false;             ///< no active sample is inside at the centre
+  std::shared_ptr<SampleList> samples;  ///< active samples that may be inside somewhere in the cell
+  std::size_t known = 0;  ///< length of the prefix of the active samples that `samples` accounts for
 
   Vector6 center() const { return 0.5 * (lo + hi); }
   Vector6 size() const { return hi - lo; }
   bool touches(const PoseCell& other) const;
 };
 
-/// Makes the cell smaller, or empty, without loss of a pose that is within bounds; a face that does not move stays
-/// exactly where it was. `in_use`: the pins to look at; it may have got longer since.
+/// Makes the cell smaller, or empty, without loss of a free pose. A face that does not move keeps its exact coordinate.
+/// `active`: samples to use; the list may only have grown since the last call.
 ///
-/// How: over the cell, each pin is in a box, to first order and with a bound of the rest (the exponential map's second
-/// derivative has norm 1 at most, times the distance from the centre). What the solid leaves of that box is in half
-/// spaces, so the pose is in half spaces of the six coordinates; linear programs bound what they have in common.
-void contract(PoseCell& cell, const Pinned& pinned, const PinList& in_use);
+/// How: over the cell, the first order form of a sample's position and a bound of the remainder give a box that holds
+/// the sample (the second derivative of the exponential map has norm 1 at most, times the distance from the centre).
+/// free_space_bound() of that box gives half spaces of the six coordinates, and linear programs bound their
+/// intersection with the cell.
+void contract(PoseCell& cell, const SampledPair& pair, const SampleList& active);
 
 }  // namespace dismantle::immobility

@@ -5,18 +5,26 @@
 #include <utility>
 
 #include "disc/disc_cage.h"
-#include "dismantle/immobility/bar_middle.h"
+#include "dismantle/immobility/medial_balls.h"
 #include "dismantle/immobility/query.h"
 
 namespace dismantle::immobility {
 
 void DiscParams::describe(Schema<DiscParams>& s) {
   s.add("max_discs", &DiscParams::max_discs,
-        {.unit = "1", .min = 1, .doc = "Discs of each solid, the largest first, that are looked for in chambers."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Discs of each solid that are tried, the largest first. A larger disc passes fewer openings, so more "
+                "than one helps only parts of several flat pieces."});
   s.add("max_divisions", &DiscParams::max_divisions,
-        {.unit = "1", .min = 1, .doc = "Cells of places of the disc's centre that are divided."});
-  s.add("max_facets", &DiscParams::max_facets,
-        {.unit = "1", .min = 1, .doc = "Facets that are looked at for all cells together; most proofs take a tenth."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Cells of positions of the disc's centre that are divided before the proof is given up."});
+  s.add(
+      "max_facets", &DiscParams::max_facets,
+      {.unit = "1",
+       .min = 1,
+       .doc = "Tests of a facet before the proof is given up: 2e8 take about ten seconds. Most proofs need a tenth."});
 }
 
 std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunContext& context) const {
@@ -25,15 +33,13 @@ std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunCo
   auto [inside, other] = *pair;
   if (extent_of(query, other) < extent_of(query, inside)) std::swap(inside, other);
   const double depth = depth_allowed(query, inside, other);
-  const auto* middles = middles_of(query, inside, context);
-  if (middles == nullptr) return std::nullopt;
-  const DiscEffort effort{static_cast<std::size_t>(params_.max_divisions),
-                          static_cast<std::size_t>(params_.max_facets)};
+  const auto* balls = medial_balls_of(query, inside, context);
+  if (balls == nullptr) return std::nullopt;
   const auto& solids = solids_of(query, inside);
-  for (std::size_t i = 0; i < middles->size(); ++i)
-    for (const InnerDisc& disc :
-         discs_in(solids[i], (*middles)[i], depth, static_cast<std::size_t>(params_.max_discs))) {
-      const auto cage = disc_cage(disc, solids_of(query, other), effort, context);
+  for (std::size_t i = 0; i < balls->size(); ++i)
+    for (const InteriorDisc& disc :
+         discs_in(solids[i], (*balls)[i], depth, static_cast<std::size_t>(params_.max_discs))) {
+      const auto cage = disc_cage(disc, solids_of(query, other), slack_of(query), params_, context);
       if (!cage) continue;
       Certificate found;
       found.parts = {inside, other};
@@ -43,10 +49,10 @@ std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunCo
                        {"half_thickness", {disc.half}},
                        {"cells", {static_cast<double>(cage->cells)}}};
       found.text = fmt::format(
-          "{0} and {1} hold each other: {0} has a flat disc of diameter {2:.4g} about {3} in a chamber of {1}, none of "
-          "whose openings it gets through, however it is turned (less the penetration that is allowed)",
+          "{0} and {1} hold each other: {0} has a flat disc of diameter {2:.4g} about {3} in a chamber of {1}, and it "
+          "passes none of the openings in any orientation (less the penetration that is allowed)",
           name_of(query, inside), name_of(query, other), input_length(query, 2 * disc.radius),
-          place_of(query, disc.center));
+          position_text(query, disc.center));
       return found;
     }
   return std::nullopt;

@@ -1,4 +1,4 @@
-/// A flat piece of one part in a chamber of another, which gets through none of its openings.
+/// A flat piece of one part in a chamber of another, whose openings it cannot pass.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct DiscParams {
   static void describe(Schema<DiscParams>& s);
 };
 
-/// Of a pair, the smaller part is looked for in chambers of the larger one. See disc_cage.h for the proof.
+/// Of a pair, the smaller part has the disc and the larger one the chamber. The proof is in disc_cage.h.
 class Disc final : public ImmobilityProver {
  public:
   explicit Disc(const DiscParams& params = {}) : params_(params) {}

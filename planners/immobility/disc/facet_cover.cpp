@@ -1,15 +1,13 @@
 #include <algorithm>
 
 #include "disc/facets.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::immobility {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
-
-constexpr int kPieces = 64;          // into which what is to be covered is cut, at most
-constexpr double kLeastArea = 1e-9;  // of the square of its extent: what is smaller is not cut off
 
 bool all_near(const Facet& facet, const std::vector<Vec2>& points, double near) {
   return std::all_of(points.begin(), points.end(), [&](const Vec2& p) { return facet.within(p, near); });
@@ -29,7 +27,7 @@ bool Facets::covers(std::uint32_t number, const std::vector<Vec2>& points, doubl
   }
   if (touched < 2) return false;
   const Outline hull = hull_of(points);
-  int left = kPieces;
+  int left = 64;  // pieces into which the hull is cut: time is bounded, and a hull over more facets is divided anyway
   return hull.size() > 2 && covers(plane, hull, near, left);
 }
 
@@ -42,9 +40,10 @@ bool Facets::covers_behind(std::uint32_t number, const std::vector<Vec2>& points
     if (other.plane == number) continue;
     const FacetPlane& o = planes_[other.plane];
     const Vec3 normal = other.side * o.normal;
-    const Vec2 slope = plane.flat(normal);  // its height is this times what is flat, and a constant
-    const double length = slope.norm(), height = other.side * o.offset - plane.offset * plane.normal.dot(normal) + kOff;
-    if (length < 1e-6) continue;
+    const Vec2 slope = plane.flat(normal);  // the height above the other plane is linear, with this slope
+    const double length = slope.norm(),
+                 height = other.side * o.offset - plane.offset * plane.normal.dot(normal) + 0.1 * slack_;
+    if (length < 1e-6) continue;  // the planes are parallel, so the other one does not cut the hull
     hull = cut(hull, height / (length * length) * slope, {slope.y(), -slope.x()}).second;
     if (hull.size() < 3) return true;
   }
@@ -55,7 +54,7 @@ bool Facets::covers(const FacetPlane& plane, const Outline& piece, double near, 
   if (--left < 0) return false;
   const Aabb box = flat_box(piece);
   const Facet* over = nullptr;
-  double most = kLeastArea * box.size().squaredNorm();
+  double most = kRounding * box.size().squaredNorm();  // an overlap of less area is rounding
   for (const std::uint32_t f : plane.facets) {
     Aabb around = facets_[f].flat;
     around.inflate(near);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::immobility {
 namespace {
 
@@ -13,19 +15,14 @@ using Vec3 = Eigen::Vector3d;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 using Loop = std::vector<std::uint32_t>;  // numbers of corners, counter-clockwise
 
-constexpr double kTurn = 1e-10;     // sine of a turn the wrong way that is put down to rounding
-constexpr double kAlong = 1e-9;     // by so much less than 1 is the cosine of the angle between normals in one plane
-constexpr double kSame = 0.99999;   // cosine of the angle between directions that are the same
-constexpr std::size_t kTold = 500;  // directions that are told apart
-constexpr double kApart = 1e-6;     // assembly units: planes that may be the same
-
+/// A turn to the right that rounding may explain counts as straight on.
 bool turns_left(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - b;
-  const double turn = cross(u, v), slack = kTurn * u.norm() * v.norm();
+  const double turn = cross(u, v), slack = 0.1 * kRounding * u.norm() * v.norm();
   return turn > slack || (turn >= -slack && u.dot(v) > 0);
 }
 
-/// Two pieces become one across the edge that is u, v in the first and v, u in the second. Empty if that is not convex.
+/// Merges two pieces across the edge that is u, v in the first and v, u in the second. Empty if that is not convex.
 Loop joined(const Loop& a, const Loop& b, std::uint32_t u, std::uint32_t v, const std::vector<Vec2>& at) {
   const auto find = [](const Loop& p, std::uint32_t from, std::uint32_t to) {
     std::size_t k = 0;
@@ -35,8 +32,8 @@ Loop joined(const Loop& a, const Loop& b, std::uint32_t u, std::uint32_t v, cons
   const std::size_t i = find(a, u, v), j = find(b, v, u);
   if (i == a.size() || j == b.size()) return {};
   Loop whole;
-  for (std::size_t k = 1; k <= a.size(); ++k) whole.push_back(a[(i + k) % a.size()]);  // from v round to u,
-  for (std::size_t k = 2; k < b.size(); ++k) whole.push_back(b[(j + k) % b.size()]);   // and on to before v
+  for (std::size_t k = 1; k <= a.size(); ++k) whole.push_back(a[(i + k) % a.size()]);  // from v around a to u
+  for (std::size_t k = 2; k < b.size(); ++k) whole.push_back(b[(j + k) % b.size()]);   // from u around b to v
   const std::size_t n = whole.size();
   for (const std::size_t k : {std::size_t{0}, a.size() - 1})
     if (!turns_left(at[whole[(k + n - 1) % n]], at[whole[k]], at[whole[(k + 1) % n]])) return {};
@@ -49,10 +46,11 @@ Loop joined(const Loop& a, const Loop& b, std::uint32_t u, std::uint32_t v, cons
 struct Facets::Shell {
   const std::vector<Triangle>& triangles;
   std::vector<Vec3> at;
-  std::vector<Vec2> flat;     // in the plane of the region in hand
-  std::vector<double> twice;  // their areas, doubled
+  double off;                 // the largest distance from a plane of points in it
+  std::vector<Vec2> flat;     // corners, in the plane of the current region
+  std::vector<double> twice;  // areas, doubled
   std::vector<bool> taken;
-  std::map<Edge, std::uint32_t> across;  // a directed edge, and whose it is
+  std::map<Edge, std::uint32_t> across;  // the triangle of each directed edge
 
   Vec3 normal(std::uint32_t t) const {
     const auto& [a, b, c] = triangles[t];
@@ -60,11 +58,11 @@ struct Facets::Shell {
   }
   bool in(const FacetPlane& plane, std::uint32_t t) const {
     return std::all_of(triangles[t].begin(), triangles[t].end(),
-                       [&](std::uint32_t v) { return std::abs(plane.height(at[v])) < kOff; });
+                       [&](std::uint32_t v) { return std::abs(plane.height(at[v])) < off; });
   }
 };
 
-Facets::Facets(const std::vector<Solid>& solids) {
+Facets::Facets(const std::vector<Solid>& solids, double slack) : slack_(slack) {
   const auto smaller = [](const Solid& a, const Solid& b) { return a.box.size().norm() < b.box.size().norm(); };
   if (const auto most = std::max_element(solids.begin(), solids.end(), smaller); most != solids.end())
     frame_ = most->frame;
@@ -72,10 +70,10 @@ Facets::Facets(const std::vector<Solid>& solids) {
   for (const Facet& f : facets_) box_.extend(f.box);
 }
 
-/// The largest triangles first: they know best where their plane is.
+/// The largest triangles first, since their normals are the most accurate.
 void Facets::add(const Solid& solid) {
   const Pose to_here = frame_.inverse() * solid.frame;
-  Shell shell{solid.mesh.triangles, {}, {}, {}, {}, {}};
+  Shell shell{solid.mesh.triangles, {}, 0.1 * slack_, {}, {}, {}, {}};
   for (const Vec3& v : solid.mesh.vertices) shell.at.push_back(to_here * v);
   shell.flat.resize(shell.at.size());
   shell.taken.assign(shell.triangles.size(), false);
@@ -97,9 +95,9 @@ std::uint32_t Facets::plane_through(const Shell& shell, std::uint32_t triangle) 
   plane.offset = plane.normal.dot(shell.at[shell.triangles[triangle][0]]);
   auto number = static_cast<std::uint32_t>(planes_.size());
   const double off = std::abs(plane.offset);
-  for (auto k = by_offset_.lower_bound(off - kApart); k != by_offset_.end() && k->first < off + kApart; ++k) {
+  for (auto k = by_offset_.lower_bound(off - slack_); k != by_offset_.end() && k->first < off + slack_; ++k) {
     const FacetPlane& p = planes_[k->second];
-    if (std::abs(p.normal.dot(plane.normal)) > 1 - kAlong && shell.in(p, triangle))
+    if (std::abs(p.normal.dot(plane.normal)) > 1 - kRounding && shell.in(p, triangle))
       number = std::min(number, k->second);
   }
   if (number < planes_.size()) return number;
@@ -110,12 +108,12 @@ std::uint32_t Facets::plane_through(const Shell& shell, std::uint32_t triangle) 
   return number;
 }
 
-/// What hangs together with a triangle in a plane and is turned the same way, in pieces as large as comes easily.
+/// The connected triangles in the plane that face the same way as `seed`, merged greedily into convex pieces.
 void Facets::add_region(Shell& shell, std::uint32_t seed, std::uint32_t number) {
   FacetPlane& plane = planes_[number];
   const bool flipped = plane.normal.dot(shell.normal(seed)) < 0;
   std::map<std::uint32_t, Loop> pieces;             // by the first triangle of each
-  std::map<std::uint32_t, std::uint32_t> piece_of;  // a triangle, and one that its piece came from; the first: itself
+  std::map<std::uint32_t, std::uint32_t> piece_of;  // disjoint sets: a triangle, and another of its piece
   std::vector<Edge> inner;
   std::vector<std::uint32_t> region;
   const auto take = [&](std::uint32_t t) {
@@ -174,10 +172,10 @@ std::vector<Vec3> Facets::directions(std::size_t most, double share) const {
   for (const FacetPlane& p : planes_) {
     all += p.area;
     const auto same = std::find_if(faces.begin(), faces.end(),
-                                   [&](const auto& f) { return std::abs(f.second.dot(p.normal)) > kSame; });
+                                   [&](const auto& f) { return std::abs(f.second.dot(p.normal)) > kSameDirection; });
     if (same != faces.end())
       same->first += p.area;
-    else if (faces.size() < kTold)
+    else if (faces.size() < 500)  // the planes of round surfaces are many and small; this bounds the time for them
       faces.emplace_back(p.area, p.normal);
   }
   std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first > b.first; });

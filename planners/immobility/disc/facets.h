@@ -1,4 +1,4 @@
-/// The surface of solids in convex flat pieces, by planes.
+/// The surface of solids, divided into convex planar pieces.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace dismantle::immobility {
 
-/// A convex piece of the surface.
+/// A convex planar piece of the surface.
 struct Facet {
   std::uint32_t plane = 0;
   Outline outline;  ///< in that plane
@@ -27,7 +27,7 @@ struct Facet {
   }
 };
 
-/// A plane in which facets lie, with axes e and f in it.
+/// A plane that contains facets, with axes e and f in it.
 struct FacetPlane {
   Eigen::Vector3d normal, e, f;  ///< unit
   double offset = 0, area = 0;
@@ -38,12 +38,11 @@ struct FacetPlane {
   Eigen::Vector3d point(const Eigen::Vector2d& p) const { return offset * normal + p.x() * e + p.y() * f; }
 };
 
-/// All the surface of some solids but for triangles without area, in the frame of the largest of them.
+/// All the surface of some solids except degenerate triangles, in the frame of the largest solid.
 class Facets {
  public:
-  static constexpr double kOff = 1e-7;  ///< assembly units: triangles are no further from the plane of their facet
-
-  explicit Facets(const std::vector<Solid>& solids);
+  /// Triangles are merged when they are within a tenth of `slack` (> 0, assembly units) of one plane.
+  Facets(const std::vector<Solid>& solids, double slack);
 
   const std::vector<Facet>& all() const { return facets_; }
   const Facet& operator[](std::uint32_t facet) const { return facets_[facet]; }
@@ -51,18 +50,18 @@ class Facets {
   const FacetPlane& plane_of(std::uint32_t facet) const { return planes_[facets_[facet].plane]; }
   const Pose& frame() const { return frame_; }  ///< assembled = frame * local
   const Aabb& box() const { return box_; }
-  /// Normals of faces that make up more than that share of the surface, the most frequent first.
+  /// Normals of faces that make up more than that share of the surface, the largest first.
   std::vector<Eigen::Vector3d> directions(std::size_t most, double share) const;
 
   /// Is every point of the convex hull of `points`, which are in the plane, no further than `near` from its facets?
   bool covers(std::uint32_t plane, const std::vector<Eigen::Vector2d>& points, double near) const;
 
-  /// A plane, and whether its normal is to point away (1) or the other way (-1) from what is behind it.
+  /// A plane, and whether its normal points away from the half space behind it (1) or into it (-1).
   struct Behind {
     std::uint32_t plane;
     double side;
   };
-  /// The same, of only what of the hull is behind the other planes.
+  /// As covers(), for the part of the hull that is behind the other planes.
   bool covers_behind(std::uint32_t plane, const std::vector<Eigen::Vector2d>& points, const std::vector<Behind>& others,
                      double near) const;
 
@@ -73,11 +72,12 @@ class Facets {
   void add_region(Shell& shell, std::uint32_t seed, std::uint32_t plane);
   bool covers(const FacetPlane& plane, const Outline& piece, double near, int& left) const;
 
+  double slack_;
   Pose frame_;
   Aabb box_;
   std::vector<Facet> facets_;
   std::vector<FacetPlane> planes_;
-  std::multimap<double, std::uint32_t> by_offset_;  ///< planes, while they are found
+  std::multimap<double, std::uint32_t> by_offset_;  ///< planes, for the search of equal ones
 };
 
 }  // namespace dismantle::immobility

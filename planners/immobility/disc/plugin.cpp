@@ -4,7 +4,6 @@
 
 DISMANTLE_PLUGIN("dismantle.disc", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::ImmobilityProver, dismantle::immobility::Disc, dismantle::immobility::DiscParams>(
-      "disc",
-      "A flat disc within the smaller part is in a chamber of the larger one, and gets through none of its openings.",
-      {.source = "cell decomposition of the places of the disc"});
+      "disc", "A flat disc within the smaller part is in a chamber of the larger one and passes none of its openings.",
+      {.source = "cell decomposition of the positions of the disc's centre"});
 }

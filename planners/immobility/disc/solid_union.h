@@ -1,4 +1,4 @@
-/// Solids as one.
+/// Distance and containment queries against a union of solids.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,14 +9,15 @@
 
 namespace dismantle::immobility {
 
-/// All in a frame of its own: assembled = frame * local. The solids must outlive it.
+/// Queries are in a frame of its own: assembled = frame * local. The solids must outlive it.
 class SolidUnion {
  public:
   SolidUnion(const std::vector<Solid>& solids, const Pose& frame);
 
-  /// No solid is nearer; negative inside: all within so much is inside.
+  /// A lower bound of the distance to the solids; negative inside: the ball of that radius is inside a solid.
   double clearance(const Eigen::Vector3d& p) const;
-  /// Is all of the box in one of the solids? No surface of that goes through a box about it.
+  /// Is all of the box in one solid? Only true if that solid's surface does not even meet the box's bounding box in the
+  /// solid's frame.
   bool contains(const Aabb& box) const;
 
  private:

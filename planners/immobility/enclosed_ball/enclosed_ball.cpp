@@ -6,10 +6,11 @@
 #include <limits>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/query.h"
 #include "dismantle/part_memo.h"
-#include "enclosed_ball/ball_room.h"
+#include "enclosed_ball/ball_free_space.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -19,13 +20,13 @@ Ball ball_of(const SeparationQuery& query, PartId part, std::uint64_t most_cubes
   return *query.memo.get<Ball>("large ball, " + std::to_string(most_cubes), part, RunContext{}, [&] {
     std::optional<Ball> largest{Ball{}};
     for (const Solid& solid : solids_of(query, part))
-      if (const Ball b = large_ball(solid, most_cubes); b.radius > largest->radius)
+      if (const Ball b = inscribed_ball(solid, most_cubes); b.radius > largest->radius)
         largest = Ball{solid.frame * b.center, b.radius};
     return largest;
   });
 }
 
-/// What keeps the centre of a ball of `part` away, and of which parts it is.
+/// Obstacles for the centre of a ball of `part`, and the part of each.
 struct Walls {
   std::vector<Wall> all;
   std::vector<PartId> of;
@@ -61,10 +62,17 @@ std::vector<PartId> distinct(const std::vector<PartId>& parts) {
 }  // namespace
 
 void EnclosedBallParams::describe(Schema<EnclosedBallParams>& s) {
-  s.add("max_cubes", &EnclosedBallParams::max_cubes,
-        {.unit = "1", .min = 1, .doc = "Cubes that are divided in search of a large ball within a part."});
+  s.add(
+      "max_cubes", &EnclosedBallParams::max_cubes,
+      {.unit = "1",
+       .min = 1,
+       .doc = "Cubes that are divided in search of the largest ball within a part. With fewer, the ball may be smaller "
+              "than 0.95 times the largest."});
   s.add("max_cells", &EnclosedBallParams::max_cells,
-        {.unit = "1", .min = 1, .doc = "Cells that the ball's centre may reach, before the proof is given up."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Cubic cells that the ball's centre may reach before the proof is given up. A million take about two "
+                "seconds."});
 }
 
 ProverTraits EnclosedBall::traits() const noexcept {
@@ -74,7 +82,8 @@ ProverTraits EnclosedBall::traits() const noexcept {
 std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, const RunContext& context) const {
   if (query.moving.empty() || query.fixed.empty()) return std::nullopt;
   if (auto found = prove(query, query.moving, query.fixed, context)) return found;
-  // Seen from a single part that moves, all others move as one body. Parts of a group may move against each other.
+  // Relative to a single moving part, all others move as one body, so the ball may be in one of them. Parts of a moving
+  // group may move relative to each other.
   return query.moving.size() == 1 ? prove(query, query.fixed, query.moving, context) : std::nullopt;
 }
 
@@ -90,25 +99,26 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
   const auto most_cells = static_cast<std::size_t>(params_.max_cells);
   const Eigen::Vector3d center = holder.pose * ball.center;
   const Walls walls = walls_of(query, holder.part, ball.radius, outer);
-  const Room room = room_of(center, walls.all, most_cells, context);
-  if (!room.closed) return std::nullopt;
+  const FreeSpace space = flood_free_space(center, walls.all, most_cells, context);
+  if (!space.closed) return std::nullopt;
   std::vector<PartId> around;
-  for (const std::size_t w : room.bounds) around.push_back(walls.of[w]);
+  for (const std::size_t w : space.bounds) around.push_back(walls.of[w]);
   around = distinct(around);
-  // The claim is about the parts that bound the room, if these alone close it.
+  // The claim names only the parts that bound the free space, if these alone close it.
   const Walls bounding = walls_of(query, holder.part, ball.radius, those(outer, around));
-  if (!room_of_cells(center, bounding.all, room.cell, most_cells, context).closed) around = distinct(walls.of);
+  if (!flood_with_cells(center, bounding.all, space.cell, most_cells, context).closed) around = distinct(walls.of);
 
   Certificate found;
   found.parts = {holder.part};
   found.parts.insert(found.parts.end(), around.begin(), around.end());
   found.poses = {holder.pose};
   for (const PlacedPart& p : those(outer, around)) found.poses.push_back(p.pose);
-  found.numbers = {{"center", numbers_of(ball.center)}, {"radius", {ball.radius}}, {"cell", {room.cell}}};
+  found.numbers = {{"center", numbers_of(ball.center)}, {"radius", {ball.radius}}, {"cell", {space.cell}}};
   found.text = fmt::format(
-      "{} is shut in by {}: a ball of radius {:.4g} about {}, which it holds, is too large for every "
-      "way out, less the penetration that is allowed",
-      name_of(query, holder.part), names_of(query, around), input_length(query, ball.radius), place_of(query, center));
+      "{} is enclosed by {}: a ball of radius {:.4g} about {}, which it contains, is too large for every way out (less "
+      "the penetration that is allowed)",
+      name_of(query, holder.part), names_of(query, around), input_length(query, ball.radius),
+      position_text(query, center));
   return found;
 }
 
@@ -126,14 +136,14 @@ std::string EnclosedBall::objection(const Certificate& certificate, const Separa
   double depth = 0;
   for (const Solid& solid : solids_of(query, holder.part))
     depth = std::max(depth, escape_at(solid.frame.inverse() * c, solid).depth);
-  constexpr double kRounding = 1e-9;
   if (!(depth >= radius[0] * (1 - kRounding)))
-    return fmt::format("{} holds a ball of radius {:.4g} there and no larger one", name_of(query, holder.part), depth);
+    return fmt::format("{} contains a ball of radius {:.4g} there and no larger one", name_of(query, holder.part),
+                       depth);
   const Walls walls = walls_of(query, holder.part, radius[0], query.fixed);
   const auto most_cells = static_cast<std::size_t>(params_.max_cells);
-  if (!room_of_cells(holder.pose * c, walls.all, cell[0], most_cells, context).closed)
+  if (!flood_with_cells(holder.pose * c, walls.all, cell[0], most_cells, context).closed)
     return context.should_stop() ? "the check was stopped"
-                                 : "there is a way out for the ball, or its room has too many cells";
+                                 : "there is a way out for the ball, or its free space has too many cells";
   return {};
 }
 

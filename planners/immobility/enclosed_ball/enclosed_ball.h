@@ -14,15 +14,14 @@ struct EnclosedBallParams {
   static void describe(Schema<EnclosedBallParams>& s);
 };
 
-/// The largest ball within a moving part, less what may be penetrated, against the surfaces of the fixed parts where
-/// they are. A surface point that is inside the ball is as deep in the moving part as it is below the ball's surface,
-/// at least.
+/// The largest ball within a moving part, reduced by the allowed penetration, against the surfaces of the fixed parts
+/// at their poses. A surface point inside the ball is at least as deep in the moving part as it is in the ball.
 class EnclosedBall final : public ImmobilityProver {
  public:
   explicit EnclosedBall(const EnclosedBallParams& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override;
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
-  /// Floods the room with the cells of the proof.
+  /// Repeats the flood fill with cells of the size that the certificate states.
   std::string objection(const Certificate& certificate, const SeparationQuery& query,
                         const RunContext& context) const override;
 

@@ -15,16 +15,15 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr int kFinest = 6;                       // halvings of the faces of a cube of directions
-constexpr std::size_t kMostCaps = 8000;          // a third of all: with so many directions left there is no proof
-constexpr std::uint64_t kMostLooks = 6'000'000;  // at distances, for one bend
+// Halvings of the faces of a cube of directions: cells of about 1.4 degrees, much less than bends that are tried.
+constexpr int kFinest = 6;
 
 /// A cell of directions: all unit vectors within `radius` (as a distance) of `center`.
-struct Cap {
+struct DirectionCell {
   int face, level, x, y;
   Vec3 center;
   double radius;
-  Cap(int f, int l, int i, int k) : face(f), level(l), x(i), y(k) {
+  DirectionCell(int f, int l, int i, int k) : face(f), level(l), x(i), y(k) {
     const double edge = 2.0 / (1 << l);
     const auto at = [&](double u, double v) {
       Vec3 p;
@@ -39,44 +38,53 @@ struct Cap {
   }
 };
 
-/// With the corner anywhere on the disc of `loop`: directions in which a line of the bend may lead.
-class Ways {
+/// The directions in which a leg of the bend can point when the corner is anywhere on the disc of `loop`.
+class LegDirections {
  public:
-  Ways(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context)
-      : context_(context), loop_(loop), around_(around), bend_(bend), to_local_(around.frame.inverse()) {
-    std::vector<Places> begin;  // by level
-    for (int level = 0; level <= kFinest; ++level) begin.push_back(places(bend.keep[0] / (2 << (level / 3 + 1))));
+  LegDirections(const Loop& loop, const Solid& around, const Bend& bend, std::uint64_t max_distances,
+                const RunContext& context)
+      : context_(context),
+        loop_(loop),
+        around_(around),
+        bend_(bend),
+        to_local_(around.frame.inverse()),
+        max_distances_(max_distances) {
+    std::vector<Positions> begin;  // by level of the direction cells: both are refined together
+    for (int level = 0; level <= kFinest; ++level) begin.push_back(positions(bend.keep[0] / (2 << (level / 3 + 1))));
     std::array<Face, 6> faces;
     parallel_for(
         faces.size(), context,
         [&](std::size_t k) {
-          faces[k].places = begin;
-          cover(Cap(static_cast<int>(k), 0, 0, 0), faces[k]);
+          faces[k].positions = begin;
+          cover(DirectionCell(static_cast<int>(k), 0, 0, 0), faces[k]);
         },
         [&] { return gave_up() || context.should_stop(); });
     stopped_ = context.should_stop();
     for (const Face& face : faces) found_.insert(found_.end(), face.found.begin(), face.found.end());
   }
-  /// All of them, unless it gave up.
-  const std::vector<Cap>& directions() const { return found_; }
-  /// By what all faces take together, so it does not matter which are looked at first.
-  bool gave_up() const { return stopped_ || caps_ > kMostCaps || looks_ > kMostLooks; }
+  /// A cover of all of them, unless the search gave up.
+  const std::vector<DirectionCell>& directions() const { return found_; }
+  /// The limits are on what all faces take together, so the result does not depend on the order of threads. When a
+  /// third of all directions is left, two of them differ by as much as the legs do.
+  bool gave_up() const {
+    return stopped_ || 3 * cells_ > std::size_t{6} << (2 * kFinest) || distances_ > max_distances_;
+  }
 
  private:
-  struct Places {
+  struct Positions {
     double edge;
     std::vector<Vec3> centers;
   };
   struct Face {  // of a cube of directions
-    std::vector<Places> places;
-    std::vector<Cap> found;
+    std::vector<Positions> positions;
+    std::vector<DirectionCell> found;
   };
 
-  double room(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
+  double distance(const Vec3& p, double limit) const { return around_.bvh.closest(to_local_ * p, limit).distance; }
 
-  /// Squares of the disc in some of which the corner is.
-  Places places(double edge) {
-    Places result{edge, {}};
+  /// Squares that cover the positions of the corner on the disc.
+  Positions positions(double edge) {
+    Positions result{edge, {}};
     const Vec3 e = loop_.plane.normal.unitOrthogonal(), f = loop_.plane.normal.cross(e);
     double lo[2] = {1e300, 1e300}, hi[2] = {-1e300, -1e300};
     for (const Vec3& p : loop_.points)
@@ -89,43 +97,44 @@ class Ways {
       for (double y = lo[1] + 0.5 * edge; y < hi[1] + 0.5 * edge; y += edge) {
         const Vec3 p = x * e + y * f + loop_.plane.offset * loop_.plane.normal;
         const double needed = bend_.keep[0] - half_diagonal(edge);
-        // A square that is not within the curve, and whose centre is further from it than its corners are, has no
-        // point within.
-        looks_ += 2;
-        if (!loop_.around(p) && room(p, half_diagonal(edge) * 1.0001) > half_diagonal(edge)) continue;
-        if (room(p, std::max(needed, 0.0)) >= needed) result.centers.push_back(p);
+        // A square has no point within the curve if its centre is outside and further from the curve than its corners.
+        distances_ += 2;
+        if (!loop_.around(p) && distance(p, half_diagonal(edge) * 1.0001) > half_diagonal(edge)) continue;
+        if (distance(p, std::max(needed, 0.0)) >= needed) result.centers.push_back(p);
       }
     return result;
   }
   static double half_diagonal(double edge) { return std::numbers::sqrt2 / 2 * edge; }
 
-  bool possible(const Cap& cap, Face& face) {
-    Places& places = face.places[static_cast<std::size_t>(cap.level)];
-    std::uint64_t looks = 0;
+  bool possible(const DirectionCell& cell, Face& face) {
+    Positions& positions = face.positions[static_cast<std::size_t>(cell.level)];
+    std::uint64_t distances = 0;
     bool free = false;
-    for (std::size_t at = 0; at < places.centers.size() && !free; ++at) {
+    for (std::size_t at = 0; at < positions.centers.size() && !free; ++at) {
       free = true;
       for (std::size_t k = bend_.keep.size(); k-- > 1 && free;) {
         const double s = static_cast<double>(k) * bend_.step;
-        const double needed = bend_.keep[k] - half_diagonal(places.edge) - s * cap.radius;
+        const double needed = bend_.keep[k] - half_diagonal(positions.edge) - s * cell.radius;
         if (!(needed > 0)) continue;
-        free = room(places.centers[at] + s * cap.center, needed) >= needed;
-        ++looks;
+        free = distance(positions.centers[at] + s * cell.center, needed) >= needed;
+        ++distances;
       }
-      if (free) std::swap(places.centers[at], places.centers.front());  // the next direction is near this one
+      // The next direction is near this one, so this position is most likely free for it, too.
+      if (free) std::swap(positions.centers[at], positions.centers.front());
     }
-    looks_ += looks;
+    distances_ += distances;
     return free;
   }
 
-  void cover(const Cap& cap, Face& face) {
-    if (gave_up() || context_.should_stop() || !possible(cap, face)) return;
-    if (cap.level == kFinest) {
-      face.found.push_back(cap);
-      ++caps_;
+  void cover(const DirectionCell& cell, Face& face) {
+    if (gave_up() || context_.should_stop() || !possible(cell, face)) return;
+    if (cell.level == kFinest) {
+      face.found.push_back(cell);
+      ++cells_;
       return;
     }
-    for (int k = 0; k < 4; ++k) cover(Cap(cap.face, cap.level + 1, 2 * cap.x + k % 2, 2 * cap.y + k / 2), face);
+    for (int k = 0; k < 4; ++k)
+      cover(DirectionCell(cell.face, cell.level + 1, 2 * cell.x + k % 2, 2 * cell.y + k / 2), face);
   }
 
   const RunContext& context_;
@@ -133,20 +142,23 @@ class Ways {
   const Solid& around_;
   const Bend& bend_;
   Pose to_local_;
-  std::vector<Cap> found_;
+  std::vector<DirectionCell> found_;
+  std::uint64_t max_distances_;
   bool stopped_ = false;
-  std::atomic<std::size_t> caps_{0};
-  std::atomic<std::uint64_t> looks_{0};
+  std::atomic<std::size_t> cells_{0};
+  std::atomic<std::uint64_t> distances_{0};
 };
 
 }  // namespace
 
-bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context) {
-  const Ways ways(loop, around, bend, context);
-  if (ways.gave_up()) return false;
+bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, std::uint64_t max_distances,
+                 const RunContext& context) {
+  const LegDirections legs(loop, around, bend, max_distances, context);
+
+  if (legs.gave_up()) return false;
   const double apart = (bend.along[0] - bend.along[1]).norm();
-  for (const Cap& a : ways.directions())
-    for (const Cap& b : ways.directions())
+  for (const DirectionCell& a : legs.directions())
+    for (const DirectionCell& b : legs.directions())
       if (std::abs((a.center - b.center).norm() - apart) <= a.radius + b.radius) return false;
   return true;
 }

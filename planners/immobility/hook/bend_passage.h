@@ -1,6 +1,8 @@
 /// Can a bend of a bar pass through a hole?
 #pragma once
 
+#include <cstdint>
+
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/section.h"
@@ -10,8 +12,9 @@
 namespace dismantle::immobility {
 
 /// True: proved that the corner of `bend` can never be on the flat disc within `loop`, a curve on the surface of
-/// `around`; by covering all places on the disc and all directions of the two lines with cells. False: not proved with
-/// a fixed effort, or told to stop. Assembled frame.
-bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, const RunContext& context);
+/// `around`, by covering all positions on the disc and all directions of the two legs with cells. False: not proved
+/// with at most `max_distances` distance queries, or told to stop. Assembled frame.
+bool cannot_pass(const Loop& loop, const Solid& around, const Bend& bend, std::uint64_t max_distances,
+                 const RunContext& context);
 
 }  // namespace dismantle::immobility

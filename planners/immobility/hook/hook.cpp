@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "dismantle/immobility/bar_middle.h"
+#include "dismantle/immobility/medial_balls.h"
 #include "dismantle/immobility/query.h"
 #include "hook/hook_cage.h"
 
@@ -10,23 +10,41 @@ namespace dismantle::immobility {
 
 void HookParams::describe(Schema<HookParams>& s) {
   s.add("max_holes", &HookParams::max_holes,
-        {.unit = "1", .min = 1, .doc = "Holes around the middle of a bar that are tried, the narrowest first."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Holes around the middle of a bar that are tried, in the order in which the "
+                "thickest pieces of the bar go through them."});
   s.add("max_bends", &HookParams::max_bends,
         {.unit = "1", .min = 1, .doc = "Bends on each side of a hole that are tried, the sharpest first."});
+  s.add(
+      "max_nodes", &HookParams::max_nodes,
+      {.unit = "1",
+       .min = 8,
+       .doc = "Advanced. Points on the middle of a bar, the deepest first. Time grows with the square of their number; "
+              "too few leave gaps in long wires."});
+  s.add(
+      "max_distances", &HookParams::max_distances,
+      {.unit = "1",
+       .min = 1,
+       .doc = "Advanced. Distance queries for the proof that one bend cannot pass one hole: 6e6 take a few seconds."});
+  s.add("min_bend", &HookParams::min_bend,
+        {.unit = "rad",
+         .min = 0,
+         .max = 1.57,
+         .doc = "Advanced. Bends by a smaller angle are not tried, as they pass almost any hole that the bar passes."});
 }
 
 std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunContext& context) const {
   const auto pair = pair_of(query);
   if (!pair || !near_each_other(query, pair->first, pair->second)) return std::nullopt;
   const double depth = depth_allowed(query, pair->first, pair->second);
-  const HookEffort effort{static_cast<std::size_t>(params_.max_holes), static_cast<std::size_t>(params_.max_bends)};
-  for (const auto& [inside, other] : both_ways(*pair)) {
-    const auto* middles = middles_of(query, inside, context);
-    if (middles == nullptr) return std::nullopt;
+  for (const auto& [inside, other] : both_orders(*pair)) {
+    const auto* balls = medial_balls_of(query, inside, context);
+    if (balls == nullptr) return std::nullopt;
     const auto& bars = solids_of(query, inside);
     for (std::size_t i = 0; i < bars.size(); ++i)
       for (const Solid& y : solids_of(query, other)) {
-        const auto cage = hook_cage(bars[i], (*middles)[i], y, depth, effort, context);
+        const auto cage = hook_cage(bars[i], (*balls)[i], y, depth, params_, context);
         if (!cage) continue;
         Certificate found;
         found.parts = {inside, other};
@@ -36,8 +54,8 @@ std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunCo
                          {"second_bend", numbers_of(cage->bends[1].corner)}};
         found.text = fmt::format(
             "{0} and {1} hold each other: {0} goes through a hole in {1} at {2}, {3:.4g} wide, and is "
-            "bent on both sides; neither bend can follow, less the penetration that is allowed",
-            name_of(query, inside), name_of(query, other), place_of(query, cage->hole),
+            "bent on both sides; neither bend can pass the hole (less the penetration that is allowed)",
+            name_of(query, inside), name_of(query, other), position_text(query, cage->hole),
             input_length(query, cage->width));
         return found;
       }

@@ -1,4 +1,4 @@
-/// A part through a hole of another, between two bends that cannot follow.
+/// A bar through a hole of another part, between two bends that cannot pass the hole.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,13 @@ namespace dismantle::immobility {
 struct HookParams {
   std::int64_t max_holes = 4;
   std::int64_t max_bends = 3;
+  std::int64_t max_nodes = 1200;
+  std::int64_t max_distances = 6'000'000;
+  double min_bend = 0.87;  ///< rad
   static void describe(Schema<HookParams>& s);
 };
 
-/// See hook_cage.h for the proof.
+/// The proof is in hook_cage.h.
 class Hook final : public ImmobilityProver {
  public:
   explicit Hook(const HookParams& params = {}) : params_(params) {}

@@ -21,27 +21,26 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr std::size_t kMostNodes = 1200;  // of its middle
-constexpr double kJoined = 0.95;          // of what two nodes keep: so near each other they are joined
-constexpr std::size_t kDirections = 150;  // in which a bend's lines are looked for
-constexpr std::size_t kNear = 40;         // nodes on each side of a hole where bends are looked for
-constexpr int kStepsAlong = 14;           // of a bend's lines; each half of what the corner keeps
-constexpr std::size_t kShortest = 8;      // ... and fewer are no line
-constexpr double kLeast = 50 * pi / 180;  // a bend is no less than that
+// A segment between points with distances r and s from the surface is within the solid if it is shorter than r + s.
+// This share of it leaves a margin.
+constexpr double kWithin = 0.95;
+// Steps along a leg, each of half the distance that the corner keeps: a leg of less than 8 is too short to be stopped.
+constexpr std::size_t kLeastSteps = 8;
+constexpr int kMostSteps = 14;
 
-/// A point in the middle of the bar and what it keeps.
+/// A point in the middle of the bar and the distance that other surfaces keep from it.
 struct Node {
   Vec3 at;
   double keep;
 };
 
 /// Nodes for a depth, thinned out: the deepest first, others only at some distance.
-std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth) {
+std::vector<Node> nodes_of(const std::vector<MedialBall>& balls, double depth, std::size_t most) {
   std::vector<Node> nodes;
-  for (const InnerBall& ball : balls) {
+  for (const MedialBall& ball : balls) {
     const Node n{ball.center, ball.radius - depth};
-    if (nodes.size() == kMostNodes || !(n.keep > 0.1 * depth)) break;
-    // Balls in edges and corners, beside much larger ones.
+    if (nodes.size() == most || !(n.keep > 0.1 * depth)) break;
+    // Leaves out close neighbours, and balls in edges and corners beside much larger ones.
     if (std::any_of(nodes.begin(), nodes.end(), [&](const Node& m) {
           const double apart = (m.at - n.at).norm();
           return apart < 0.3 * m.keep || (m.keep > 1.5 * n.keep && apart < 2 * m.keep);
@@ -52,21 +51,22 @@ std::vector<Node> nodes_of(const std::vector<InnerBall>& balls, double depth) {
   return nodes;
 }
 
-using Joined = std::vector<std::vector<std::size_t>>;
+using Links = std::vector<std::vector<std::size_t>>;
 
-Joined join(const std::vector<Node>& nodes) {
-  Joined joined(nodes.size());
+/// Pairs of nodes between which the straight segment is within the bar.
+Links links_of(const std::vector<Node>& nodes) {
+  Links links(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      if ((nodes[i].at - nodes[k].at).norm() < kJoined * (nodes[i].keep + nodes[k].keep)) {
-        joined[i].push_back(k);
-        joined[k].push_back(i);
+      if ((nodes[i].at - nodes[k].at).norm() < kWithin * (nodes[i].keep + nodes[k].keep)) {
+        links[i].push_back(k);
+        links[k].push_back(i);
       }
-  return joined;
+  return links;
 }
 
-/// Where the bar goes at a node.
-Vec3 course(const std::vector<Node>& nodes, std::size_t node) {
+/// The direction of the bar at a node: the principal axis of the nodes nearby.
+Vec3 bar_direction(const std::vector<Node>& nodes, std::size_t node) {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const Node& n : nodes) {
     const Vec3 d = n.at - nodes[node].at;
@@ -76,7 +76,7 @@ Vec3 course(const std::vector<Node>& nodes, std::size_t node) {
   return axes.eigenvectors().col(2);
 }
 
-/// Curves on the surface close around the bar, one for each hole, in the middle of it; with the node there.
+/// One curve on the surface for each hole, close around the bar in the middle of the hole, with the node there.
 std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const Solid& around,
                                                 const std::vector<Node>& nodes, std::size_t most) {
   struct Tight {
@@ -90,11 +90,11 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
     const Vec3 local = to_local * nodes[i].at;
     const double reach = 4 * nodes[i].keep;
     if (!(around.bvh.closest(local, reach).distance < reach)) continue;
-    const Vec3 along = course(nodes, i);
+    const Vec3 along = bar_direction(nodes, i);
     for (Loop& loop : surface.section({along, along.dot(nodes[i].at)}))
       if (loop.around(nodes[i].at) && loop.diameter() < 2 * reach) tight.push_back({i, along, std::move(loop)});
   }
-  // Those next to each other belong to one hole.
+  // Curves next to each other belong to one hole.
   std::vector<std::pair<Loop, std::size_t>> found;
   std::vector<char> taken(tight.size(), 0);
   for (std::size_t first = 0; first < tight.size() && found.size() < most; ++first) {
@@ -118,10 +118,11 @@ std::vector<std::pair<Loop, std::size_t>> holes(const Surface& surface, const So
   return found;
 }
 
-/// What the surface of another part keeps from the points of a line through the bar; until it keeps nothing.
-std::vector<double> kept_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
+/// The distances that the surface of another part keeps from the points along a line through the bar, up to the first
+/// point where it is too small.
+std::vector<double> keep_along(const Solid& bar, const Vec3& from, const Vec3& direction, double step, double depth) {
   std::vector<double> keep;
-  for (int k = 0; k < kStepsAlong; ++k) {
+  for (int k = 0; k < kMostSteps; ++k) {
     const double d = escape_at(bar.frame.inverse() * (from + k * step * direction), bar).depth - depth;
     if (!(d > 0.5 * step)) break;  // so that nothing gets between two points
     keep.push_back(d);
@@ -136,16 +137,16 @@ struct Line {
 };
 
 Line line_along(const Solid& bar, const Vec3& corner, const Vec3& along, double step, double depth) {
-  Line line{along, kept_along(bar, corner, along, step, depth), 0};
+  Line line{along, keep_along(bar, corner, along, step, depth), 0};
   for (const double d : line.keep) line.worth += d;
   return line;
 }
 
-/// Turned to where it keeps more, while `suits` holds of its direction.
+/// Turns a line to where it keeps more distance, among directions for which `suits` holds.
 template <class Suits>
 Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double step, double depth,
               const Suits& suits) {
-  for (; by > 0.004; by *= 0.5)
+  for (; by > 0.004; by *= 0.5)  // rad; a quarter of a degree
     for (int k = 0; k < 8; ++k) {
       const Vec3 e = best.along.unitOrthogonal(), f = best.along.cross(e);
       const double a = k * pi / 4;
@@ -157,7 +158,8 @@ Line improved(const Solid& bar, const Vec3& corner, Line best, double by, double
   return best;
 }
 
-/// Two lines through the bar from one place, and what both keep: what is bent the most keeps the most away.
+/// Two lines through the bar from one point. The worth prefers long, thick and sharp bends, which pass the fewest
+/// holes.
 struct Corner {
   Node node;
   Vec3 at;
@@ -166,31 +168,33 @@ struct Corner {
   std::size_t length() const { return std::min(first.keep.size(), second.keep.size()); }
 };
 
-bool is_bend(const Vec3& a, const Vec3& b) { return std::abs(a.dot(b)) < std::cos(kLeast); }
+bool is_bend(const Vec3& a, const Vec3& b, double min_bend) { return std::abs(a.dot(b)) < std::cos(min_bend); }
 
-std::optional<Corner> glance(const Solid& bar, const Node& node, double depth) {
+/// The best two of 150 directions, on a Fibonacci sphere: about 16 degrees apart.
+std::optional<Corner> coarse_corner(const Solid& bar, const Node& node, double depth, double min_bend) {
   const double step = 0.5 * node.keep;
+  constexpr std::size_t directions = 150;
   std::vector<Line> lines;
-  for (std::size_t k = 0; k < kDirections; ++k) {  // a spiral from pole to pole
-    const double z = 1 - (2 * k + 1.0) / kDirections, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
+  for (std::size_t k = 0; k < directions; ++k) {
+    const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
     lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step, depth));
   }
   const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };
   const Line first = *std::max_element(lines.begin(), lines.end(), better);
-  std::erase_if(lines, [&](const Line& l) { return !is_bend(first.along, l.along); });
+  std::erase_if(lines, [&](const Line& l) { return !is_bend(first.along, l.along, min_bend); });
   if (lines.empty()) return std::nullopt;
   Corner corner{node, node.at, first, *std::max_element(lines.begin(), lines.end(), better)};
-  // At a glance lines are not straight along the bar; half of what is wanted will do.
-  return corner.length() >= kShortest / 2 ? std::optional(corner) : std::nullopt;
+  // These lines are not quite along the bar, so they may still be half as long as is needed.
+  return corner.length() >= kLeastSteps / 2 ? std::optional(corner) : std::nullopt;
 }
 
-/// Moved and turned a little to where it keeps more.
-std::optional<Bend> refined(const Solid& bar, Corner corner, double depth) {
+/// Moves and turns the corner a little to where it keeps more distance.
+std::optional<Bend> refined(const Solid& bar, Corner corner, double depth, double min_bend) {
   const double step = 0.5 * corner.node.keep;
   const auto turned = [&](const Vec3& at, const Line& one, const Line& two, double by) {
     const auto any = [](const Vec3&) { return true; };
     Corner c{corner.node, at, improved(bar, at, line_along(bar, at, one.along, step, depth), by, step, depth, any), {}};
-    const auto bends = [&](const Vec3& along) { return is_bend(c.first.along, along); };
+    const auto bends = [&](const Vec3& along) { return is_bend(c.first.along, along, min_bend); };
     c.second = improved(bar, at, line_along(bar, at, two.along, step, depth), by, step, depth, bends);
     return c;
   };
@@ -198,11 +202,11 @@ std::optional<Bend> refined(const Solid& bar, Corner corner, double depth) {
   for (double by = 0.4 * corner.node.keep; by > 0.02 * corner.node.keep; by *= 0.5)
     for (int k = 0; k < 4; ++k) {
       const Vec3 at = corner.at + (k % 2 == 0 ? by : -by) * (k < 2 ? corner.first : corner.second).along;
-      if ((at - corner.node.at).norm() > kJoined * corner.node.keep) continue;
+      if ((at - corner.node.at).norm() > kWithin * corner.node.keep) continue;
       Corner next = turned(at, corner.first, corner.second, 0.05);
       if (next.worth() > corner.worth()) corner = std::move(next);
     }
-  if (corner.length() < kShortest || !is_bend(corner.first.along, corner.second.along)) return std::nullopt;
+  if (corner.length() < kLeastSteps || !is_bend(corner.first.along, corner.second.along, min_bend)) return std::nullopt;
   Bend bend{corner.at, {corner.first.along, corner.second.along}, step, {}};
   for (std::size_t k = 0; k < corner.length(); ++k)
     bend.keep.push_back(std::min(corner.first.keep[k], corner.second.keep[k]));
@@ -215,19 +219,19 @@ bool crosses(const Loop& loop, const Vec3& a, const Vec3& b) {
   return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
 }
 
-/// Nodes that can be reached from `from`, which is on the disc, without crossing that, nearest first.
-std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& nodes, const Joined& joined,
-                                 std::size_t from, bool above) {
+/// Nodes that can be reached from `from`, which is on the disc, without crossing the disc; the fewest links first.
+std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& nodes, const Links& links, std::size_t from,
+                                 bool above) {
   std::vector<std::size_t> list;
   std::vector<char> seen(nodes.size(), 0);
   seen[from] = 1;
-  for (const std::size_t n : joined[from])
+  for (const std::size_t n : links[from])
     if ((loop.plane.height(nodes[n].at) > 0) == above) {
       seen[n] = 1;
       list.push_back(n);
     }
   for (std::size_t k = 0; k < list.size(); ++k)
-    for (const std::size_t n : joined[list[k]])
+    for (const std::size_t n : links[list[k]])
       if (!seen[n] && !crosses(loop, nodes[list[k]].at, nodes[n].at)) {
         seen[n] = 1;
         list.push_back(n);
@@ -237,39 +241,41 @@ std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& node
 
 /// On one side of the disc that a node is on: a bend that cannot pass it.
 std::optional<Bend> bend_on_side(const Solid& bar, const Solid& around, double depth, const std::vector<Node>& nodes,
-                                 const Joined& joined, const Loop& loop, std::size_t node, bool above,
-                                 std::size_t most_bends, const RunContext& context) {
+                                 const Links& links, const Loop& loop, std::size_t node, bool above,
+                                 const HookParams& params, const RunContext& context) {
   std::vector<Corner> corners;
-  std::vector<std::size_t> near = on_side(loop, nodes, joined, node, above);
-  near.resize(std::min(near.size(), kNear));
+  std::vector<std::size_t> near = on_side(loop, nodes, links, node, above);
+  near.resize(std::min<std::size_t>(near.size(), 40));  // a bend further away lets the bar slide to it
   for (const std::size_t n : near)
-    if (auto corner = glance(bar, nodes[n], depth)) corners.push_back(std::move(*corner));
+    if (auto corner = coarse_corner(bar, nodes[n], depth, params.min_bend)) corners.push_back(std::move(*corner));
   std::stable_sort(corners.begin(), corners.end(),
                    [](const Corner& a, const Corner& b) { return a.worth() > b.worth(); });
-  corners.resize(std::min(corners.size(), most_bends), Corner{});
+  corners.resize(std::min(corners.size(), static_cast<std::size_t>(params.max_bends)), Corner{});
   for (const Corner& corner : corners) {
-    const auto bend = refined(bar, corner, depth);
-    // Refining must not have taken the corner to the other side: the line would cross the disc twice.
-    if (bend && !crosses(loop, corner.node.at, bend->corner) && cannot_pass(loop, around, *bend, context)) return bend;
+    const auto bend = refined(bar, corner, depth, params.min_bend);
+    // If the refined corner is on the other side, the line crosses the disc twice, and the proof does not apply.
+    if (bend && !crosses(loop, corner.node.at, bend->corner) &&
+        cannot_pass(loop, around, *bend, static_cast<std::uint64_t>(params.max_distances), context))
+      return bend;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
-                                  double depth, const HookEffort& effort, const RunContext& context) {
-  const std::vector<Node> nodes = nodes_of(middle, depth);
-  if (nodes.size() < 8) return std::nullopt;
-  const Joined joined = join(nodes);
+std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall>& balls, const Solid& around,
+                                  double depth, const HookParams& params, const RunContext& context) {
+  const std::vector<Node> nodes = nodes_of(balls, depth, static_cast<std::size_t>(params.max_nodes));
+  if (nodes.size() < kLeastSteps) return std::nullopt;
+  const Links links = links_of(nodes);
   const Surface surface(around);
-  for (const auto& [loop, node] : holes(surface, around, nodes, effort.holes)) {
+  for (const auto& [loop, node] : holes(surface, around, nodes, static_cast<std::size_t>(params.max_holes))) {
     std::array<std::optional<Bend>, 2> bends;
     std::atomic<bool> passes{false};
     parallel_for(
         bends.size(), context,
         [&, &hole = loop, at = node](std::size_t side) {
-          bends[side] = bend_on_side(bar, around, depth, nodes, joined, hole, at, side == 1, effort.bends, context);
+          bends[side] = bend_on_side(bar, around, depth, nodes, links, hole, at, side == 1, params, context);
           if (!bends[side]) passes = true;
         },
         [&] { return passes.load(); });

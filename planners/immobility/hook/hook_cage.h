@@ -1,4 +1,4 @@
-/// A bent bar of one part through a hole of another, whose bends do not go through the hole.
+/// Proof that a bent bar of one part cannot leave a hole of another, because its bends do not pass the hole.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,24 +8,20 @@
 #include <vector>
 
 #include "dismantle/geometry/solid.h"
-#include "dismantle/immobility/bar_middle.h"
 #include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/medial_balls.h"
 #include "dismantle/run_context.h"
+#include "hook/hook.h"
 
 namespace dismantle::immobility {
 
-/// Two straight lines from one point, all within a solid. The surface of another part keeps the distance `keep[k]` from
-/// the point k * step along either. Assembled frame.
+/// Two straight legs from one corner, within a solid. The surface of another part is never nearer than `keep[k]` to the
+/// point k * step along either leg. Assembled frame.
 struct Bend {
   Eigen::Vector3d corner = Eigen::Vector3d::Zero();
   std::array<Eigen::Vector3d, 2> along;  ///< unit
   double step = 0;
   std::vector<double> keep;  ///< > 0
-};
-
-/// How many are tried.
-struct HookEffort {
-  std::size_t holes = 4, bends = 3;  ///< bends: on each side of a hole
 };
 
 struct HookCage {
@@ -34,16 +30,17 @@ struct HookCage {
   std::array<Bend, 2> bends;                       ///< on either side
 };
 
-/// Does `bar` with that middle, which is nowhere penetrated by more than `depth` (> 0), hang in a hole of `around`
-/// between two bends that cannot pass? Nothing: not found within the effort, a few seconds at most.
+/// Is `bar`, which nothing penetrates by more than `depth` (> 0), held in a hole of `around` between two bends that
+/// cannot pass? `balls`: medial balls of the bar. Nothing: not found with the effort of `params`, a few seconds at
+/// most.
 ///
 /// Why it stays. The line along the middle of the bar from bend to bend is more than `depth` below its surface, so the
-/// surface of the other part keeps out of it; and with it the border of a flat disc across the hole. How often the line
-/// crosses the disc, even or odd, changes only when one of its ends crosses the disc, and is odd at first. The ends are
-/// corners of bends. With the corner on the disc, each of the two lines of the bend has to lead out of the hole; that
-/// leaves it certain directions (found by covering all places and directions with cells), and no two of these are so
-/// far apart as the two lines are.
-std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<InnerBall>& middle, const Solid& around,
-                                  double depth, const HookEffort& effort, const RunContext& context);
+/// surface of the other part never meets it, and neither does the border of a flat disc across the hole, which is on
+/// that surface. The parity of the crossings of the line with the disc changes only when one of its ends crosses the
+/// disc, and is odd at first. The ends are corners of bends. With the corner on the disc, each leg of the bend has to
+/// lead out of the hole. A cover of all positions and directions by cells gives the directions in which a leg can, and
+/// no two of these differ by as much as the legs do.
+std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall>& balls, const Solid& around,
+                                  double depth, const HookParams& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

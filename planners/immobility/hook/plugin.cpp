@@ -4,6 +4,6 @@
 
 DISMANTLE_PLUGIN("dismantle.hook", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::ImmobilityProver, dismantle::immobility::Hook, dismantle::immobility::HookParams>(
-      "hook", "One part goes through a hole of the other, between two bends that cannot follow.",
-      {.source = "parity of crossings; covers of directions"});
+      "hook", "One part goes through a hole of the other, between two bends that cannot pass it.",
+      {.source = "parity of crossings; a cover of all positions and directions by cells"});
 }

@@ -5,8 +5,9 @@
 #include <limits>
 #include <memory>
 
-#include "interlock_lp/body_coordinates.h"
+#include "dismantle/geometry/numerics.h"
 #include "interlock_lp/pair_rows.h"
+#include "interlock_lp/relative_coordinates.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -15,63 +16,59 @@ using Eigen::VectorXd;
 using Vec3 = Eigen::Vector3d;
 using PolytopeX = PolytopeIn<Eigen::Dynamic>;
 
-constexpr double kFirst = 2;       // depths: the bounds at first, of shifts and of the points of bodies that turn
-constexpr double kWider = 1.02;    // than what was found
-constexpr double kMostGrowth = 2;  // of a bound, in a round
-constexpr double kAround = 4;      // the linear programs look so much further than the bounds
-constexpr double kStrictly = 1e-9;
-constexpr int kMostCuts = 200;  // rounds of adding rows to a linear program; it is a bound without them
-
 struct Bounds {
   VectorXd lo, hi;
 
   explicit Bounds(Eigen::Index size = 0) : lo(VectorXd::Zero(size)), hi(VectorXd::Zero(size)) {}
   VectorXd most() const { return lo.cwiseAbs().cwiseMax(hi.cwiseAbs()); }
   bool strictly_within(const Bounds& other) const {
-    return (lo.array() > other.lo.array() + kStrictly).all() && (hi.array() < other.hi.array() - kStrictly).all();
+    return (lo.array() > other.lo.array() + kRounding).all() && (hi.array() < other.hi.array() - kRounding).all();
   }
+  /// A little beyond the others, so that the next round can end strictly within; at most to twice, since bounds that
+  /// are too wide have remainders that are too large for the proof.
   void widen_to(const Bounds& other) {
-    lo = lo.cwiseMin((kWider * other.lo).cwiseMax(kMostGrowth * lo));
-    hi = hi.cwiseMax((kWider * other.hi).cwiseMin(kMostGrowth * hi));
+    lo = lo.cwiseMin((1.02 * other.lo).cwiseMax(2 * lo));
+    hi = hi.cwiseMax((1.02 * other.hi).cwiseMin(2 * hi));
   }
 };
 
-/// Body a seen from body b.
+/// The pose of body a relative to body b.
 struct Pair {
   std::size_t a, b;
-  std::unique_ptr<Pinned> pinned;
+  std::unique_ptr<SampledPair> samples;
   Vec3 center_b_to_a;
   Bounds bounds{6};
 };
 
-/// What one pair says of the coordinates x of all bodies: its own are map x, and no more than `rest` from there.
-struct PairView {
+/// Constraints of one pair on the coordinates x of all bodies. The relative coordinates are within `rest` of map x.
+struct PairConstraints {
   Eigen::MatrixXd map;
   Vector6 rest;
   Eigen::Matrix<double, Eigen::Dynamic, 6> normals;
   VectorXd most;
 };
 
-/// Linear programs over all rows of all pairs, of which few matter.
+/// Linear programs over the rows of all pairs. Few rows are active, so they are added as they are violated (cutting
+/// planes).
 class Program {
  public:
-  Program(const std::vector<PairView>& pairs, const VectorXd& most) : pairs_(pairs) {
+  Program(const std::vector<PairConstraints>& pairs, const VectorXd& most) : pairs_(pairs) {
     used_.hi = most;
     used_.lo = -most;
   }
 
-  /// No point has more; infinity where that is not known.
+  /// Upper bound of direction . x; infinity where there is none.
   double bound(const VectorXd& direction) {
     double value = std::numeric_limits<double>::infinity();
     bool more = true;
-    for (int k = 0; k < kMostCuts && more; ++k) {
+    for (int k = 0; k < 200 && more; ++k) {  // every round gives a valid bound; some dozen give the best one
       const auto found = maximum(direction, used_);
       if (found.empty) break;
       value = std::min(value, found.value);
       more = false;
-      for (const PairView& pair : pairs_) {
+      for (const PairConstraints& pair : pairs_) {
         Eigen::Index worst = 0;
-        if (pair.most.size() == 0 || !((pair.normals * (pair.map * found.at) - pair.most).maxCoeff(&worst) > kStrictly))
+        if (pair.most.size() == 0 || !((pair.normals * (pair.map * found.at) - pair.most).maxCoeff(&worst) > kRounding))
           continue;
         used_.add(pair.map.transpose() * pair.normals.row(worst).transpose(), pair.most[worst]);
         more = true;
@@ -81,13 +78,14 @@ class Program {
   }
 
  private:
-  const std::vector<PairView>& pairs_;
+  const std::vector<PairConstraints>& pairs_;
   PolytopeX used_;
 };
 
 class Region {
  public:
-  Region(const std::vector<const std::vector<Solid>*>& bodies, const std::vector<Neighbours>& neighbours)
+  Region(const std::vector<const std::vector<Solid>*>& bodies, const std::vector<Neighbours>& neighbours,
+         double spacing)
       : axes_(bodies.front()->front().frame.q), bounds_(6 * (static_cast<Eigen::Index>(bodies.size()) - 1)) {
     std::vector<Vec3> centers;
     std::vector<double> radii, depths(bodies.size(), 0.0);
@@ -100,16 +98,16 @@ class Region {
     }
     for (Neighbours n : neighbours) {
       if (n.a == 0 || (n.b != 0 && radii[n.b] < radii[n.a])) std::swap(n.a, n.b);
-      Pair pair{n.a, n.b, std::make_unique<Pinned>(*bodies[n.a], *bodies[n.b], n.depth),
+      Pair pair{n.a, n.b, std::make_unique<SampledPair>(*bodies[n.a], *bodies[n.b], n.depth, spacing),
                 axes_.conjugate() * (centers[n.a] - centers[n.b])};
-      pair.bounds.hi << Vec3::Constant(kFirst * n.depth / radii[n.a]), Vec3::Constant(kFirst * n.depth);
+      // Two depths: parts that touch on both sides move about as far as they may penetrate.
+      pair.bounds.hi << Vec3::Constant(2 * n.depth / radii[n.a]), Vec3::Constant(2 * n.depth);
       pair.bounds.lo = -pair.bounds.hi;
       pairs_.push_back(std::move(pair));
       for (const std::size_t i : {n.a, n.b}) depths[i] = std::max(depths[i], n.depth);
     }
     for (std::size_t i = 1; i < bodies.size(); ++i)
-      bounds_.hi.segment<6>(first(i)) << Vec3::Constant(kFirst * depths[i] / radii[i]),
-          Vec3::Constant(kFirst * depths[i]);
+      bounds_.hi.segment<6>(first(i)) << Vec3::Constant(2 * depths[i] / radii[i]), Vec3::Constant(2 * depths[i]);
     bounds_.lo = -bounds_.hi;
     radii_ = radii;
   }
@@ -133,41 +131,42 @@ class Region {
  private:
   static Eigen::Index first(std::size_t body) { return 6 * (static_cast<Eigen::Index>(body) - 1); }
 
-  BodyReach reach_of(std::size_t body) const {
-    BodyReach r;
+  CoordinateBound reach_of(std::size_t body) const {
+    CoordinateBound r;
     if (body > 0) r.most = bounds_.most().segment<6>(first(body));
     return r;
   }
 
   bool small() const {
     for (std::size_t i = 1; i < radii_.size(); ++i)
-      if (const BodyReach r = reach_of(i); !r.small() || r.most.tail<3>().norm() > radii_[i]) return false;
+      if (const CoordinateBound r = reach_of(i); !r.small() || r.most.tail<3>().norm() > radii_[i]) return false;
     return true;
   }
 
-  PairView view(const Pair& pair) const {
-    const SeenFrom seen =
-        seen_from(reach_of(pair.a), reach_of(pair.b), pair.center_b_to_a, Vector6(pair.bounds.most()));
-    PairView view{Eigen::MatrixXd::Zero(6, bounds_.lo.size()), seen.rest, {}, {}};
-    view.map.middleCols<6>(first(pair.a)) += seen.of_a;
-    if (pair.b > 0) view.map.middleCols<6>(first(pair.b)) += seen.of_b;
-    const auto rows = pair_rows(*pair.pinned, axes_, pair.bounds.lo, pair.bounds.hi);
-    view.normals.resize(static_cast<Eigen::Index>(rows.size()), 6);
-    view.most.resize(view.normals.rows());
-    for (Eigen::Index r = 0; r < view.normals.rows(); ++r) {
+  PairConstraints constraints_of(const Pair& pair) const {
+    const RelativeCoordinates relative =
+        relative_coordinates(reach_of(pair.a), reach_of(pair.b), pair.center_b_to_a, Vector6(pair.bounds.most()));
+    PairConstraints result{Eigen::MatrixXd::Zero(6, bounds_.lo.size()), relative.rest, {}, {}};
+    result.map.middleCols<6>(first(pair.a)) += relative.of_a;
+    if (pair.b > 0) result.map.middleCols<6>(first(pair.b)) += relative.of_b;
+    const auto rows = pair_rows(*pair.samples, axes_, pair.bounds.lo, pair.bounds.hi);
+    result.normals.resize(static_cast<Eigen::Index>(rows.size()), 6);
+    result.most.resize(result.normals.rows());
+    for (Eigen::Index r = 0; r < result.normals.rows(); ++r) {
       const PairRow& row = rows[static_cast<std::size_t>(r)];
-      view.normals.row(r) = row.normal;
-      view.most[r] = row.most + row.normal.cwiseAbs().dot(seen.rest);
+      result.normals.row(r) = row.normal;
+      result.most[r] = row.most + row.normal.cwiseAbs().dot(relative.rest);
     }
-    return view;
+    return result;
   }
 
-  /// The new bounds, over all poses within the old ones. False: nothing can be said.
+  /// Computes new bounds over all poses within the old ones. False: a linear program has no bound.
   bool bound(Bounds& all, std::vector<Bounds>& of_pairs, std::size_t& rows) {
-    std::vector<PairView> views;
-    for (const Pair& pair : pairs_) views.push_back(view(pair));
-    for (const PairView& v : views) rows += static_cast<std::size_t>(v.most.size());
-    Program program(views, kAround * bounds_.most());
+    std::vector<PairConstraints> constraints;
+    for (const Pair& pair : pairs_) constraints.push_back(constraints_of(pair));
+    for (const PairConstraints& v : constraints) rows += static_cast<std::size_t>(v.most.size());
+    // Twice as far as bounds may grow in a round, so that the box of the linear programs itself is never the bound.
+    Program program(constraints, 4 * bounds_.most());
     const auto interval = [&](const VectorXd& direction, double rest, double& lo, double& hi) {
       hi = program.bound(direction) + rest;
       lo = -program.bound(-direction) - rest;
@@ -178,7 +177,8 @@ class Region {
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       of_pairs.emplace_back(6);
       for (int i = 0; i < 6; ++i)
-        if (!interval(views[k].map.row(i), views[k].rest[i], of_pairs[k].lo[i], of_pairs[k].hi[i])) return false;
+        if (!interval(constraints[k].map.row(i), constraints[k].rest[i], of_pairs[k].lo[i], of_pairs[k].hi[i]))
+          return false;
     }
     return true;
   }
@@ -186,7 +186,7 @@ class Region {
   InterlockReach reach(std::size_t rows) const {
     InterlockReach r;
     for (std::size_t i = 1; i < radii_.size(); ++i) {
-      const BodyReach body = reach_of(i);
+      const CoordinateBound body = reach_of(i);
       r.shift = std::max(r.shift, body.most.tail<3>().norm());
       r.turn = std::max(r.turn, body.most.head<3>().norm());
     }
@@ -194,7 +194,7 @@ class Region {
     return r;
   }
 
-  Eigen::Quaterniond axes_;  // along the largest faces of the first body: there the bounds are tightest
+  Eigen::Quaterniond axes_;  // along the largest faces of the first body, where bounds by component are tightest
   Bounds bounds_;            // of all bodies but the first
   std::vector<Pair> pairs_;
   std::vector<double> radii_;
@@ -203,15 +203,15 @@ class Region {
 }  // namespace
 
 std::optional<InterlockReach> interlock(const std::vector<const std::vector<Solid>*>& bodies,
-                                        const std::vector<Neighbours>& neighbours, int max_rounds,
+                                        const std::vector<Neighbours>& neighbours, double spacing, int max_rounds,
                                         const RunContext& context) {
   if (!std::all_of(bodies.begin(), bodies.end(),
-                   [](const auto* solids) { return !solids->empty() && borderless(*solids); }))
+                   [](const auto* solids) { return !solids->empty() && all_closed(*solids); }))
     return std::nullopt;
-  for (std::size_t i = 0; i < bodies.size(); ++i)  // with nobody near
+  for (std::size_t i = 0; i < bodies.size(); ++i)  // a body without neighbours is free
     if (std::none_of(neighbours.begin(), neighbours.end(), [&](const Neighbours& n) { return n.a == i || n.b == i; }))
       return std::nullopt;
-  return Region(bodies, neighbours).close(max_rounds, context);
+  return Region(bodies, neighbours, spacing).close(max_rounds, context);
 }
 
 }  // namespace dismantle::immobility

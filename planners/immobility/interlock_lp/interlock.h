@@ -1,4 +1,4 @@
-/// Proof that several parts hold each other in place: none of their motions, whoever moves, gets out of a small region.
+/// Proof that several parts hold each other in place: whichever of them move, none leaves a small region.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,32 @@
 
 namespace dismantle::immobility {
 
-/// Two bodies that are near each other, and how deep they may cut into each other (> 0, assembly units).
+/// Two bodies that are near each other, and their allowed penetration depth (> 0, assembly units).
 struct Neighbours {
   std::size_t a = 0, b = 0;
   double depth = 0;
 };
 
-/// How far bodies get, seen from the first.
+/// Bounds of the motions of all bodies relative to the first.
 struct InterlockReach {
-  double shift = 0;             ///< of the middle of a body's box; assembly units
+  double shift = 0;             ///< of the centre of a body's box; assembly units
   double turn = 0;              ///< rad
   std::size_t half_spaces = 0;  ///< that bound the region
 };
 
-/// Do all motions of the bodies, any of them at once, that begin assembled and along which no two neighbours cut in by
-/// their depth or more, stay within a region that is found here? Nothing: not proved. It is provable where parts have
-/// little play, and soon told where they have not: fractions of a second up to a few.
+/// Do all motions of the bodies, also simultaneous ones, that begin assembled and along which no two neighbours
+/// penetrate by their depth or more, stay within a region? Nothing: not proved. The proof succeeds where parts have
+/// little play, and fails soon where they have much: fractions of a second up to a few. `spacing`: of interior samples;
+/// assembly units, > 0. `max_rounds`: times that the bounds are widened.
 ///
-/// The proof. Let the coordinates of all bodies and of each neighbour seen from the other be within bounds. Then the
-/// pins of two neighbours keep their relative pose in half spaces (pair_rows()), which are half spaces of the poses of
-/// all bodies, too, with a bound of what is not linear (seen_from()). Linear programs bound all coordinates over these.
-/// If every one of them stays strictly within its bound, no motion gets to any of the bounds: it would have to be at
-/// one of them first, with all others kept. Bounds are widened until that is so.
+/// The proof. Assume that the coordinates of all bodies, and of each neighbour relative to the other, are within
+/// bounds. Then the interior samples of two neighbours keep their relative pose in half spaces (pair_rows()). These are
+/// half spaces of the poses of all bodies, with a bound of the nonlinear remainder (relative_coordinates()). Linear
+/// programs over them bound all coordinates. If every result is strictly within the assumed bound, no motion reaches
+/// any of the bounds: it would have to reach one of them first, with all others kept. Bounds are widened until that is
+/// so.
 std::optional<InterlockReach> interlock(const std::vector<const std::vector<Solid>*>& bodies,
-                                        const std::vector<Neighbours>& neighbours, int max_rounds,
+                                        const std::vector<Neighbours>& neighbours, double spacing, int max_rounds,
                                         const RunContext& context);
 
 }  // namespace dismantle::immobility

@@ -11,9 +11,21 @@ namespace dismantle::immobility {
 
 void InterlockLpParams::describe(Schema<InterlockLpParams>& s) {
   s.add("max_parts", &InterlockLpParams::max_parts,
-        {.unit = "1", .min = 2, .max = 64, .doc = "Parts at most: the effort grows with the cube of their number."});
+        {.unit = "1",
+         .min = 2,
+         .max = 64,
+         .doc = "The largest group that is tried: time grows with the cube of the number of parts."});
   s.add("max_rounds", &InterlockLpParams::max_rounds,
-        {.unit = "1", .min = 1, .doc = "Times that the bounds are widened before the proof is given up."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Times that the assumed bounds of the motions are widened before the proof is given up. Most proofs "
+                "take less than ten."});
+  s.add("sample_spacing", &InterlockLpParams::sample_spacing,
+        {.unit = "verify.max_penetration",
+         .min = 0,
+         .min_open = true,
+         .doc = "Advanced. Distance between the points inside the parts of which the proof is made. Fewer points are "
+                "faster, and miss contacts of small features."});
 }
 
 std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, const RunContext& context) const {
@@ -23,7 +35,7 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
   if (parts.size() > static_cast<std::size_t>(params_.max_parts)) return std::nullopt;
   std::sort(parts.begin(), parts.end());
   const std::vector<PartId> ascending = parts;
-  // Poses are told as seen from the first.
+  // Poses are relative to the first part. The largest one gives the smallest relative motions.
   std::stable_sort(parts.begin(), parts.end(),
                    [&](PartId a, PartId b) { return extent_of(query, a) > extent_of(query, b); });
   std::vector<const std::vector<Solid>*> solids;
@@ -33,7 +45,8 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
     for (std::size_t k = i + 1; k < parts.size(); ++k)
       if (near_each_other(query, parts[i], parts[k]))
         neighbours.push_back({i, k, depth_allowed(query, parts[i], parts[k])});
-  const auto reach = interlock(solids, neighbours, static_cast<int>(params_.max_rounds), context);
+  const auto reach = interlock(solids, neighbours, params_.sample_spacing * query.tolerance,
+                               static_cast<int>(params_.max_rounds), context);
   if (!reach) return std::nullopt;
   Certificate found;
   found.parts = ascending;
@@ -42,9 +55,9 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
                    {"turn", {reach->turn}},
                    {"half_spaces", {static_cast<double>(reach->half_spaces)}}};
   found.text = fmt::format(
-      "{0} hold each other in place as rigid bodies: cutting in by less than {1:.4g} more than when assembled, and "
-      "whichever of them move, none comes further than {2:.4g} past the largest or turns by more than {3:.4g} rad "
-      "(proved with {4} half spaces of poses)",
+      "{0} hold each other in place as rigid bodies: while they penetrate less than {1:.4g} deeper than when "
+      "assembled, and whichever of them move, none moves further than {2:.4g} relative to the largest or turns by "
+      "more than {3:.4g} rad (proved with {4} half spaces of poses)",
       names_of(query, ascending), input_length(query, query.margin()), input_length(query, reach->shift), reach->turn,
       reach->half_spaces);
   return found;

@@ -1,4 +1,4 @@
-/// Several parts that hold each other in place: whichever of them move, none gets out of bounds.
+/// Several parts that hold each other in place: whichever of them move, none leaves a small region.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,11 @@ namespace dismantle::immobility {
 struct InterlockLpParams {
   std::int64_t max_parts = 8;
   std::int64_t max_rounds = 60;
+  double sample_spacing = 2;  ///< tolerances
   static void describe(Schema<InterlockLpParams>& s);
 };
 
-/// About all parts of the query, of which any may move. See interlock.h for the proof.
+/// About all parts of the query, any of which may move. The proof is in interlock.h.
 class InterlockLp final : public ImmobilityProver {
  public:
   explicit InterlockLp(const InterlockLpParams& params = {}) : params_(params) {}

@@ -1,7 +1,7 @@
 #include "interlock_lp/pair_rows.h"
 
-#include "dismantle/immobility/free_part.h"
-#include "interlock_lp/body_coordinates.h"
+#include "dismantle/immobility/free_space_bound.h"
+#include "interlock_lp/relative_coordinates.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -9,9 +9,7 @@ namespace {
 using Mat3 = Eigen::Matrix3d;
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kRounding = 1e-9;
-
-/// w x p as a function of w.
+/// The matrix of w -> w x p.
 Mat3 turned_by(const Vec3& p) {
   Mat3 m;
   m << 0, p.z(), -p.y(), -p.z(), 0, p.x(), p.y(), -p.x(), 0;
@@ -20,30 +18,31 @@ Mat3 turned_by(const Vec3& p) {
 
 }  // namespace
 
-std::vector<PairRow> pair_rows(const Pinned& pinned, const Eigen::Quaterniond& axes, const Vector6& lo,
+std::vector<PairRow> pair_rows(const SampledPair& pair, const Eigen::Quaterniond& axes, const Vector6& lo,
                                const Vector6& hi) {
   std::vector<PairRow> rows;
   const Vector6 most = lo.cwiseAbs().cwiseMax(hi.cwiseAbs()), middle = 0.5 * (lo + hi), half = 0.5 * (hi - lo);
   const Vec3 turn = most.head<3>(), shift = most.tail<3>();
-  for (const Pin& pin : pinned.pins()) {
-    if (pin.room > shift.norm() + turn.norm() * (pin.at.norm() + shift.norm())) continue;
-    const Vec3 at = axes.conjugate() * pin.at, p = at.cwiseAbs();
-    // of_a: exp(w) p + s = p + w x p + s + w x (w x p) / 2 + ...; else exp(-w) (p - s), likewise.
+  for (const InteriorSample& sample : pair.samples()) {
+    if (sample.clearance > shift.norm() + turn.norm() * (sample.at.norm() + shift.norm())) continue;
+    const Vec3 at = axes.conjugate() * sample.at, p = at.cwiseAbs();
+    // of_a: exp(w) p + s = p + w x p + s + w x (w x p) / 2 + ...; else exp(-w) (p - s), expanded in the same way.
     Eigen::Matrix<double, 3, 6> slope;
     slope << turned_by(at), Mat3::Identity();
-    if (!pin.of_a) slope = -slope;
-    const Vec3 arm = pin.of_a ? p : Vec3(p + shift);
-    Vec3 rest = 0.5 * cross_most(turn, cross_most(turn, arm));
-    if (!pin.of_a) rest += cross_most(turn, shift);
-    rest.array() += turn.norm() * turn.squaredNorm() / 6 * arm.norm() + kRounding;
+    if (!sample.of_a) slope = -slope;
+    const Vec3 arm = sample.of_a ? p : Vec3(p + shift);
+    Vec3 rest = 0.5 * abs_cross_bound(turn, abs_cross_bound(turn, arm));
+    if (!sample.of_a) rest += abs_cross_bound(turn, shift);
+    rest.array() += turn.norm() * turn.squaredNorm() / 6 * arm.norm() + pair.obstacle(sample).rounding;
 
-    const Pinned::Faced& faced = pinned.faced(pin);
-    const Mat3 to_local = (faced.to_local.q * axes).toRotationMatrix();
-    const Vec3 fixed = faced.to_local * Vec3(pin.at + pinned.center());
+    const SampledPair::Obstacle& obstacle = pair.obstacle(sample);
+    const Mat3 to_local = (obstacle.to_local.q * axes).toRotationMatrix();
+    const Vec3 fixed = obstacle.to_local * Vec3(sample.at + pair.center());
     const Eigen::Matrix<double, 3, 6> local = to_local * slope;
     const Vec3 local_rest = to_local.cwiseAbs() * rest;
-    const FreePart part = free_part(faced, fixed + local * middle, local.cwiseAbs() * half + local_rest);
-    for (const HalfSpace& h : part.within)
+    const FreeSpaceBound free =
+        free_space_bound(obstacle, fixed + local * middle, local.cwiseAbs() * half + local_rest);
+    for (const HalfSpace& h : free.half_spaces)
       rows.push_back(
           {-local.transpose() * h.normal, h.normal.dot(fixed) + h.normal.cwiseAbs().dot(local_rest) - h.least});
   }

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <queue>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/immobility/geometry_names.h"
 
 namespace dismantle::immobility {
 namespace {
-
-constexpr double kRounding = 1e-9;  // relative
 
 struct Cube {
   Eigen::Vector3d center;
@@ -27,16 +26,16 @@ Aabb world_box(const Solid& s, const Pose& pose) {
 }
 
 /// A point of the frame of a solid, and how deep it is below its surface (< 0: outside).
-struct Known {
+struct DepthSample {
   Eigen::Vector3d at;
   double depth = 0;
 };
 
-/// Depth of `p`, if it is more than `least`. It is no deeper than below the sides of the box, and than the surface is
-/// far away, whichever side it is on: that tells most. On which side it is costs as much again: it is the side of
-/// `near` where the balls about both that the surface keeps clear of reach each other.
+/// Depth of `p`, if it is more than `least`. The distances from the box and from the surface are upper bounds of it,
+/// and mostly decide. The test on which side of the surface `p` is costs as much again. It is not needed where the
+/// balls about `p` and `near` that do not meet the surface overlap: then both are on one side.
 std::optional<double> depth_above(double least, const Eigen::Vector3d& p, const Solid& solid,
-                                  std::optional<Known>& near) {
+                                  std::optional<DepthSample>& near) {
   if (!((p - solid.box.lo).cwiseMin(solid.box.hi - p).minCoeff() > least)) return std::nullopt;
   const double distance = solid.bvh.closest(p).distance;
   if (distance <= least) return std::nullopt;
@@ -58,8 +57,8 @@ std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, c
   const Placement to_a(pose_a.inverse()), to_b(pose_b.inverse());
   std::priority_queue<Cube> open;
   std::optional<DeepPoint> found;
-  std::optional<Known> near_a, near_b;  // the points that were looked at last
-  const auto look = [&](const Eigen::Vector3d& center, double half) {
+  std::optional<DepthSample> near_a, near_b;  // the last points
+  const auto add = [&](const Eigen::Vector3d& center, double half) {
     const double reach = std::sqrt(3.0) * half;
     const auto in_a = depth_above(limit - reach, to_a * center, a, near_a);
     if (!in_a) return;
@@ -71,21 +70,21 @@ std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, c
     }
     open.push({center, half, *in_a, *in_b, std::min(*in_a, *in_b + limit) + reach});
   };
-  // Cubes of the shortest edge of the common box, so that none is much longer than wide.
+  // The first cubes have the shortest edge of the common box, but no less than a twentieth of the longest.
   const double half = 0.5 * std::max(box.size().minCoeff(), 0.05 * box.size().maxCoeff());
   const Eigen::Array3i count = (box.size() / (2 * half)).array().ceil().cast<int>().max(1);
   for (int x = 0; x < count.x(); ++x)
     for (int y = 0; y < count.y(); ++y)
       for (int z = 0; z < count.z() && !found; ++z)
-        look(box.lo + half * (2.0 * Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Ones()), half);
+        add(box.lo + half * (2.0 * Eigen::Vector3d(x, y, z) + Eigen::Vector3d::Ones()), half);
   for (std::uint64_t cubes = 0; !found && !open.empty() && cubes < most_cubes; ++cubes) {
     const Cube cube = open.top();
     open.pop();
     near_a = {to_a * cube.center, cube.in_a};
     near_b = {to_b * cube.center, cube.in_b};
     for (int k = 0; k < 8 && !found; ++k)
-      look(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
-           0.5 * cube.half);
+      add(cube.center + 0.5 * cube.half * Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1),
+          0.5 * cube.half);
   }
   return found;
 }

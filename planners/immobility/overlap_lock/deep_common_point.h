@@ -1,4 +1,4 @@
-/// Are two parts locked into each other for good?
+/// A point that locks two solids into each other.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,12 @@ struct DeepPoint {
   double depth = 0;       ///< below the surface of the first solid
 };
 
-/// A point that lies in both solids, and more than `limit` (> 0) below the surface of `a`; none when there is no such
-/// point, or none was found within the budget. Branch and bound over cubes: depths change no faster than the point
-/// moves.
+/// A point that lies in both solids, more than `limit` (> 0) below the surface of `a`. Nothing when there is none, or
+/// none was found with `most_cubes` divisions. Branch and bound over cubes: the depth of a point changes no faster than
+/// the point moves.
 ///
-/// Such a point locks the two. Fix it to `a`: when they are apart it is outside `b`, so on the way it passed through
-/// the surface of `b`; there and then that surface was so deep in `a`.
+/// Such a point locks the two. Fix it to `a`. When the solids are apart, it is outside `b`, so on the way it passes
+/// through the surface of `b`. At that moment the surface of `b` is more than `limit` deep in `a`.
 std::optional<DeepPoint> deep_common_point(const Solid& a, const Pose& pose_a, const Solid& b, const Pose& pose_b,
                                            double limit, std::uint64_t most_cubes = 1000);
 

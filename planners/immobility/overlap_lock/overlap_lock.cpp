@@ -11,12 +11,6 @@
 namespace dismantle::immobility {
 namespace {
 
-constexpr double kBeyond = 1e-9;  // relative: deeper than what is allowed by that
-
-double limit_of(const SeparationQuery& query, PartId a, PartId b) {
-  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + kBeyond);
-}
-
 /// Of a point of the assembled frame below the surface of a part; <= 0 outside.
 double depth_in(const SeparationQuery& query, PartId part, const Eigen::Vector3d& point) {
   double depth = 0;
@@ -28,17 +22,19 @@ double depth_in(const SeparationQuery& query, PartId part, const Eigen::Vector3d
 }  // namespace
 
 void OverlapLockParams::describe(Schema<OverlapLockParams>& s) {
-  s.add("max_cubes", &OverlapLockParams::max_cubes,
-        {.unit = "1",
-         .min = 1,
-         .doc = "Cubes of the common box of two solids that are divided in search of a point deep enough in both."});
+  s.add(
+      "max_cubes", &OverlapLockParams::max_cubes,
+      {.unit = "1",
+       .min = 1,
+       .doc = "Cubes of the common box of two solids that are divided in search of a point that locks them. Fewer miss "
+              "small overlaps of large parts."});
 }
 
 std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, const RunContext& context) const {
   const auto pair = pair_of(query);
   if (!pair || query.assembly.initial_overlap(pair->first, pair->second) <= 0) return std::nullopt;
-  const double limit = limit_of(query, pair->first, pair->second);
-  for (const auto& [inside, other] : both_ways(*pair))
+  const double limit = depth_allowed(query, pair->first, pair->second);
+  for (const auto& [inside, other] : both_orders(*pair))
     for (const Solid& x : solids_of(query, inside))
       for (const Solid& y : solids_of(query, other)) {
         if (context.should_stop()) return std::nullopt;
@@ -49,10 +45,10 @@ std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, cons
         found.parts = {inside, other};
         found.numbers = {{"point", numbers_of(p->point)}, {"depth", {p->depth}}, {"allowed", {allowed}}};
         found.text = fmt::format(
-            "{0} and {1} are locked into each other: {2} lies in both, {3:.4g} below the surface of {0}, so on any way "
-            "apart {1} cuts so deep into it; {4:.4g} is allowed (see verify.max_penetration)",
-            name_of(query, inside), name_of(query, other), place_of(query, p->point), input_length(query, p->depth),
-            input_length(query, allowed));
+            "{0} and {1} are locked into each other: {2} lies in both, {3:.4g} below the surface of {0}, so on any "
+            "path that separates them {1} penetrates it that deep; {4:.4g} is allowed (see verify.max_penetration)",
+            name_of(query, inside), name_of(query, other), position_text(query, p->point),
+            input_length(query, p->depth), input_length(query, allowed));
         return found;
       }
   return std::nullopt;
@@ -65,7 +61,7 @@ std::string OverlapLock::objection(const Certificate& certificate, const Separat
     return "it has no point";
   const PartId inside = certificate.parts[0], other = certificate.parts[1];
   const Eigen::Vector3d p(point->second[0], point->second[1], point->second[2]);
-  const double depth = depth_in(query, inside, p), limit = limit_of(query, inside, other);
+  const double depth = depth_in(query, inside, p), limit = depth_allowed(query, inside, other);
   if (!(depth > limit))
     return fmt::format("its point is {:.4g} deep in {}, and {:.4g} is allowed", depth, name_of(query, inside), limit);
   if (!(depth_in(query, other, p) > 0)) return fmt::format("its point is not in {}", name_of(query, other));

@@ -1,4 +1,4 @@
-/// Parts that overlap when assembled in such a way that no motion can part them.
+/// Parts that overlap when assembled so deep that no valid motion separates them.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,8 @@ struct OverlapLockParams {
   static void describe(Schema<OverlapLockParams>& s);
 };
 
-/// A point lies in both parts, deeper below the surface of the first than the pair may penetrate. When the two are
-/// apart it is outside the second, so on any path there it passes through the surface of the second, which then is as
-/// deep in the first.
+/// A point lies in both parts, deeper below the surface of the first than the pair may penetrate. The argument is in
+/// deep_common_point.h.
 class OverlapLock final : public ImmobilityProver {
  public:
   explicit OverlapLock(const OverlapLockParams& params = {}) : params_(params) {}

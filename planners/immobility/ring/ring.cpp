@@ -9,18 +9,33 @@ namespace dismantle::immobility {
 
 void RingParams::describe(Schema<RingParams>& s) {
   s.add("max_rings", &RingParams::max_rings,
-        {.unit = "1", .min = 1, .doc = "Rings of a solid, the largest first, that are looked for in chambers."});
+        {.unit = "1",
+         .min = 1,
+         .doc = "Circles within each solid that are tried, the largest first. Larger ones pass fewer openings."});
+  s.add("heights", &RingParams::heights,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Positions along each axis of a part at which a circle is searched. Thin rims are missed by "
+                "few."});
+  s.add("radii", &RingParams::radii,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Radii that are tried at each position. With more, the circle comes closer to the largest."});
+  s.add("max_sections", &RingParams::max_sections,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Advanced. Planes across the axis, about, in which the openings of a chamber are searched."});
 }
 
 std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunContext& context) const {
   const auto pair = pair_of(query);
   if (!pair || !near_each_other(query, pair->first, pair->second)) return std::nullopt;
   const double depth = depth_allowed(query, pair->first, pair->second);
-  for (const auto& [inside, other] : both_ways(*pair))
+  for (const auto& [inside, other] : both_orders(*pair))
     for (const Solid& x : solids_of(query, inside))
-      for (const InnerRing& ring : rings_in(x, depth, static_cast<std::size_t>(params_.max_rings)))
+      for (const InteriorCircle& ring : circles_in(x, depth, params_))
         for (const Solid& y : solids_of(query, other)) {
-          const auto cage = ring_cage(ring, y, context);
+          const auto cage = ring_cage(ring, y, slack_of(query), params_, context);
           if (!cage) continue;
           Certificate found;
           found.parts = {inside, other};
@@ -32,7 +47,7 @@ std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunCo
               "{0} and {1} hold each other: {0} has a ring of diameter {2:.4g} about {3} in a chamber of {1}, which "
               "opens no wider than {4:.4g} (less the penetration that is allowed)",
               name_of(query, inside), name_of(query, other), input_length(query, 2 * ring.radius),
-              place_of(query, ring.center), input_length(query, cage->opening));
+              position_text(query, ring.center), input_length(query, cage->opening));
           return found;
         }
   return std::nullopt;

@@ -10,10 +10,13 @@ namespace dismantle::immobility {
 
 struct RingParams {
   std::int64_t max_rings = 2;
+  std::int64_t heights = 24;
+  std::int64_t radii = 32;
+  std::int64_t max_sections = 150;
   static void describe(Schema<RingParams>& s);
 };
 
-/// See ring_cage.h for the proof.
+/// The proof is in ring_cage.h.
 class Ring final : public ImmobilityProver {
  public:
   explicit Ring(const RingParams& params = {}) : params_(params) {}

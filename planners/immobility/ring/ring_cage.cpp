@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "dismantle/immobility/section.h"
@@ -12,17 +11,13 @@ namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-using std::numbers::pi;
-
-constexpr std::size_t kSections = 150;  // of the solid around it
-constexpr double kSlack = 1e-6;         // assembly units: an opening is smaller by more than that
 
 }  // namespace
 
-std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t most) {
-  std::vector<InnerRing> candidates;
+std::vector<InteriorCircle> circles_in(const Solid& solid, double depth, const RingParams& params) {
+  std::vector<InteriorCircle> candidates;
   if (!(0.5 * solid.box.size().minCoeff() > depth)) return candidates;
-  const auto [center, axes] = round_axes_of(solid);
+  const auto [center, axes] = symmetry_axes_of(solid);
   for (const Vec3& axis : axes) {
     double lo = 0, hi = 0, reach = 0;
     for (const Vec3& v : solid.mesh.vertices) {
@@ -31,49 +26,50 @@ std::vector<InnerRing> rings_in(const Solid& solid, double depth, std::size_t mo
       hi = std::max(hi, h);
       reach = std::max(reach, (v - center - h * axis).norm());
     }
-    for (int z = 0; z < kRingHeights; ++z) {
-      InnerRing ring{solid.frame * (center + (lo + (hi - lo) * (z + 0.5) / kRingHeights) * axis), solid.frame.q * axis,
-                     0};
-      for (int r = kRingRadii; r > 0; --r) {
-        ring.radius = reach * r / kRingRadii;
-        if (!looks_deep(solid, ring, depth)) continue;
-        candidates.push_back(ring);
+    for (std::int64_t z = 0; z < params.heights; ++z) {
+      const double share = (static_cast<double>(z) + 0.5) / static_cast<double>(params.heights);
+      InteriorCircle circle{solid.frame * (center + (lo + (hi - lo) * share) * axis), solid.frame.q * axis, 0};
+      for (std::int64_t r = params.radii; r > 0; --r) {
+        circle.radius = reach * static_cast<double>(r) / static_cast<double>(params.radii);
+        if (!samples_are_deep(solid, circle, depth)) continue;
+        candidates.push_back(circle);
         break;
       }
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const InnerRing& a, const InnerRing& b) { return a.radius > b.radius; });
-  std::vector<InnerRing> rings;
-  for (const InnerRing& ring : candidates) {
-    if (rings.size() == most) break;
-    if (is_deep(solid, ring, depth, 0, 2 * pi, kArcHalvings)) rings.push_back(ring);
+                   [](const InteriorCircle& a, const InteriorCircle& b) { return a.radius > b.radius; });
+  std::vector<InteriorCircle> circles;
+  for (const InteriorCircle& circle : candidates) {
+    if (circles.size() == static_cast<std::size_t>(params.max_rings)) break;
+    if (is_deep(solid, circle, depth)) circles.push_back(circle);
   }
-  return rings;
+  return circles;
 }
 
-std::optional<RingCage> ring_cage(const InnerRing& ring, const Solid& around, const RunContext& context) {
-  if (!around.box.contains(around.frame.inverse() * ring.center)) return std::nullopt;  // a chamber is in the hull
+std::optional<RingCage> ring_cage(const InteriorCircle& circle, const Solid& around, double slack,
+                                  const RingParams& params, const RunContext& context) {
+  if (!around.box.contains(around.frame.inverse() * circle.center)) return std::nullopt;  // a chamber is in the hull
   const Surface surface(around);
-  const double middle = ring.axis.dot(ring.center);
-  std::array<std::pair<double, Loop>, 2> nearest;  // the smallest around the axis below and above the ring: width, loop
-  for (auto& [width, loop] : nearest) width = 2 * ring.radius - kSlack;
-  for (const double offset : surface.offsets(ring.axis, kSections)) {
+  const double middle = circle.axis.dot(circle.center);
+  std::array<std::pair<double, Loop>, 2> narrowest;  // width and loop around the axis, below and above the circle
+  for (auto& [width, loop] : narrowest) width = 2 * circle.radius - slack;
+  for (const double offset : surface.offsets(circle.axis, static_cast<std::size_t>(params.max_sections))) {
     if (context.should_stop()) return std::nullopt;
-    if (std::abs(offset - middle) < 1e-9) continue;
-    auto& best = nearest[offset > middle ? 1 : 0];
-    for (Loop& loop : surface.section({ring.axis, offset})) {
-      if (!loop.around(ring.center)) continue;
+    if (std::abs(offset - middle) < slack) continue;
+    auto& best = narrowest[offset > middle ? 1 : 0];
+    for (Loop& loop : surface.section({circle.axis, offset})) {
+      if (!loop.around(circle.center)) continue;
       if (const double width = loop.diameter(); width < best.first) best = {width, std::move(loop)};
     }
   }
   std::vector<Loop> loops;
-  for (auto& [width, loop] : nearest)
+  for (auto& [width, loop] : narrowest)
     if (!loop.points.empty()) loops.push_back(std::move(loop));
   if (loops.empty()) return std::nullopt;
-  const auto chamber = surface.closed_by(loops, ring.center);
-  if (!chamber || chamber->inside(point_on(ring, 1)) != true) return std::nullopt;
-  RingCage cage{ring, 0};
+  const auto chamber = surface.closed_by(loops, circle.center);
+  if (!chamber || chamber->inside(point_on(circle, 1)) != true) return std::nullopt;
+  RingCage cage{circle, 0};
   for (const Loop* loop : chamber->loops()) cage.opening = std::max(cage.opening, loop->diameter());
   return cage;
 }

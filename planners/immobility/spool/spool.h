@@ -10,10 +10,14 @@ namespace dismantle::immobility {
 
 struct SpoolParams {
   std::int64_t max_rings = 4;
+  std::int64_t heights = 24;
+  std::int64_t radii = 128;
+  std::int64_t max_sections = 150;
+  double max_dent = 0.01;  ///< tolerances
   static void describe(Schema<SpoolParams>& s);
 };
 
-/// See spool_cage.h for the proof.
+/// The proof is in spool_cage.h.
 class Spool final : public ImmobilityProver {
  public:
   explicit Spool(const SpoolParams& params = {}) : params_(params) {}

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -14,16 +13,9 @@ namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-using std::numbers::pi;
-
-constexpr int kWidenings = 8;           // of a ring about a hole
-constexpr std::size_t kSections = 150;  // of the spool
-constexpr double kSlack = 1e-6;         // assembly units: a rim is wider by more than that
-constexpr double kDent = 1e-4;          // assembly units: rims are so near to convex curves
-
-/// Distance of the point from the convex hull of the curve, if that is more than `least`, and the two are nowhere
-/// further than kDent from each other; else `least`.
-double reach_of(const Loop& loop, const Vec3& center, double least) {
+/// Distance of the point from the convex hull of the curve, if that is more than `least`, and no point of the curve is
+/// further than `max_dent` from the hull; else `least`.
+double reach_of(const Loop& loop, const Vec3& center, double least, double max_dent) {
   const Vec3 e = loop.plane.normal.unitOrthogonal(), f = loop.plane.normal.cross(e);
   const auto in_plane = [&](const Vec3& p) { return Eigen::Vector2d(e.dot(p), f.dot(p)); };
   std::vector<Eigen::Vector2d> hull;
@@ -41,32 +33,33 @@ double reach_of(const Loop& loop, const Vec3& center, double least) {
   const double reach = distance(in_plane(center));
   if (!(reach > least)) return least;
   for (const Vec3& p : loop.points)
-    if (distance(in_plane(p)) > kDent) return least;
+    if (distance(in_plane(p)) > max_dent) return least;
   return reach;
 }
 
-/// Circles about an axis, within the solid, from the smallest.
-std::vector<InnerRing> rings_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
-                                   const Solid& solid, double depth) {
-  std::vector<InnerRing> rings;
-  for (int z = 0; z < kRingHeights; ++z) {
-    InnerRing ring{foot + (lo + (hi - lo) * (z + 0.5) / kRingHeights) * axis, axis, 0};
-    for (int r = 1; r < 4 * kRingRadii; ++r) {
-      ring.radius = reach * r / (4 * kRingRadii);
-      if (!looks_deep(solid, ring, depth)) continue;
-      rings.push_back(ring);
+/// Circles about an axis, within the solid, the smallest first.
+std::vector<InteriorCircle> circles_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
+                                          const Solid& solid, double depth, const SpoolParams& params) {
+  std::vector<InteriorCircle> circles;
+  for (std::int64_t z = 0; z < params.heights; ++z) {
+    const double share = (static_cast<double>(z) + 0.5) / static_cast<double>(params.heights);
+    InteriorCircle circle{foot + (lo + (hi - lo) * share) * axis, axis, 0};
+    for (std::int64_t r = 1; r < params.radii; ++r) {
+      circle.radius = reach * static_cast<double>(r) / static_cast<double>(params.radii);
+      if (!samples_are_deep(solid, circle, depth)) continue;
+      circles.push_back(circle);
       break;
     }
   }
-  std::stable_sort(rings.begin(), rings.end(),
-                   [](const InnerRing& a, const InnerRing& b) { return a.radius < b.radius; });
-  return rings;
+  std::stable_sort(circles.begin(), circles.end(),
+                   [](const InteriorCircle& a, const InteriorCircle& b) { return a.radius < b.radius; });
+  return circles;
 }
 
-/// Loops about an axis, ascending; those as far as it came when told to stop.
-std::vector<Loop> loops_across(const Surface& surface, const Vec3& axis, const RunContext& context) {
+/// Sections of the surface across an axis, ascending; only the first ones when told to stop.
+std::vector<Loop> loops_across(const Surface& surface, const Vec3& axis, std::int64_t most, const RunContext& context) {
   std::vector<Loop> loops;
-  for (const double offset : surface.offsets(axis, kSections)) {
+  for (const double offset : surface.offsets(axis, static_cast<std::size_t>(most))) {
     if (context.should_stop()) break;
     for (Loop& loop : surface.section({axis, offset})) loops.push_back(std::move(loop));
   }
@@ -78,15 +71,15 @@ struct Rim {
   const Loop* loop = nullptr;
 };
 
-/// The widest convex loops around the axis below and above the ring.
-std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InnerRing& ring) {
+/// The widest convex loops around the axis below and above the circle.
+std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InteriorCircle& circle, double slack, double max_dent) {
   std::array<Rim, 2> widest;
-  const double middle = ring.axis.dot(ring.center);
+  const double middle = circle.axis.dot(circle.center);
   for (const Loop& loop : loops) {
     const double offset = loop.plane.offset;
-    if (std::abs(offset - middle) < 1e-6 || !loop.around(ring.center)) continue;
+    if (std::abs(offset - middle) < slack || !loop.around(circle.center)) continue;
     Rim& best = widest[offset > middle ? 1 : 0];
-    const double reach = reach_of(loop, ring.center, best.radius);
+    const double reach = reach_of(loop, circle.center, best.radius, max_dent);
     if (reach > best.radius) best = {reach, &loop};
   }
   return widest;
@@ -94,10 +87,10 @@ std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InnerRing& ring) {
 
 }  // namespace
 
-std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed, std::size_t most_rings,
-                                    const RunContext& context) {
-  const double depth = allowed + kDent;  // so that it also keeps out of the convex curve beside a rim
-  const auto [center, axes] = round_axes_of(spool);
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double allowed, double slack,
+                                    double max_dent, const SpoolParams& params, const RunContext& context) {
+  const double depth = allowed + max_dent;  // so that the circle does not meet the convex curve beside a rim either
+  const auto [center, axes] = symmetry_axes_of(spool);
   const Vec3 foot = spool.frame * center;
   std::optional<Surface> surface;
   for (const Vec3& local : axes) {
@@ -110,26 +103,27 @@ std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, dou
       reach = std::max(reach, (d - axis.dot(d) * axis).norm());
     }
     std::vector<Loop> loops;
-    std::size_t tried = 0;
-    for (InnerRing ring : rings_about(foot, axis, lo, hi, reach, around, depth)) {
-      if (tried++ == most_rings) break;
+    std::int64_t tried = 0;
+    for (InteriorCircle circle : circles_about(foot, axis, lo, hi, reach, around, depth, params)) {
+      if (tried++ == params.max_rings) break;
       if (context.should_stop()) return std::nullopt;
-      bool deep = false;  // what looked so at a glance may have to be a little wider
-      for (int k = 0; k < kWidenings && !deep; ++k) {
-        deep = is_deep(around, ring, depth, 0, 2 * pi, kArcHalvings);
-        if (!deep) ring.radius += reach / (4 * kRingRadii);
+      bool deep = false;  // a circle whose samples are deep enough may have to be a little wider
+      for (int k = 0; k < 8 && !deep; ++k) {
+        deep = is_deep(around, circle, depth);
+        if (!deep) circle.radius += reach / static_cast<double>(params.radii);
       }
       if (!deep) continue;
       if (!surface) surface.emplace(spool);
-      if (loops.empty()) loops = loops_across(*surface, axis, context);
-      const auto [below, above] = rims(loops, ring);
+      if (loops.empty()) loops = loops_across(*surface, axis, params.max_sections, context);
+      const auto [below, above] = rims(loops, circle, slack, max_dent);
       const double rim = std::min(below.radius, above.radius);
-      if (!(rim > ring.radius + kSlack)) continue;
-      for (const Loop& neck : surface->section({axis, axis.dot(ring.center)})) {
-        const auto within = [&](const Vec3& p) { return (p - ring.center).norm() < ring.radius; };
+      if (!(rim > circle.radius + slack)) continue;
+
+      for (const Loop& neck : surface->section({axis, axis.dot(circle.center)})) {
+        const auto within = [&](const Vec3& p) { return (p - circle.center).norm() < circle.radius; };
         if (!std::all_of(neck.points.begin(), neck.points.end(), within)) continue;
         if (surface->connects(neck, *above.loop, true) && surface->connects(neck, *below.loop, false))
-          return SpoolCage{ring, 2 * rim};
+          return SpoolCage{circle, 2 * rim};
       }
     }
   }

@@ -1,31 +1,31 @@
-/// A spool of one part in a hole of another, whose rims are too wide for the hole.
+/// Proof that a spool of one part cannot leave a hole of another, because its rims are too wide.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
-#include "dismantle/immobility/inner_ring.h"
+#include "dismantle/immobility/interior_circle.h"
 #include "dismantle/run_context.h"
+#include "spool/spool.h"
 
 namespace dismantle::immobility {
 
 struct SpoolCage {
-  InnerRing ring;  ///< within the part around the spool
-  double rim = 0;  ///< diameter of the narrower of the two rims, through its middle; > 2 * ring.radius
+  InteriorCircle circle;  ///< within the part around the spool
+  double rim = 0;         ///< diameter of the narrower of the two rims, through its middle; > 2 * circle.radius
 };
 
-/// Is the spool in a hole of the solid `around`, with a rim on either side that is too wide for a ring about the hole,
-/// which lies `depth` (> 0) below the surface and more? So many rings about an axis are tried. Nothing: not found, or
-/// told to stop.
+/// Is the spool in a hole of the solid `around`, with a rim on either side that is wider than a circle about the hole,
+/// which lies at least `depth` (> 0) below the surface? Nothing: not found, or told to stop. `slack`: rims are wider by
+/// more than that. `max_dent`: rims differ from convex curves by no more than that. Both in assembly units, > 0.
 ///
-/// Why it stays. The surface of the spool keeps out of the ring, so its rims and a line on it from rim to rim do. As
-/// with ring_cage(), a rim, which is convex (or so near to a convex curve that the ring keeps out of that), is crossed
-/// by the ring's disc in two points or none, and the arc of the rim that the disc cuts off is always the shorter one,
-/// for the chord does not reach the middle of the rim. How often the line crosses the disc, even or odd, changes when
-/// an end of it does, which then changes sides between the long arc of its rim and the short one. At first the line
-/// crosses once. If the parts were apart, nothing would cross the disc: both ends on long arcs as at first, and yet an
-/// even number.
-std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth, std::size_t most_rings,
-                                    const RunContext& context);
+/// Why it stays. The surface of the spool never meets the circle, so its rims and a line on it from rim to rim do not.
+/// A rim is convex, or so close to a convex curve that the circle does not meet that curve either. As with ring_cage(),
+/// the circle's disc crosses the rim in two points or none. The arc of the rim that the disc cuts off is always the
+/// shorter one, since the chord does not reach the middle of the rim. The parity of the crossings of the line with the
+/// disc changes only when an end of the line crosses the disc, and then that end changes between the long arc of its
+/// rim and the short one. At first the line crosses once. If the parts were apart, nothing would cross the disc: both
+/// ends would be on long arcs as at first, and yet the number of crossings would be even.
+std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, double depth, double slack,
+                                    double max_dent, const SpoolParams& params, const RunContext& context);
 
 }  // namespace dismantle::immobility

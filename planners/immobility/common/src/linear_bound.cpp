@@ -8,9 +8,8 @@
 namespace dismantle::immobility {
 namespace {
 
-constexpr Eigen::Index kMostPivots = 50;  // for each coordinate
-constexpr double kZero = 1e-11;
-constexpr double kBeside = 1e-8;
+// Rounding of the final sums. Coordinates are angles and shifts of parts, of order 1 or less.
+constexpr double kSumRounding = 1e-11;
 
 /// Rows 0 .. m-1 are the polytope's own; then the upper and the lower bound of each coordinate.
 template <int N>
@@ -32,12 +31,12 @@ class Rows {
     if (r < own_) return p_.b[r];
     return sign(r) > 0 ? p_.hi[coordinate(r)] : -p_.lo[coordinate(r)];
   }
-  /// Most that residual . x can be.
+  /// Upper bound of residual . x.
   double slack(const Vector& residual) const {
     return residual.cwiseAbs().dot(p_.lo.cwiseAbs().cwiseMax(p_.hi.cwiseAbs()));
   }
-  /// By how much `x` is beyond; own rows are not unit vectors.
-  double beyond(std::size_t r, const Vector& x) const {
+  /// By how much `x` violates the row; rows of the polytope are not unit vectors.
+  double violation(std::size_t r, const Vector& x) const {
     return r < own_ ? p_.a[r].dot(x) - p_.b[r] : sign(r) * x[coordinate(r)] - bound(r);
   }
 
@@ -59,31 +58,31 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
   LinearBoundIn<N> result;
   result.at.setZero(n);
   const Rows<N> rows(polytope);
-  // Ties make the search go in circles: it follows a direction beside the one asked for.
-  Vector beside = direction;
+  // Ties can make the simplex method cycle, so the objective is perturbed. The bound below accounts for that.
+  Vector perturbed = direction;
   for (Eigen::Index i = 0; i < n; ++i)
-    beside[i] += kBeside * (1 + 0.37 * static_cast<double>(i)) * (i % 2 == 0 ? 1 : -1);
+    perturbed[i] += 1e-8 * (1 + 0.37 * static_cast<double>(i)) * (i % 2 == 0 ? 1 : -1);
   Eigen::Matrix<std::size_t, N, 1> basis(n);
-  for (Eigen::Index i = 0; i < n; ++i) basis[i] = rows.of_bound(i, beside[i] >= 0);
+  for (Eigen::Index i = 0; i < n; ++i) basis[i] = rows.of_bound(i, perturbed[i] >= 0);
   result.value = std::numeric_limits<double>::infinity();
   Matrix m(n, n);
   Vector bounds(n);
-  for (Eigen::Index pivot = 0; pivot < kMostPivots * n; ++pivot) {
+  for (Eigen::Index pivot = 0; pivot < 50 * n; ++pivot) {  // mostly a few times n are enough
     for (Eigen::Index i = 0; i < n; ++i) {
       m.row(i) = rows.normal(basis[i]);
       bounds[i] = rows.bound(basis[i]);
     }
     const Eigen::PartialPivLU<Matrix> lu(m);
     result.at = lu.solve(bounds);
-    Vector y = lu.transpose().solve(beside);
+    Vector y = lu.transpose().solve(perturbed);
     y = y.cwiseMax(0.0);
     std::size_t enters = rows.count();
-    double most = 1e-10;
+    double most = 10 * kSumRounding;
     for (std::size_t r = 0; r < rows.count(); ++r)
-      if (const double d = rows.beyond(r, result.at); d > most) most = d, enters = r;
+      if (const double d = rows.violation(r, result.at); d > most) most = d, enters = r;
     if (enters == rows.count()) {
-      // Rounding and what lies beside: whatever the multipliers are, if none is negative, they prove a bound.
-      result.value = y.dot(bounds) + rows.slack(direction - m.transpose() * y) + kZero;
+      // Any multipliers that are not negative prove a bound. The residual covers rounding and the perturbation.
+      result.value = y.dot(bounds) + rows.slack(direction - m.transpose() * y) + kSumRounding;
       return result;
     }
     const Vector a = rows.normal(enters);
@@ -93,10 +92,10 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
     for (Eigen::Index i = 0; i < n; ++i)
       if (share[i] > 1e-9 && y[i] / share[i] < least) least = y[i] / share[i], leaves = i;
     if (leaves < 0) {
-      // No multiple of the rows of the basis makes up for this one: together they cannot hold (Farkas).
+      // By Farkas' lemma the rows have no common point, if the sum below is certainly negative.
       const Vector others = (-share).cwiseMax(0.0);
       const double sum = rows.bound(enters) + others.dot(bounds);
-      result.empty = sum + rows.slack(a + m.transpose() * others) < -kZero;
+      result.empty = sum + rows.slack(a + m.transpose() * others) < -kSumRounding;
       return result;
     }
     basis[leaves] = enters;

@@ -1,17 +1,13 @@
 #include "dismantle/immobility/query.h"
-#include "dismantle/part_memo.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "dismantle/part_memo.h"
+
 namespace dismantle::immobility {
-namespace {
-
-constexpr double kRounding = 1e-6;  // relative
-
-}  // namespace
 
 const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part) {
   return *query.memo.get<std::vector<Solid>>("solids", part, RunContext{}, [&] {
@@ -20,8 +16,11 @@ const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part) {
 }
 
 double depth_allowed(const SeparationQuery& query, PartId a, PartId b) {
-  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + kRounding);
+  constexpr double rounding = 1e-6;  // relative; initial overlaps are measured much less exactly, from below
+  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + rounding);
 }
+
+double slack_of(const SeparationQuery& query) { return 1e-4 * query.tolerance; }
 
 bool near_each_other(const SeparationQuery& query, PartId a, PartId b) {
   Aabb near = query.assembly.parts.at(a).mesh->box();
@@ -34,7 +33,7 @@ std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query) {
   return std::minmax({query.moving.front().part, query.fixed.front().part});
 }
 
-std::array<std::pair<PartId, PartId>, 2> both_ways(const std::pair<PartId, PartId>& pair) {
+std::array<std::pair<PartId, PartId>, 2> both_orders(const std::pair<PartId, PartId>& pair) {
   return {pair, std::pair(pair.second, pair.first)};
 }
 
@@ -52,11 +51,9 @@ std::string names_of(const SeparationQuery& query, const std::vector<PartId>& pa
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-double input_length(const SeparationQuery& query, double length) {
-  return length / query.assembly.normalization.scale;
-}
+double input_length(const SeparationQuery& query, double length) { return length / query.assembly.normalization.scale; }
 
-std::string place_of(const SeparationQuery& query, const Eigen::Vector3d& point) {
+std::string position_text(const SeparationQuery& query, const Eigen::Vector3d& point) {
   const Eigen::Vector3d p = query.assembly.normalization.to_input(point);
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }

@@ -5,32 +5,31 @@
 #include <map>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr std::array<double, 15> kRays = {0.61, 0.37, 0.70, -0.53, 0.81,  0.25,  0.29, -0.44,
-                                          0.85, 0.71, 0.13, -0.69, -0.38, -0.91, 0.17};
-
-/// Where the ray from `p` along `d` meets the triangle; nothing when it misses it, infinite when that is not clear.
+/// The distance along `d` from `p` to the triangle; nothing when the ray misses it, infinite when rounding decides.
 std::optional<double> meets(const Vec3& p, const Vec3& d, const std::array<Vec3, 3>& c) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0], across = d.cross(v);
   const double det = u.dot(across), size = u.norm() * v.norm();
   const Vec3 from = p - c[0];
-  if (std::abs(det) <= 1e-9 * size) {
+  if (std::abs(det) <= kRounding * size) {
     const Vec3 normal = u.cross(v);
-    if (!(normal.norm() > 1e-14 * size)) return std::nullopt;  // no surface
-    const bool in_plane = std::abs(from.dot(normal.normalized())) < 1e-9;
+    if (!(normal.norm() > 1e-14 * size)) return std::nullopt;  // degenerate: its edges are parallel to double precision
+    const bool in_plane = std::abs(from.dot(normal.normalized())) <= kRounding * (from.norm() + u.norm() + v.norm());
     return in_plane ? std::optional(std::numeric_limits<double>::infinity()) : std::nullopt;
   }
   const double a = from.dot(across) / det;
   const Vec3 q = from.cross(u);
   const double b = d.dot(q) / det, at = v.dot(q) / det;
-  constexpr double kEdge = 1e-9;
-  if (a < -kEdge || b < -kEdge || a + b > 1 + kEdge || at < -kEdge) return std::nullopt;
-  if (a < kEdge || b < kEdge || a + b > 1 - kEdge || at < kEdge) return std::numeric_limits<double>::infinity();
+  const double near = kRounding * (u.norm() + v.norm());  // of a point on the triangle
+  if (a < -kRounding || b < -kRounding || a + b > 1 + kRounding || at < -near) return std::nullopt;
+  if (a < kRounding || b < kRounding || a + b > 1 - kRounding || at < near)
+    return std::numeric_limits<double>::infinity();
   return at;
 }
 
@@ -89,7 +88,8 @@ bool Loop::around(const Vec3& p) const {
 
 Surface::Surface(const Solid& solid) : triangles_(solid.mesh.triangles) {
   for (const Vec3& v : solid.mesh.vertices) vertices_.push_back(solid.frame * v);
-  neighbours_.assign(triangles_.size(), {kNone, kNone, kNone});
+  size_ = solid.box.size().norm();
+  neighbours_.assign(triangles_.size(), {kNoIndex, kNoIndex, kNoIndex});
   // Every directed edge has its opposite. Where more than two triangles meet, any pairing gives closed curves.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::uint32_t, std::uint32_t>>> open;
   for (std::uint32_t t = 0; t < triangles_.size(); ++t)
@@ -112,7 +112,8 @@ std::vector<double> Surface::offsets(const Vec3& direction, std::size_t most) co
   std::sort(all.begin(), all.end());
   std::vector<double> heights;
   for (const double h : all)
-    if (heights.empty() || h > heights.back() + 1e-6) heights.push_back(h);
+    if (heights.empty() || h > heights.back() + 1e-7 * size_)
+      heights.push_back(h);  // else in one plane, but for rounding
   std::vector<double> offsets;
   const std::size_t step = 1 + 3 * heights.size() / most;
   for (std::size_t k = 0; k + 1 < heights.size(); k += step)
@@ -131,7 +132,7 @@ bool Surface::connects(const Loop& from, const Loop& to, bool above) const {
     open.pop_back();
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t next = neighbours_[t][k];
-      if (next == kNone || seen[next]) continue;
+      if (next == kNoIndex || seen[next]) continue;
       if (!on_side(triangles_[t][k]) && !on_side(triangles_[t][(k + 1) % 3])) continue;
       seen[next] = 1;
       open.push_back(next);
@@ -142,8 +143,8 @@ bool Surface::connects(const Loop& from, const Loop& to, bool above) const {
 
 std::vector<Loop> Surface::section(const Plane& plane) const {
   const auto above = [&](std::uint32_t v) { return plane.height(vertices_[v]) > 0; };
-  const auto cut = [&](std::uint32_t t,
-                       std::uint32_t k) {  // the edge from its lower end, so that it is the same for both
+  // Always from the lower end of the edge, so that both of its triangles get the same point.
+  const auto cut = [&](std::uint32_t t, std::uint32_t k) {
     Vec3 a = vertices_[triangles_[t][k]], b = vertices_[triangles_[t][(k + 1) % 3]];
     if (plane.height(a) > 0) std::swap(a, b);
     const double ha = plane.height(a), hb = plane.height(b);
@@ -161,7 +162,7 @@ std::vector<Loop> Surface::section(const Plane& plane) const {
     bool closed = true;
     for (std::uint32_t t = first; !seen[t];) {
       seen[t] = 1;
-      // In through the edge that goes down, out through the one that goes up: one turn, the same for all.
+      // Enters through the edge that goes down and leaves through the one that goes up, so all loops turn one way.
       std::uint32_t in = 0, out = 0;
       for (std::uint32_t k = 0; k < 3; ++k) {
         const bool from = above(triangles_[t][k]), to = above(triangles_[t][(k + 1) % 3]);
@@ -171,7 +172,7 @@ std::vector<Loop> Surface::section(const Plane& plane) const {
       loop.points.push_back(cut(t, in));
       loop.triangles.push_back(t);
       t = neighbours_[t][out];
-      if (t == kNone) {
+      if (t == kNoIndex) {
         closed = false;
         break;
       }
@@ -188,6 +189,7 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
     for (const std::uint32_t t : loops[i].triangles) on[t].push_back(i);
   const auto sign = [&](std::size_t i) { return loops[i].plane.height(p) > 0 ? 1.0 : -1.0; };
   Closed result;
+  result.rounding_ = kRounding * size_;
   std::vector<char> seen(triangles_.size(), 0), used(loops.size(), 0);
   std::vector<std::uint32_t> open{loops.front().triangles.front()};
   seen[open.front()] = 1;
@@ -200,7 +202,7 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
       piece.kept.emplace_back(loops[i].plane, sign(i));
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      // Is any of this edge kept? An end exactly in a plane counts as below it, as in section().
+      // Is a piece of this edge kept? An end exactly in a plane counts as below it, as in section().
       const std::uint32_t a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
       bool kept = true;
       for (const std::size_t i : on[t]) {
@@ -211,8 +213,8 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
       }
       if (!kept) continue;
       const std::uint32_t next = neighbours_[t][k];
-      if (next == kNone) return std::nullopt;
-      // Come upon a loop from its other side?
+      if (next == kNoIndex) return std::nullopt;
+      // Does the surface arrive at the other side of a loop?
       for (const std::size_t i : on[next]) {
         const auto off_side = [&](std::uint32_t v) {
           return (loops[i].plane.height(vertices_[v]) > 0) != (sign(i) > 0);
@@ -232,9 +234,12 @@ std::optional<Surface::Closed> Surface::closed_by(const std::vector<Loop>& loops
 }
 
 std::optional<bool> Surface::Closed::inside(const Vec3& p) const {
+  // Five directions that are not along the axes or diagonals of usual models, where rays meet edges.
+  static const std::array<Vec3, 5> rays = {Vec3(0.61, 0.37, 0.70), Vec3(-0.53, 0.81, 0.25), Vec3(0.29, -0.44, 0.85),
+                                           Vec3(0.71, 0.13, -0.69), Vec3(-0.38, -0.91, 0.17)};
   std::optional<bool> answer;
-  for (std::size_t r = 0; r + 2 < kRays.size(); r += 3) {
-    const Vec3 d = Vec3(kRays[r], kRays[r + 1], kRays[r + 2]).normalized();
+  for (const Vec3& ray : rays) {
+    const Vec3 d = ray.normalized();
     std::size_t crossings = 0;
     bool clear = true;
     for (const Piece& piece : pieces_) {
@@ -246,14 +251,14 @@ std::optional<bool> Surface::Closed::inside(const Vec3& p) const {
       bool kept = true;
       for (const auto& [plane, sign] : piece.kept) {
         const double h = sign * plane.height(x);
-        if (std::abs(h) < 1e-9) clear = false;
+        if (std::abs(h) < rounding_) clear = false;
         kept = kept && h > 0;
       }
       if (kept) ++crossings;
     }
     for (const Loop* loop : discs_) {
       const double slope = loop->plane.normal.dot(d);
-      if (std::abs(slope) < 1e-9) clear = false;
+      if (std::abs(slope) < kRounding) clear = false;
       if (!clear) break;
       const double at = -loop->plane.height(p) / slope;
       if (at > 0 && loop->around(p + at * d)) ++crossings;

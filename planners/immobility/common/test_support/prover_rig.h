@@ -11,9 +11,9 @@
 
 #include "dismantle/executor.h"
 #include "dismantle/immobility_prover.h"
+#include "dismantle/part_memo.h"
 #include "dismantle/testing/held_shapes.h"
 #include "dismantle/verification/verifier.h"
-#include "dismantle/part_memo.h"
 
 namespace dismantle::immobility {
 

@@ -1,4 +1,4 @@
-// A flat piece is called caged only in a chamber whose openings its disc fits through in no way, however it is turned.
+// A flat piece counts as caged only in a chamber whose openings its disc cannot pass in any orientation.
 #include "disc/disc_cage.h"
 
 #include <gtest/gtest.h>
@@ -59,11 +59,11 @@ Mesh chamber(double x, double y, double about_z, double about_x) {
   return m;
 }
 
-std::optional<immobility::DiscCage> look(const Mesh& plate, const Mesh& around, const RunContext& context = {}) {
+std::optional<immobility::DiscCage> cage_of(const Mesh& plate, const Mesh& around, const RunContext& context = {}) {
   const auto bodies = immobility::split_into_solids(plate);
-  const auto discs = immobility::discs_in(bodies.at(0), immobility::middle_of(bodies.at(0), kDepth, {}), kDepth, 1);
+  const auto discs = immobility::discs_in(bodies.at(0), immobility::medial_balls(bodies.at(0), kDepth, {}), kDepth, 1);
   if (discs.empty()) return std::nullopt;
-  return immobility::disc_cage(discs[0], immobility::split_into_solids(around), {}, context);
+  return immobility::disc_cage(discs[0], immobility::split_into_solids(around), 1e-4 * kDepth, {}, context);
 }
 
 /// Lies on the floor of the tray; its disc has a radius of 0.95 or a little more.
@@ -74,7 +74,7 @@ TEST(DiscCaged, BehindAWindowShorterThanItsDiameterInEveryDirection) {
   for (int i = 0; i < testing_support::trials(3, 12); ++i) {
     const double x = rng.uniform(0.2, 0.65), y = rng.uniform(0.2, 0.6), about_z = i < 2 ? 0 : rng.uniform(0, pi);
     const Pose pose = shapes::random_pose(rng, 2);
-    const auto cage = look(moved(plate(), pose), moved(chamber(x, y, about_z, 0), pose));
+    const auto cage = cage_of(moved(plate(), pose), moved(chamber(x, y, about_z, 0), pose));
     ASSERT_TRUE(cage) << x << " x " << y << " turned by " << about_z;
     EXPECT_GT(cage->disc.radius, 0.9);
   }
@@ -84,7 +84,7 @@ TEST(DiscCaged, BehindAWindowInALidThatSlopes) {
   Rng rng(2);
   for (int i = 0; i < testing_support::trials(2, 6); ++i) {
     const double x = rng.uniform(0.3, 0.6), y = rng.uniform(0.3, 0.6);
-    EXPECT_TRUE(look(plate(), chamber(x, y, rng.uniform(0, pi), rng.uniform(0.1, 0.3)))) << x << " x " << y;
+    EXPECT_TRUE(cage_of(plate(), chamber(x, y, rng.uniform(0, pi), rng.uniform(0.1, 0.3)))) << x << " x " << y;
   }
 }
 
@@ -92,34 +92,34 @@ TEST(DiscCaged, NotWhereItGoesThroughOnEdge) {
   Rng rng(3);
   for (int i = 0; i < testing_support::trials(2, 8); ++i) {
     const double x = rng.uniform(1.0, 1.09), y = rng.uniform(0.15, 0.3);  // a slot, twice as wide as the plate is thick
-    EXPECT_FALSE(look(plate(), chamber(x, y, 0, 0))) << x << " x " << y;
+    EXPECT_FALSE(cage_of(plate(), chamber(x, y, 0, 0))) << x << " x " << y;
     const double edge = rng.uniform(0.75, 0.9);  // a square with a longer diagonal
-    EXPECT_FALSE(look(plate(), chamber(edge, edge, rng.uniform(0, pi), i % 2 == 0 ? 0 : 0.15))) << edge;
+    EXPECT_FALSE(cage_of(plate(), chamber(edge, edge, rng.uniform(0, pi), i % 2 == 0 ? 0 : 0.15))) << edge;
   }
 }
 
 TEST(DiscCaged, NotWithoutALidOrBesideTheChamber) {
-  EXPECT_FALSE(look(plate(), tray({1.1, 1.1, 0.8}, 0.3)));
+  EXPECT_FALSE(cage_of(plate(), tray({1.1, 1.1, 0.8}, 0.3)));
   const Mesh closed = chamber(0.5, 0.5, 0, 0);
-  EXPECT_TRUE(look(plate(), closed));
-  EXPECT_FALSE(look(moved(plate(), shapes::shift({0, 0, 3})), closed));
+  EXPECT_TRUE(cage_of(plate(), closed));
+  EXPECT_FALSE(cage_of(moved(plate(), shapes::shift({0, 0, 3})), closed));
 }
 
 TEST(DiscCaged, NotWhereTheFlatPieceIsNoThickerThanWhatIsAllowed) {
-  EXPECT_FALSE(look(box({-1, -1, -0.7}, {1, 1, -0.7 + 1.9 * kDepth}), chamber(0.5, 0.5, 0, 0)));
+  EXPECT_FALSE(cage_of(box({-1, -1, -0.7}, {1, 1, -0.7 + 1.9 * kDepth}), chamber(0.5, 0.5, 0, 0)));
 }
 
 TEST(DiscCaged, EndsWhenToldTo) {
   RunContext context;
   context.cancel.cancel();
-  EXPECT_FALSE(look(plate(), chamber(0.5, 0.5, 0, 0), context));
+  EXPECT_FALSE(cage_of(plate(), chamber(0.5, 0.5, 0, 0), context));
 }
 
 TEST(DiscCaged, InARoundChamberWithRoundOpenings) {
   const Mesh disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
-  EXPECT_TRUE(look(disc, shapes::can(1, 0.6, 0.3, 0.7)));
-  EXPECT_FALSE(look(disc, shapes::can(1, 0.6, 0.3, 0.92)));
-  EXPECT_FALSE(look(disc, shapes::can_with_window(1, 0.6, 0.3, 0.3, 24)));
+  EXPECT_TRUE(cage_of(disc, shapes::can(1, 0.6, 0.3, 0.7)));
+  EXPECT_FALSE(cage_of(disc, shapes::can(1, 0.6, 0.3, 0.92)));
+  EXPECT_FALSE(cage_of(disc, shapes::can_with_window(1, 0.6, 0.3, 0.3, 24)));
 }
 
 TEST(Disc, TheSmallerPartOfAPairInACanWithAWindowThatItDoesNotPass) {
@@ -138,7 +138,7 @@ TEST(Disc, TheSmallerPartOfAPairInACanWithAWindowThatItDoesNotPass) {
 
 TEST(Facets, CoverWhatTheSurfaceDoes) {
   const Mesh cube = shapes::refine(box({-1, -1, -1}, {1, 1, 1}), 2);
-  const immobility::Facets facets(immobility::split_into_solids(cube));
+  const immobility::Facets facets(immobility::split_into_solids(cube), 1e-6);
   EXPECT_EQ(facets.planes().size(), 6u);
   double area = 0;
   for (const auto& p : facets.planes()) area += p.area;

@@ -1,5 +1,4 @@
-// Several parts are called interlocked only when no motion of any of them, in which none cuts in half as deep as ways
-// may, gets out of bounds, however the assembly stands.
+// Parts count as interlocked only when no motion of any of them, within half of the tolerance, leaves the bounds.
 #include <gtest/gtest.h>
 
 #include "dismantle/testing/trials.h"
@@ -16,7 +15,7 @@ using shapes::moved;
 using shapes::random_pose;
 using shapes::Vec3;
 
-constexpr double kWaysMay = 0.004;
+constexpr double kTolerance = 0.004;
 
 Keyed any_keyed(Rng& rng) {
   Keyed k;
@@ -30,10 +29,10 @@ Keyed any_keyed(Rng& rng) {
 }
 
 ProverRig rig_of(const Keyed& k, const Pose& turned) {
-  return {assembly_of({moved(k.slab(), turned), moved(k.tray(), turned), moved(k.block(), turned)}), kWaysMay};
+  return {assembly_of({moved(k.slab(), turned), moved(k.tray(), turned), moved(k.block(), turned)}), kTolerance};
 }
 
-Verifier verifier_of(const ProverRig& rig, double allowed = kWaysMay) { return Verifier(rig.assembly(), {allowed}); }
+Verifier verifier_of(const ProverRig& rig, double allowed = kTolerance) { return Verifier(rig.assembly(), {allowed}); }
 
 /// What was proved, for motions that cut in half as deep as the tolerance.
 struct Interlocked {
@@ -59,7 +58,7 @@ TEST(Interlocked, EachHeldByTheOthersTogether) {
     const auto found = interlocked(rig, {2, 0, 1});
     ASSERT_TRUE(found) << i;
     EXPECT_EQ(found->parts, (std::vector<PartId>{0, 1, 2}));
-    EXPECT_DOUBLE_EQ(found->depth, 0.5 * kWaysMay);
+    EXPECT_DOUBLE_EQ(found->depth, 0.5 * kTolerance);
     EXPECT_GE(found->shift, k.play) << "they do move as far as they have play";
     EXPECT_LT(found->shift, k.height) << "and stay where they were";
     EXPECT_GT(found->half_spaces, 0u);
@@ -95,14 +94,14 @@ TEST(Interlocked, NotWhereASurfaceHasABorder) {
   for (int open = 0; open < 3; ++open) {
     std::vector<Mesh> meshes{k.slab(), k.tray(), k.block()};
     meshes[static_cast<std::size_t>(open)].triangles.pop_back();
-    EXPECT_FALSE(interlocked(ProverRig(assembly_of(meshes), kWaysMay), {0, 1, 2})) << open;
+    EXPECT_FALSE(interlocked(ProverRig(assembly_of(meshes), kTolerance), {0, 1, 2})) << open;
   }
 }
 
 TEST(Interlocked, NotWithWhatIsElsewhere) {
   Rng rng(5);
   const Keyed k = any_keyed(rng);
-  const ProverRig rig(assembly_of({k.slab(), k.tray(), k.block(), box({5, 5, 5}, {6, 6, 6})}), kWaysMay);
+  const ProverRig rig(assembly_of({k.slab(), k.tray(), k.block(), box({5, 5, 5}, {6, 6, 6})}), kTolerance);
   EXPECT_TRUE(interlocked(rig, {0, 1, 2}));
   EXPECT_FALSE(interlocked(rig, {0, 1, 2, 3}));
 }
@@ -118,7 +117,7 @@ TEST(Interlocked, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
   };
   int accepted = 0;
   for (int i = 0; i < 300; ++i) {
-    // Both at once, each about the middle of its box.
+    // Both simultaneously, each about the centre of its box.
     Path way{{Pose{}, Pose{}}, {}};
     std::vector<double> turn, shift;
     const double share = rng.uniform(0.02, 0.5);

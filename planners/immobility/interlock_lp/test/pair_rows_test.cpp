@@ -1,4 +1,4 @@
-// The half spaces of a pair hold every pose at which no pin is inside what it faces, and cut others off.
+// The half spaces of a pair hold every pose at which no sample is inside its obstacle, and cut others off.
 #include "interlock_lp/pair_rows.h"
 
 #include <gtest/gtest.h>
@@ -23,25 +23,25 @@ Vector6 random_pose_within(Rng& rng, const Vector6& lo, const Vector6& hi) {
 
 /// Poses of a pair, along axes, and its half spaces over some of them.
 struct Poses {
-  const immobility::Pinned& pinned;
+  const immobility::SampledPair& pair;
   Eigen::Quaterniond axes;
   std::vector<immobility::PairRow> rows;
 
-  Poses(const immobility::Pinned& p, const Eigen::Quaterniond& along, const Vector6& lo, const Vector6& hi)
-      : pinned(p), axes(along), rows(pair_rows(p, along, lo, hi)) {}
+  Poses(const immobility::SampledPair& p, const Eigen::Quaterniond& along, const Vector6& lo, const Vector6& hi)
+      : pair(p), axes(along), rows(pair_rows(p, along, lo, hi)) {}
 
   bool free(const Vector6& ours) const {
     Vector6 x;
     x << axes * ours.head<3>(), axes * ours.tail<3>();
-    const immobility::Stance stance(pinned, x);
-    return std::none_of(pinned.pins().begin(), pinned.pins().end(),
-                        [&](const immobility::Pin& pin) { return stance.inside(pin); });
+    const immobility::RelativePose pose(pair, x);
+    return std::none_of(pair.samples().begin(), pair.samples().end(),
+                        [&](const immobility::InteriorSample& sample) { return pose.inside(sample); });
   }
   bool held(const Vector6& ours) const {
     return std::all_of(rows.begin(), rows.end(),
                        [&](const immobility::PairRow& r) { return r.normal.dot(ours) <= r.most; });
   }
-  /// As far from a free pose to another as the pins allow: there the half spaces are closest.
+  /// The last free pose on a segment that starts free: there the half spaces are closest.
   Vector6 last_free(Vector6 in, Vector6 out) const {
     for (int halving = 0; halving < 14; ++halving) {
       const Vector6 middle = 0.5 * (in + out);
@@ -51,7 +51,7 @@ struct Poses {
   }
 };
 
-TEST(PairRows, HoldWhateverThePinsAllow) {
+TEST(PairRows, HoldEveryFreePose) {
   Rng rng(5);
   int cut_off = 0;
   for (int i = 0; i < testing_support::trials(3, 12); ++i) {
@@ -60,12 +60,12 @@ TEST(PairRows, HoldWhateverThePinsAllow) {
     const auto block = immobility::split_into_solids(shapes::moved(c.block(), turned));
     const auto around = immobility::split_into_solids(shapes::moved(c.around(), turned));
     const bool swap = i % 2 == 1;  // then the case moves, and the block stays
-    const immobility::Pinned pinned(swap ? around : block, swap ? block : around, 0.005);
+    const immobility::SampledPair pair(swap ? around : block, swap ? block : around, 0.005, 0.02);
     const Eigen::Quaterniond axes = i % 3 == 0 ? Eigen::Quaterniond::Identity() : turned.q;
     Vector6 lo, hi;
     for (int d = 0; d < 6; ++d)
       lo[d] = -rng.uniform(0.03, d < 3 ? 0.12 : 0.04), hi[d] = rng.uniform(0.03, d < 3 ? 0.12 : 0.04);
-    const Poses poses(pinned, axes, lo, hi);
+    const Poses poses(pair, axes, lo, hi);
     for (int k = 0; k < 300; ++k) {
       Vector6 along = random_pose_within(rng, lo, hi);
       if (k % 2 == 0) along.tail<3>() *= rng.uniform(0, 1);
@@ -87,10 +87,10 @@ TEST(PairRows, HoldFarFromWhereTheyWereAssembled) {
   const auto block = immobility::split_into_solids(shapes::box({-0.4, -0.3, 0.02}, {0.4, 0.3, 0.6}));
   int touching = 0;
   for (const bool wall_moves : {false, true}) {
-    const immobility::Pinned pinned(wall_moves ? wall : block, wall_moves ? block : wall, 0.005);
+    const immobility::SampledPair pair(wall_moves ? wall : block, wall_moves ? block : wall, 0.005, 0.02);
     Vector6 most;
     most << 0.1, 0.1, 0.1, 0.25, 0.25, 0.2;
-    const Poses poses(pinned, Eigen::Quaterniond::Identity(), -most, most);
+    const Poses poses(pair, Eigen::Quaterniond::Identity(), -most, most);
     ASSERT_FALSE(poses.rows.empty());
     for (int k = 0; k < 1000; ++k) {
       Vector6 apart = random_pose_within(rng, -most, most), together = apart;

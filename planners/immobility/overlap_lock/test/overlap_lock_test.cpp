@@ -29,8 +29,8 @@ Assembly pinned(double overlap, const Pose& at) {
 TEST(OverlapLock, APinThroughAPlateWhoseOverlapIsCalledSmall) {
   Rng rng(1);
   for (int i = 0; i < 20; ++i) {
-    // No point of both is more than 0.5 below the surface of the plate: with a larger allowance the pin could leave. The
-    // prover samples, and need not find the deepest tenth.
+    // No point of both is more than 0.5 below the surface of the plate: with a larger allowance the pin could leave.
+    // The prover samples, and need not find the deepest tenth.
     const double overlap = rng.uniform(0.01, 0.6);
     const ProverRig rig(pinned(overlap, random_pose(rng, 2)), kAllowed);
     const auto found = rig.prove(OverlapLock{}, {1}, {0});

@@ -1,4 +1,4 @@
-/// Cells that cover what can be reached, divided as needed: is the start cut off from the border?
+/// An adaptive cell decomposition with an incremental search from the start cell to the border.
 #pragma once
 
 #include <algorithm>
@@ -9,43 +9,45 @@
 #include <utility>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
+#include "dismantle/immobility/geometry_names.h"
+
 namespace dismantle::immobility {
 
-/// A cell, with respect to the whole.
-struct CellPlace {
-  double narrow = 0;       ///< ways to the border are looked for where the narrowest of their cells is least so, ...
-  double from_border = 0;  ///< ... of equals, where this is least
-  bool border = false;     ///< it touches the border
-  bool start = false;      ///< it holds the start
+/// Where a cell is in the decomposed region, and its cost.
+struct CellStatus {
+  double cost = 0;             ///< the search minimizes the largest cost along a path (bottleneck path)
+  double border_distance = 0;  ///< breaks ties: the search prefers cells close to the border
+  bool on_border = false;
+  bool has_start = false;
 };
 
-/// A Cell has `bool empty` (nothing in it can be reached) and `bool touches(const Cell&)`. Cells that touch and are not
-/// empty are neighbours. What was found of the search from the start is kept while cells are divided.
+/// A Cell has `bool empty` (no point of it can be reached) and `bool touches(const Cell&)`. Two cells that touch and
+/// are not empty are neighbours. The search tree is repaired, not rebuilt, when a cell is divided.
 template <class Cell>
 class CellGraph {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
-  CellGraph(Cell all, const CellPlace& place) {
-    nodes_.emplace_back(std::move(all), place);
-    if (place.start) reach(0, kNone);
+  CellGraph(Cell all, const CellStatus& status) {
+    nodes_.emplace_back(std::move(all), status);
+    if (status.has_start) attach(0, kNoIndex);
   }
 
   std::size_t size() const { return nodes_.size(); }
   const Cell& operator[](std::uint32_t node) const { return nodes_[node].cell; }
   Cell& operator[](std::uint32_t node) { return nodes_[node].cell; }
-  /// From where the node was reached; kNone for the start.
-  std::uint32_t from(std::uint32_t node) const { return nodes_[node].from; }
-  /// After next_exit() returned kNone: can it be reached?
-  bool connected(std::uint32_t node) const { return !nodes_[node].divided && nodes_[node].reached; }
-  const CellPlace& place(std::uint32_t node) const { return nodes_[node].place; }
+  /// The cell from which this one was reached; kNoIndex for the start.
+  std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
+  /// After next_exit() returned kNoIndex: is the cell in the component of the start?
+  bool reachable(std::uint32_t node) const { return !nodes_[node].divided && nodes_[node].reached; }
+  const CellStatus& status(std::uint32_t node) const { return nodes_[node].status; }
   bool divided(std::uint32_t node) const { return nodes_[node].divided; }
-  void set_narrow(std::uint32_t node, double narrow) { nodes_[node].place.narrow = narrow; }
-  /// The whole has changed. What is waiting to be gone on from keeps its turn.
-  void set_place(std::uint32_t node, const CellPlace& place) { nodes_[node].place = place; }
-  bool holds_start(std::uint32_t node) const { return nodes_[node].place.start; }
+  void set_cost(std::uint32_t node, double cost) { nodes_[node].status.cost = cost; }
+  /// For when the decomposed region has grown. The order of cells that wait to be expanded does not change.
+  void set_status(std::uint32_t node, const CellStatus& status) { nodes_[node].status = status; }
+  bool has_start(std::uint32_t node) const { return nodes_[node].status.has_start; }
 
-  /// Goes on from cell to cell, the closest to the border first, until one is there; kNone if none is.
+  /// Expands cells in the order of the search until one on the border is reached. Returns it; kNoIndex if there is
+  /// none.
   std::uint32_t next_exit() {
     while (!queue_.empty()) {
       const Entry e = queue_.top();
@@ -54,119 +56,118 @@ class CellGraph {
         queue_.pop();
         continue;
       }
-      if (n.place.border) return e.node;
+      if (n.status.on_border) return e.node;
       queue_.pop();
       n.expanded = true;
-      for (const std::uint32_t k : n.near)
-        if (!nodes_[k].reached) reach(k, e.node);
+      for (const std::uint32_t k : n.neighbours)
+        if (!nodes_[k].reached) attach(k, e.node);
     }
-    return kNone;
+    return kNoIndex;
   }
 
-  /// One more, beside those that there are.
-  void add(Cell cell, const CellPlace& place) {
+  /// Adds a cell beside the existing ones.
+  void add(Cell cell, const CellStatus& status) {
     const auto node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back(std::move(cell), place);
+    nodes_.emplace_back(std::move(cell), status);
     for (std::uint32_t k = 0; k < node; ++k)
-      if (!nodes_[k].divided) befriend(k, node);
-    if (!nodes_[node].cell.empty) adopt(node);
+      if (!nodes_[k].divided) link(k, node);
+    if (!nodes_[node].cell.empty) reattach(node);
   }
 
-  /// Puts two in the place of one. Returns the first of them; the other follows.
-  std::uint32_t divide(std::uint32_t node, std::pair<Cell, CellPlace> first_half,
-                       std::pair<Cell, CellPlace> second_half) {
-    const std::uint32_t from = nodes_[node].from;
-    std::vector<std::uint32_t> lost, stack = nodes_[node].on;
+  /// Replaces a cell by two. Returns the index of the first; the second follows it.
+  std::uint32_t divide(std::uint32_t node, std::pair<Cell, CellStatus> first_half,
+                       std::pair<Cell, CellStatus> second_half) {
+    const std::uint32_t parent = nodes_[node].parent;
+    std::vector<std::uint32_t> lost, stack = nodes_[node].children;
     while (!stack.empty()) {
       const std::uint32_t k = stack.back();
       stack.pop_back();
       nodes_[k].reached = false;
       lost.push_back(k);
-      stack.insert(stack.end(), nodes_[k].on.begin(), nodes_[k].on.end());
-      nodes_[k].on.clear();
+      stack.insert(stack.end(), nodes_[k].children.begin(), nodes_[k].children.end());
+      nodes_[k].children.clear();
     }
-    if (from != kNone) std::erase(nodes_[from].on, node);
+    if (parent != kNoIndex) std::erase(nodes_[parent].children, node);
     nodes_[node].reached = false;
-    nodes_[node].on.clear();
+    nodes_[node].children.clear();
     nodes_[node].divided = true;
     const auto first = static_cast<std::uint32_t>(nodes_.size());
     nodes_.emplace_back(std::move(first_half.first), first_half.second);
     nodes_.emplace_back(std::move(second_half.first), second_half.second);
-    join(node, first);
+    link_halves(node, first);
     for (const std::uint32_t k : {first, first + 1}) {
       if (nodes_[k].cell.empty) continue;
-      if (from == kNone && nodes_[k].place.start && !any_start(first, k))
-        reach(k, kNone);
+      if (parent == kNoIndex && nodes_[k].status.has_start && !first_is_root(first, k))
+        attach(k, kNoIndex);
       else
-        adopt(k);
+        reattach(k);
     }
     for (const std::uint32_t k : lost)
-      if (!nodes_[k].reached) adopt(k);
+      if (!nodes_[k].reached) reattach(k);
     return first;
   }
 
  private:
-  /// What the search from the start knows of a cell.
   struct Node {
     Cell cell;
-    CellPlace place;
+    CellStatus status;
     bool divided = false, reached = false, expanded = false;
-    double narrow = 0;  ///< of the way here
-    std::uint32_t from = kNone, stamp = 0;
-    std::vector<std::uint32_t> on, near;  ///< reached from here; neighbours
+    double cost = 0;  ///< of the path from the start
+    std::uint32_t parent = kNoIndex, stamp = 0;
+    std::vector<std::uint32_t> children, neighbours;
 
-    Node(Cell c, const CellPlace& p) : cell(std::move(c)), place(p) {}
+    Node(Cell c, const CellStatus& s) : cell(std::move(c)), status(s) {}
   };
   struct Entry {
-    double narrow, from_border;
+    double cost, border_distance;
     std::uint32_t node, stamp;
     bool operator<(const Entry& o) const {
-      return std::tie(narrow, from_border, node) > std::tie(o.narrow, o.from_border, o.node);
+      return std::tie(cost, border_distance, node) > std::tie(o.cost, o.border_distance, o.node);
     }
   };
 
-  /// Is the first of two halves, before `k`, where the search starts?
-  bool any_start(std::uint32_t first, std::uint32_t k) const {
-    return k != first && nodes_[first].reached && nodes_[first].from == kNone;
+  /// The start may lie on the common face of two halves. Then the first half is the root, not `k`.
+  bool first_is_root(std::uint32_t first, std::uint32_t k) const {
+    return k != first && nodes_[first].reached && nodes_[first].parent == kNoIndex;
   }
 
-  void reach(std::uint32_t node, std::uint32_t from) {
+  void attach(std::uint32_t node, std::uint32_t parent) {
     Node& n = nodes_[node];
     n.reached = true;
     n.expanded = false;
-    n.from = from;
+    n.parent = parent;
     ++n.stamp;
-    n.on.clear();
-    if (from != kNone) nodes_[from].on.push_back(node);
-    n.narrow = n.place.narrow;
-    if (from != kNone) n.narrow = std::max(n.narrow, nodes_[from].narrow);
-    queue_.push({n.narrow, n.place.from_border, node, n.stamp});
+    n.children.clear();
+    if (parent != kNoIndex) nodes_[parent].children.push_back(node);
+    n.cost = n.status.cost;
+    if (parent != kNoIndex) n.cost = std::max(n.cost, nodes_[parent].cost);
+    queue_.push({n.cost, n.status.border_distance, node, n.stamp});
   }
 
-  /// Reaches a cell again from a neighbour, if one is.
-  void adopt(std::uint32_t node) {
-    const auto& near = nodes_[node].near;
+  /// Attaches a cell to a neighbour that was expanded already, if there is one.
+  void reattach(std::uint32_t node) {
+    const auto& near = nodes_[node].neighbours;
     const auto by = std::find_if(near.begin(), near.end(),
                                  [&](std::uint32_t k) { return nodes_[k].reached && nodes_[k].expanded; });
-    if (by != near.end()) reach(node, *by);
+    if (by != near.end()) attach(node, *by);
   }
 
-  void befriend(std::uint32_t x, std::uint32_t y) {
+  void link(std::uint32_t x, std::uint32_t y) {
     if (nodes_[x].cell.empty || nodes_[y].cell.empty || !nodes_[x].cell.touches(nodes_[y].cell)) return;
-    nodes_[x].near.push_back(y);
-    nodes_[y].near.push_back(x);
+    nodes_[x].neighbours.push_back(y);
+    nodes_[y].neighbours.push_back(x);
   }
 
-  /// The halves take the place of the whole among its neighbours.
-  void join(std::uint32_t node, std::uint32_t first) {
-    for (const std::uint32_t k : nodes_[node].near) {
-      auto& near = nodes_[k].near;
+  /// Links the halves of a divided cell to its neighbours and to each other.
+  void link_halves(std::uint32_t node, std::uint32_t first) {
+    for (const std::uint32_t k : nodes_[node].neighbours) {
+      auto& near = nodes_[k].neighbours;
       near.erase(std::find(near.begin(), near.end(), node));
-      befriend(first, k);
-      befriend(first + 1, k);
+      link(first, k);
+      link(first + 1, k);
     }
-    befriend(first, first + 1);
-    std::vector<std::uint32_t>().swap(nodes_[node].near);
+    link(first, first + 1);
+    std::vector<std::uint32_t>().swap(nodes_[node].neighbours);
   }
 
   std::vector<Node> nodes_;

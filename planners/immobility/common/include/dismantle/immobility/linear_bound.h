@@ -1,4 +1,4 @@
-/// Bounds of linear functions over polytopes, as certain as arithmetic is.
+/// Rigorous upper bounds of linear functions over polytopes.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,12 +26,13 @@ using Polytope = PolytopeIn<6>;
 template <int N>
 struct LinearBoundIn {
   bool empty = false;              ///< certain: the polytope has no point
-  double value = 0;                ///< no point of it has more; infinity where the search was given up
-  Eigen::Matrix<double, N, 1> at;  ///< about where that is reached
+  double value = 0;                ///< upper bound of the maximum; infinity if the simplex method did not converge
+  Eigen::Matrix<double, N, 1> at;  ///< about where the maximum is
 };
 using LinearBound = LinearBoundIn<6>;
 
-/// Of direction . x over the polytope. Dual simplex method: the bound is made of the multipliers, not of the vertex.
+/// Of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the dual
+/// multipliers, so that errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004).
 template <int N>
 LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope);
 

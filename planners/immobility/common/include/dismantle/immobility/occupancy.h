@@ -1,4 +1,4 @@
-/// Is a point inside a solid, asked very often?
+/// A grid that answers quickly whether a point is inside a solid.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,12 +14,11 @@
 
 namespace dismantle::immobility {
 
-/// A grid whose cells remember, from when they are first asked for, that they are all inside or all outside, or the
-/// triangles that come near them and where their centre is. Safe to use from several threads. Outlived by
-/// the surface, which has no border.
+/// A cell is classified when it is first needed: inside, outside, or mixed, with the triangles near it and the winding
+/// number of its centre. Safe to use from several threads. The surface is closed and must outlive the grid.
 class Occupancy {
  public:
-  /// `box`: of the surface. `cell`: edge of the cells, > 0, or more where the box is large.
+  /// `box`: of the surface. `cell`: edge of the cells, > 0; larger where the grid would have too many.
   Occupancy(const TriangleBvh& surface, const Aabb& box, double cell);
   ~Occupancy();
   Occupancy(Occupancy&&) = default;
@@ -28,21 +27,21 @@ class Occupancy {
   bool inside(const Eigen::Vector3d& local) const;
 
  private:
-  /// What surface passes through a cell.
+  /// A cell that the surface passes through, or nearly.
   struct Mixed {
     Eigen::Vector3d center;
-    int winding = 0;  ///< number of the centre
+    int winding = 0;  ///< winding number of the centre
     std::vector<std::uint32_t> triangles;
   };
-  using State = const Mixed*;  // or one of kIn, kOut; nothing: unknown
+  using State = const Mixed*;  ///< of the cell, or &in_, or &out_; nullptr: not classified yet
 
-  State look(const Eigen::Vector3d& center) const;
+  State classify(const Eigen::Vector3d& center) const;
   std::optional<int> crossings(const Mixed& cell, const Eigen::Vector3d& to) const;
 
-  static const Mixed kIn, kOut;
+  static const Mixed in_, out_;
   const TriangleBvh* surface_;
   Aabb box_;
-  double cell_;
+  double cell_, rounding_;
   std::array<std::size_t, 3> count_;
   std::unique_ptr<std::atomic<State>[]> cells_;
 };

@@ -1,4 +1,4 @@
-/// What provers read of a query: solids, depths, pairs, names.
+/// Accessors of a query that provers share: solids, depths, pairs, names.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,9 +17,13 @@ namespace dismantle::immobility {
 /// The closed shells of a part, computed once in an assembly. Assembled frame.
 const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part);
 
-/// A point that cuts in deeper than that is beyond what the proof is for: the pair's initial overlap and the query's
-/// margin, and a little for rounding. Assembly units, > 0.
+/// The penetration depth up to which motions of the pair have to be considered: the initial overlap and the query's
+/// margin, enlarged by rounding. Assembly units, > 0.
 double depth_allowed(const SeparationQuery& query, PartId a, PartId b);
+
+/// The length that a proof gives away for rounding: 1e-4 of the tolerance. It also covers corners that are not exactly
+/// in the plane of their face, as in files in single precision. Assembly units, > 0.
+double slack_of(const SeparationQuery& query);
 
 /// Are their boxes no further apart than the tolerance? Parts further apart do not hold each other.
 bool near_each_other(const SeparationQuery& query, PartId a, PartId b);
@@ -27,8 +31,8 @@ bool near_each_other(const SeparationQuery& query, PartId a, PartId b);
 /// The two parts of a query about a pair, in ascending order; nothing when there are more.
 std::optional<std::pair<PartId, PartId>> pair_of(const SeparationQuery& query);
 
-/// The pair both ways round.
-std::array<std::pair<PartId, PartId>, 2> both_ways(const std::pair<PartId, PartId>& pair);
+/// The pair in both orders.
+std::array<std::pair<PartId, PartId>, 2> both_orders(const std::pair<PartId, PartId>& pair);
 
 /// Diagonal of a part's box; assembly units.
 double extent_of(const SeparationQuery& query, PartId part);
@@ -36,10 +40,10 @@ double extent_of(const SeparationQuery& query, PartId part);
 /// The part's name in quotes.
 std::string name_of(const SeparationQuery& query, PartId part);
 std::string names_of(const SeparationQuery& query, const std::vector<PartId>& parts);
-/// A length in assembly units as the user reads it: in input units.
+/// A length in assembly units, converted to input units for messages.
 double input_length(const SeparationQuery& query, double length);
 /// "(x, y, z)" in input units, of a point of the assembled frame.
-std::string place_of(const SeparationQuery& query, const Eigen::Vector3d& point);
+std::string position_text(const SeparationQuery& query, const Eigen::Vector3d& point);
 
 inline std::vector<double> numbers_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -28,27 +28,27 @@ struct Loop {
   std::vector<std::size_t> hull() const;
   /// The largest distance of two points.
   double diameter() const;
-  /// Is a point of the plane (or next to it) inside the curve?
+  /// Is the point, projected to the plane, inside the curve?
   bool around(const Eigen::Vector3d& p) const;
 };
 
-/// The surface of a solid in the assembled frame, with its neighbourhoods.
+/// The surface of a solid in the assembled frame, with the neighbours of each triangle.
 class Surface {
  public:
   explicit Surface(const Solid& solid);
 
   std::vector<Loop> section(const Plane& plane) const;
-  /// Offsets of planes across a direction, ascending: right above and below the heights of corners and half way between
-  /// them; at most about `most`.
+  /// Offsets of planes across a direction, ascending: just above and below each corner and half way between corners,
+  /// since sections change their shape only at corners. At most about `most`.
   std::vector<double> offsets(const Eigen::Vector3d& direction, std::size_t most) const;
-  /// Does the surface lead from one loop to the other on that side of the plane of the first where the normal points
-  /// (`above`), or on the other side?
+  /// Is there a path on the surface from one loop to the other that starts on the side of the first loop's plane to
+  /// which the normal points (`above`), or on the other side?
   bool connects(const Loop& from, const Loop& to, bool above) const;
 
-  /// A closed surface: connected triangles, cut off where they cross some loops, and the flat discs inside of these.
+  /// A closed surface: connected triangles, clipped where they cross some loops, and the flat discs inside these loops.
   class Closed {
    public:
-    /// Counted along rays; nothing when these do not agree.
+    /// By the parity of crossings along rays; nothing when the rays do not agree.
     std::optional<bool> inside(const Eigen::Vector3d& p) const;
     std::size_t discs() const { return discs_.size(); }
     const std::vector<const Loop*>& loops() const { return discs_; }
@@ -57,16 +57,18 @@ class Surface {
     friend class Surface;
     struct Piece {
       std::array<Eigen::Vector3d, 3> corners;
-      std::vector<std::pair<Plane, double>> kept;  ///< planes, and the sign of the side that is part of it
+      std::vector<std::pair<Plane, double>> kept;  ///< clipping planes, and the sign of the side that is kept
     };
     std::vector<Piece> pieces_;
     std::vector<const Loop*> discs_;
+    double rounding_ = 0;  ///< error of positions; assembly units
   };
-  /// The surface that hangs together with loops[0] on that side of its plane on which `p` lies, up to the loops, and
-  /// their discs. Nothing when it reaches the other side of one of them. `loops` must outlive it.
+  /// The piece of surface that is connected to loops[0] on the side of its plane where `p` lies, up to the loops,
+  /// closed by their discs. Nothing when it reaches the other side of a loop. `loops` must outlive it.
   std::optional<Closed> closed_by(const std::vector<Loop>& loops, const Eigen::Vector3d& p) const;
 
  private:
+  double size_ = 0;  ///< diagonal of its box
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<Triangle> triangles_;
   std::vector<std::array<std::uint32_t, 3>> neighbours_;  ///< [t][k]: across the edge from corner k to the next

@@ -1,8 +1,9 @@
-// Two parts are called confined only when no motion that cuts in half as deep as ways may parts them, whatever shape
-// they have and wherever the assembly stands.
+// Parts count as confined only when no motion that penetrates half as deep as the tolerance separates them, for any
+// shape and pose.
+#include "configuration_cells/configuration_cells.h"
+
 #include <gtest/gtest.h>
 
-#include "configuration_cells/configuration_cells.h"
 #include "dismantle/testing/trials.h"
 #include "prover_rig.h"
 
@@ -19,7 +20,7 @@ using shapes::Passage;
 using shapes::random_pose;
 using shapes::Vec3;
 
-constexpr double kWaysMay = 0.01;
+constexpr double kTolerance = 0.01;
 
 Cased any_case(Rng& rng, double rim) {
   return {{rng.uniform(0.4, 0.7), rng.uniform(0.3, 0.5), rng.uniform(0.3, 0.5)},
@@ -29,10 +30,10 @@ Cased any_case(Rng& rng, double rim) {
 }
 
 ProverRig rig_of(const Cased& c, const Pose& turned) {
-  return {assembly_of({moved(c.block(), turned), moved(c.around(), turned)}), kWaysMay};
+  return {assembly_of({moved(c.block(), turned), moved(c.around(), turned)}), kTolerance};
 }
 
-Verifier verifier_of(const ProverRig& rig, double allowed = kWaysMay) { return Verifier(rig.assembly(), {allowed}); }
+Verifier verifier_of(const ProverRig& rig, double allowed = kTolerance) { return Verifier(rig.assembly(), {allowed}); }
 
 /// What was proved, for motions that cut in half as deep as the tolerance.
 struct Confined {
@@ -46,7 +47,7 @@ std::optional<Confined> confined(const ProverRig& rig, PartId a = 0, PartId b = 
   return Confined{c->parts, number("depth"), number("shift"), number("turn"), number("cells")};
 }
 
-TEST(Confined, ABlockUnderARim) {
+TEST(ConfigurationCells, ABlockUnderARim) {
   Rng rng(1);
   for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const Cased c = any_case(rng, rng.uniform(0.08, 0.15));
@@ -54,13 +55,13 @@ TEST(Confined, ABlockUnderARim) {
     const auto found = confined(rig);
     ASSERT_TRUE(found) << i;
     EXPECT_EQ(found->parts, (std::vector<PartId>{0, 1}));
-    EXPECT_DOUBLE_EQ(found->depth, 0.5 * kWaysMay);
+    EXPECT_DOUBLE_EQ(found->depth, 0.5 * kTolerance);
     EXPECT_GE(found->shift, c.play) << "it does move as far as it has play";
     EXPECT_LT(found->shift, c.half.z()) << "and stays where it was";
   }
 }
 
-TEST(Confined, NotWhereItComesOut) {
+TEST(ConfigurationCells, NotWhereItComesOut) {
   Rng rng(2);
   for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const Cased c =
@@ -71,7 +72,7 @@ TEST(Confined, NotWhereItComesOut) {
   }
 }
 
-TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
+TEST(ConfigurationCells, NotWhereTheWayOutIsRoundACorner) {
   // Along a tunnel, and up through a hole in its roof with 0.006 to spare on every side.
   const double half = 0.2, wide = half + 0.006, hole = 0.5;
   const Mesh block = box({-half, -half, -half}, {half, half, half});
@@ -81,18 +82,18 @@ TEST(Confined, NotWhereTheWayOutIsRoundACorner) {
   append(tunnel, box({-0.5, -wide, -wide}, {-wide, wide, 0.5}));
   append(tunnel, box({hole + wide, -wide, -wide}, {1, wide, 0.5}));
   append(tunnel, box({-wide, -wide, wide}, {hole - wide, wide, 0.5}));
-  const ProverRig rig(assembly_of({block, tunnel}), kWaysMay);
+  const ProverRig rig(assembly_of({block, tunnel}), kTolerance);
   const Path out{{Pose{}}, {shapes::shift({hole, 0, 0})}, {shapes::shift({hole, 0, 2})}};
   ASSERT_TRUE(verifier_of(rig).check_motion({0}, {{1, Pose{}}}, out).valid);
   EXPECT_FALSE(confined(rig));
 }
 
-TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
+TEST(ConfigurationCells, NotWhereTheWayOutIsRoundTwoCorners) {
   Rng rng(8);
   for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const Passage p{rng.uniform(0.15, 0.25), rng.uniform(0.003, 0.02), true};
     const Pose at = random_pose(rng, 2);
-    const ProverRig rig(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), kWaysMay);
+    const ProverRig rig(assembly_of({moved(p.cube(), at), moved(p.around(), at)}), kTolerance);
     const auto by = [&](double x, double y, double z) { return shapes::shift(at.q * (p.step() * Vec3(x, y, z))); };
     const Path out{{Pose{}}, {by(1, 0, 0)}, {by(1, 1, 0)}, {by(1, 1, 8)}};
     ASSERT_TRUE(verifier_of(rig).check_motion({0}, {{1, Pose{}}}, out).valid) << i;
@@ -100,15 +101,15 @@ TEST(Confined, NotWhereTheWayOutIsRoundTwoCorners) {
   }
 }
 
-TEST(Confined, ACubeThatSlidesRoundACorner) {
+TEST(ConfigurationCells, ACubeThatSlidesRoundACorner) {
   const Passage p{0.2, 0.003, false};
-  const ProverRig rig(assembly_of({p.cube(), p.around()}), kWaysMay);
+  const ProverRig rig(assembly_of({p.cube(), p.around()}), kTolerance);
   const auto found = confined(rig);
   ASSERT_TRUE(found);
   EXPECT_GE(found->shift, p.step()) << "it gets to the corner at least";
 }
 
-TEST(Confined, ABlockThatSlidesFar) {
+TEST(ConfigurationCells, ABlockThatSlidesFar) {
   Rng rng(9);
   for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const double slide = rng.uniform(0.5, 2), play = rng.uniform(0.003, 0.015);
@@ -117,7 +118,7 @@ TEST(Confined, ABlockThatSlidesFar) {
     Mesh channel = box(-out, out + far);
     append(channel, inside_out(box(-in, in + far)));
     const Pose at = random_pose(rng, 2);
-    const ProverRig rig(assembly_of({moved(box(-half, half), at), moved(channel, at)}), kWaysMay);
+    const ProverRig rig(assembly_of({moved(box(-half, half), at), moved(channel, at)}), kTolerance);
     const auto found = confined(rig);
     ASSERT_TRUE(found) << i;
     EXPECT_GE(found->shift, slide) << i;
@@ -125,24 +126,24 @@ TEST(Confined, ABlockThatSlidesFar) {
   }
 }
 
-TEST(Confined, NotWhereNothingIsAround) {
-  const ProverRig rig(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1.005}, {1, 1, 2})}), kWaysMay);
+TEST(ConfigurationCells, NotWhereNothingIsAround) {
+  const ProverRig rig(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 1.005}, {1, 1, 2})}), kTolerance);
   EXPECT_FALSE(confined(rig));
-  const ProverRig far(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 5}, {1, 1, 6})}), kWaysMay);
+  const ProverRig far(assembly_of({box({0, 0, 0}, {1, 1, 1}), box({0, 0, 5}, {1, 1, 6})}), kTolerance);
   EXPECT_FALSE(confined(far));
 }
 
-TEST(Confined, NotWhereASurfaceHasABorder) {
+TEST(ConfigurationCells, NotWhereASurfaceHasABorder) {
   Rng rng(7);
   const Cased c = any_case(rng, 0.1);
   for (const bool inner : {true, false}) {
     Mesh block = c.block(), around = c.around();
     (inner ? block : around).triangles.pop_back();
-    EXPECT_FALSE(confined(ProverRig(assembly_of({block, around}), kWaysMay)));
+    EXPECT_FALSE(confined(ProverRig(assembly_of({block, around}), kTolerance)));
   }
 }
 
-TEST(Confined, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
+TEST(ConfigurationCells, EveryMotionThatTheVerifierAcceptsStaysWithinTheBounds) {
   Rng rng(3);
   const Cased c = any_case(rng, 0.1);
   const auto found = confined(rig_of(c, Pose{}));
@@ -162,7 +163,7 @@ TEST(Confined, WhateverTheJudgeOfThatDepthAcceptsStaysWithinTheBounds) {
   EXPECT_GT(accepted, 10);
 }
 
-TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
+TEST(ConfigurationCells, TheSameOnTwoThreadsAndEitherWayRound) {
   Rng rng(4);
   const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
   const auto one = confined(rig);
@@ -176,7 +177,7 @@ TEST(Confined, TheSameOnTwoThreadsAndEitherWayRound) {
   EXPECT_EQ(one->turn, two->turn);
 }
 
-TEST(Confined, EndsWhenToldTo) {
+TEST(ConfigurationCells, EndsWhenToldTo) {
   Rng rng(5);
   const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
   RunContext context;
@@ -184,7 +185,7 @@ TEST(Confined, EndsWhenToldTo) {
   EXPECT_FALSE(confined(rig, 0, 1, context));
 }
 
-TEST(Confined, ItsCertificateHoldsAndSaysWhoAndHowFar) {
+TEST(ConfigurationCells, ItsCertificateHoldsAndNamesThePartsAndBounds) {
   Rng rng(6);
   const ProverRig rig = rig_of(any_case(rng, 0.1), Pose{});
   for (const double share : {0.5, 1.0}) {

@@ -1,4 +1,4 @@
-#include "disc/disc_room.h"
+#include "disc/diameter_clearance.h"
 
 #include <algorithm>
 #include <array>
@@ -14,21 +14,15 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr double kSlack = 1e-6;     // assembly units, for rounding; facets are off their planes by less
-constexpr double kSteep = 1e-6;     // cosine of the angle between a line and a normal: less is along the plane
-constexpr int kSamples = 32;        // directions, to see whether one has room
-constexpr int kFans = 4;            // of directions, to begin with
-constexpr double kLeastFan = 1e-3;  // rad
-constexpr double kSteps = 2000;     // boxes and fans of directions that are looked at for one box, ...
-constexpr double kGlance = 64;      // ... as is to be expected after so many
-constexpr double kBeyond = 0.9;     // of the half thickness: lines so near to the end of a wall are taken to meet it
+// Cosine of the angle between a line and a normal below which the line counts as parallel to the plane.
+constexpr double kParallel = 1e-6;
 
 double along(const Aabb& box, const Vec3& axis) { return 0.5 * axis.cwiseAbs().dot(box.size()); }
 
 }  // namespace
 
 /// Directions in a plane, between two angles less than pi / 2 apart.
-struct DiscRoom::Lines {
+struct DiameterClearance::Lines {
   Vec3 normal, e, f;
   double from, to;
 
@@ -36,23 +30,24 @@ struct DiscRoom::Lines {
   double middle() const { return 0.5 * (from + to); }
 };
 
-DiscRoom::DiscRoom(const Facets& facets, double radius, double half)
-    : facets_(facets), radius_(radius - kSlack), near_(half - kSlack) {}
+DiameterClearance::DiameterClearance(const Facets& facets, double radius, double half, double slack)
+    : facets_(facets), slack_(slack), radius_(radius - slack), near_(half - slack) {}
 
-std::vector<std::uint32_t> DiscRoom::around(const Aabb& box, double reach, const std::vector<std::uint32_t>& of) const {
+std::vector<std::uint32_t> DiameterClearance::around(const Aabb& box, double reach,
+                                                     const std::vector<std::uint32_t>& of) const {
   Aabb wide = box;
-  wide.inflate(reach + kSlack);
+  wide.inflate(reach + slack_);
   const Vec3 center = box.center();
   std::vector<std::uint32_t> found;
   for (const std::uint32_t f : of) {
     if (!facets_[f].box.overlaps(wide)) continue;
     const FacetPlane& p = facets_.plane_of(f);
-    if (std::abs(p.normal.dot(center) - p.offset) <= along(box, p.normal) + reach + kSlack) found.push_back(f);
+    if (std::abs(p.normal.dot(center) - p.offset) <= along(box, p.normal) + reach + slack_) found.push_back(f);
   }
   return found;
 }
 
-bool DiscRoom::near(const Aabb& box, const std::vector<std::uint32_t>& around) {
+bool DiameterClearance::all_near(const Aabb& box, const std::vector<std::uint32_t>& around) {
   std::vector<std::uint32_t> tried;
   std::vector<Vec2> points(8);
   const Vec3 center = box.center();
@@ -69,9 +64,9 @@ bool DiscRoom::near(const Aabb& box, const std::vector<std::uint32_t>& around) {
   return false;
 }
 
-/// Where facets cross a plane through a point, as seen from there.
-std::vector<DiscRoom::Wall> DiscRoom::walls(const Vec3& from, const Vec3& normal,
-                                            const std::vector<std::uint32_t>& around) {
+/// The segments in which facets cross a plane through a point, relative to the point.
+std::vector<DiameterClearance::Wall> DiameterClearance::walls(const Vec3& from, const Vec3& normal,
+                                                              const std::vector<std::uint32_t>& around) {
   const Vec3 e = normal.unitOrthogonal(), f = normal.cross(e);
   std::vector<Wall> walls;
   work_ += around.size();
@@ -91,17 +86,20 @@ std::vector<DiscRoom::Wall> DiscRoom::walls(const Vec3& from, const Vec3& normal
       s = t;
     }
     if (count != 2) continue;
-    const Vec2 beyond = kBeyond * near_ * (ends[1] - ends[0]).stableNormalized();
+    // The thick disc also hits the wall when its middle line passes close to the end of it.
+    const Vec2 beyond = 0.9 * near_ * (ends[1] - ends[0]).stableNormalized();
     walls.push_back({ends[0] - beyond, ends[1] + beyond});
   }
   return walls;
 }
 
-double DiscRoom::longest(const Vec3& from, const Vec3& normal, const std::vector<std::uint32_t>& around) {
+double DiameterClearance::free_half_length(const Vec3& from, const Vec3& normal,
+                                           const std::vector<std::uint32_t>& around) {
   const std::vector<Wall> all = walls(from, normal, around);
   double longest = 0;
-  for (int k = 0; k < kSamples; ++k) {
-    const double angle = free_ + pi * k / kSamples;  // what had room last comes first
+  constexpr int samples = 32;  // a narrower fan of free lines is found by no_diameter_fits(), which then fails
+  for (int k = 0; k < samples; ++k) {
+    const double angle = free_ + pi * k / samples;  // the direction that was free last comes first
     const Vec2 d(std::cos(angle), std::sin(angle)), left(-d.y(), d.x());
     double room = std::numeric_limits<double>::infinity();
     for (const Wall& w : all) {
@@ -116,20 +114,20 @@ double DiscRoom::longest(const Vec3& from, const Vec3& normal, const std::vector
   return longest;
 }
 
-/// Where lines from the box meet a plane, within the radius; nothing if some do not, or from the other side.
+/// The points in which the outer lines through the corners of the box meet a plane. False: some do not within the
+/// radius, or not from the same side.
 ///
-/// Where a line from c along d meets the plane is, for one c, a projection of d from a point: between directions that
-/// look at the same side of the plane, it is between where these meet it. For one d it is linear in c. So where any of
-/// the lines meets the plane is in the convex hull of where those of the corners do that have the outer directions; and
-/// likewise for the way from c to there.
-bool DiscRoom::meet(const FacetPlane& plane, const Aabb& box, const Lines& lines, double least, double most,
-                    std::vector<Vec2>& points) const {
+/// For a fixed c, the intersection of the line from c along d with the plane is a central projection of d, which keeps
+/// betweenness while d stays on one side of the plane. For a fixed d it is linear in c. So the intersections of all
+/// lines are in the convex hull of `points`. The same holds for the distances along the lines.
+bool DiameterClearance::intersect(const FacetPlane& plane, const Aabb& box, const Lines& lines, double least,
+                                  double most, std::vector<Vec2>& points) const {
   points.clear();
   double side = 0;
   for (const double angle : {lines.from, lines.to}) {
     const Vec3 d = lines.at(angle);
     const double steep = plane.normal.dot(d);
-    if (std::abs(steep) < kSteep || steep * side < 0) return false;
+    if (std::abs(steep) < kParallel || steep * side < 0) return false;
     side = steep;
     for (int k = 0; k < 8; ++k) {
       const Vec3 c = corner(box, k);
@@ -142,50 +140,55 @@ bool DiscRoom::meet(const FacetPlane& plane, const Aabb& box, const Lines& lines
 }
 
 /// Do all lines meet facets in that plane, within the radius?
-bool DiscRoom::blocks(std::uint32_t number, const Aabb& box, const Lines& lines) {
+bool DiameterClearance::blocks(std::uint32_t number, const Aabb& box, const Lines& lines) {
   const FacetPlane& plane = facets_.planes()[number];
-  if (!meet(plane, box, lines, -radius_, radius_, points_)) return false;
+  if (!intersect(plane, box, lines, -radius_, radius_, points_)) return false;
   work_ += plane.facets.size();
   return facets_.covers(number, points_, near_);
 }
 
-/// Do all lines meet facets in one of those planes, within the radius, forward (`side` 1) or backward (-1)?
+/// Does each line meet a facet in one of those planes, within the radius, forward (`side` 1) or backward (-1)?
 ///
-/// The box is behind all of the planes, and all lines lead towards all of them. Where a line goes through the first of
-/// them, it is still behind the others: only what of a plane is behind the others has to be covered.
-bool DiscRoom::blocks(const std::vector<std::uint32_t>& planes, double side, const Aabb& box, const Lines& lines) {
+/// The box is behind all of the planes, and all lines lead towards all of them. Where a line passes the first of them,
+/// it is still behind the others: so only the part of each plane that is behind the others has to be covered.
+bool DiameterClearance::blocks(const std::vector<std::uint32_t>& planes, double side, const Aabb& box,
+                               const Lines& lines) {
   const Vec3 d = side * lines.at(lines.middle());
   std::vector<Facets::Behind> behind;
   for (const std::uint32_t p : planes) behind.push_back({p, facets_.planes()[p].normal.dot(d) > 0 ? 1.0 : -1.0});
   for (const std::uint32_t p : planes) {
     const FacetPlane& plane = facets_.planes()[p];
-    if (!meet(plane, box, lines, side > 0 ? 0 : -radius_, side > 0 ? radius_ : 0, points_)) return false;
+    if (!intersect(plane, box, lines, side > 0 ? 0 : -radius_, side > 0 ? radius_ : 0, points_)) return false;
     work_ += plane.facets.size();
     if (!facets_.covers_behind(p, points_, behind, near_)) return false;
   }
   return true;
 }
 
-bool DiscRoom::shut(const Aabb& box, const Vec3& normal, const std::vector<std::uint32_t>& around) {
+bool DiameterClearance::no_diameter_fits(const Aabb& box, const Vec3& normal,
+                                         const std::vector<std::uint32_t>& around) {
   const Vec3 e = normal.unitOrthogonal();
   Lines lines{normal, e, normal.cross(e), 0, 0};
   steps_ = shown_ = 0;
-  for (int k = 0; k < kFans; ++k) {
-    lines.from = pi * k / kFans;
-    lines.to = pi * (k + 1) / kFans;
-    if (!shut(box, lines, around, 1.0 / kFans)) return false;
+  constexpr int fans = 4;  // of directions; less than pi / 2 each
+  for (int k = 0; k < fans; ++k) {
+    lines.from = pi * k / fans;
+    lines.to = pi * (k + 1) / fans;
+    if (!all_blocked(box, lines, around, 1.0 / fans)) return false;
   }
   return true;
 }
 
-bool DiscRoom::shut(const Aabb& box, const Lines& lines, const std::vector<std::uint32_t>& around, double share) {
-  if (++steps_ > kGlance && steps_ > kSteps * shown_) return false;
+bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const std::vector<std::uint32_t>& around,
+                                    double share) {
+  // Gives up when the share that was proved so far lets more than 2000 subproblems be expected; not before the 64th.
+  if (++steps_ > 64 && steps_ > 2000 * shown_) return false;
   const Vec3 center = box.center(), d = lines.at(lines.middle()), across = lines.normal.cross(d);
   const double spread = radius_ * std::sin(0.5 * (lines.to - lines.from));
   const double up = along(box, lines.normal) + near_, wide = along(box, across) + spread + near_;
   const double far = along(box, d) + radius_ + near_;
-  // Facets that some of the lines may meet, the planes of those that the middle one does, and what the middle and the
-  // outer lines meet first, forward and backward.
+  // Facets that some of the lines may meet; the planes of those that the middle line meets; and the first planes that
+  // the middle and the outer lines meet, forward and backward.
   std::vector<std::uint32_t> met, planes;
   struct Hit {
     double way;
@@ -207,7 +210,7 @@ bool DiscRoom::shut(const Aabb& box, const Lines& lines, const std::vector<std::
     const double off = p.offset - p.normal.dot(center);
     for (int k = 0; k < 3; ++k) {
       const double steep = p.normal.dot(sight[k]);
-      if (!(std::abs(off) <= radius_ * std::abs(steep)) || std::abs(steep) < kSteep) continue;
+      if (!(std::abs(off) <= radius_ * std::abs(steep)) || std::abs(steep) < kParallel) continue;
       const double way = off / steep;
       Hit& hit = first[way < 0 ? 1 : 0][k];
       if (k != 1 && !(std::abs(way) < hit.way)) continue;
@@ -234,24 +237,24 @@ bool DiscRoom::shut(const Aabb& box, const Lines& lines, const std::vector<std::
       return true;
     }
   }
-  // Directions or places in two, whatever moves more of where the lines meet something.
+  // Halves the directions or the positions, whichever moves the points of intersection further.
   const Vec3 moves = box.size().cwiseProduct((Vec3::Ones() - d.cwiseAbs2()).cwiseMax(0).cwiseSqrt());
   int axis = 0;
   if (moves.maxCoeff(&axis) > nearest * (lines.to - lines.from)) {
     Aabb below = box, above = box;
     below.hi[axis] = above.lo[axis] = center[axis];
     for (const Aabb& half : {below, above}) {
-      if (near(half, met))
+      if (all_near(half, met))
         shown_ += 0.5 * share;
-      else if (!shut(half, lines, met, 0.5 * share))
+      else if (!all_blocked(half, lines, met, 0.5 * share))
         return false;
     }
     return true;
   }
-  if (lines.to - lines.from < kLeastFan) return false;
+  if (lines.to - lines.from < 1e-3) return false;  // rad; ends of diameters differ by a thousandth of the radius
   Lines low = lines, high = lines;
   low.to = high.from = lines.middle();
-  return shut(box, low, met, 0.5 * share) && shut(box, high, met, 0.5 * share);
+  return all_blocked(box, low, met, 0.5 * share) && all_blocked(box, high, met, 0.5 * share);
 }
 
 }  // namespace dismantle::immobility

@@ -1,4 +1,4 @@
-#include "dismantle/immobility/pins.h"
+#include "dismantle/immobility/interior_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,24 +6,20 @@
 #include <set>
 
 #include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kLeastSpacing = 0.02;  // assembly units; closer pins find nothing more on parts of some size
-constexpr double kMostPins = 6000;      // about so many for each part
-constexpr double kLever = 0.85;         // of the distance of the furthest pin from an axis: about that of the others
-constexpr double kLeastLever = 1e-6;    // assembly units
-
-/// From a point of the surface to where the solid is `depth` deep; nothing where it is not.
+/// Moves inwards from a point of the surface until the solid is `depth` deep there. Nothing: it is too thin there.
 std::optional<Vec3> sunk(const Solid& solid, const Vec3& from, const Vec3& inward, double depth) {
   Vec3 p = from + depth * inward;
-  for (int k = 0; k < 24; ++k) {
+  for (int k = 0; k < 24; ++k) {  // mostly one or two; a wedge that is too thin makes the point go back and forth
     const ClosestPoint c = solid.bvh.closest(p);
     if (c.distance >= depth) return solid.bvh.inside(p) ? std::optional(p) : std::nullopt;
-    if (c.distance < 1e-9 || !solid.bvh.inside(p)) return std::nullopt;
+    if (c.distance < 1e-6 * depth || !solid.bvh.inside(p)) return std::nullopt;
     p += (1.01 * depth - c.distance) / c.distance * (p - c.point);
   }
   return std::nullopt;
@@ -36,7 +32,7 @@ Aabb placed_box(const std::vector<Solid>& solids) {
   return box;
 }
 
-/// Area of the triangles whose boxes come within `reach` of the other part's.
+/// Area of the triangles whose boxes come within `reach` of the other part's box.
 double area_near(const std::vector<Solid>& solids, Aabb other, double reach) {
   other.inflate(reach);
   double area = 0;
@@ -50,8 +46,8 @@ double area_near(const std::vector<Solid>& solids, Aabb other, double reach) {
   return area;
 }
 
-std::vector<Pinned::Plane> planes_of(const Solid& solid) {
-  std::vector<Pinned::Plane> planes;
+std::vector<SampledPair::Plane> planes_of(const Solid& solid) {
+  std::vector<SampledPair::Plane> planes;
   for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
     const auto& c = solid.bvh.corners(t);
     const Vec3 u = c[1] - c[0], v = c[2] - c[0], normal = u.cross(v);
@@ -62,35 +58,42 @@ std::vector<Pinned::Plane> planes_of(const Solid& solid) {
 
 }  // namespace
 
-Pinned::Pinned(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth) {
+SampledPair::SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth, double spacing) {
   const Aabb box_a = placed_box(a), box_b = placed_box(b);
   center_ = box_a.center();
   for (const Solid& s : a)
     for (const Vec3& v : s.mesh.vertices) radius_ = std::max(radius_, (s.frame * v - center_).norm());
-  const double reach = std::max(0.15, 0.1 * radius_);
-  const auto spacing = [&](const std::vector<Solid>& of, const Aabb& other) {
-    return std::max(kLeastSpacing, std::sqrt(area_near(of, other, reach) / kMostPins));
+  // Samples further from the other part hardly ever get there: a tenth of the part, or some rows of samples.
+  const double reach = std::max(7.5 * spacing, 0.1 * radius_);
+  const auto spacing_of = [&](const std::vector<Solid>& of, const Aabb& other) {
+    constexpr double most = 6000;  // samples of a part, about; memory and time grow with their number
+    return std::max(spacing, std::sqrt(area_near(of, other, reach) / most));
   };
-  const double spacing_a = spacing(a, box_b), spacing_b = spacing(b, box_a);
+  const double spacing_a = spacing_of(a, box_b), spacing_b = spacing_of(b, box_a);
   const double cell = 0.5 * std::min(spacing_a, spacing_b);
+  Aabb both = box_a;
+  both.extend(box_b.lo);
+  both.extend(box_b.hi);
   for (const auto* solids : {&a, &b})
     for (const Solid& s : *solids)
-      faced_.push_back({&s, s.frame.inverse(), s.frame.q.toRotationMatrix().transpose(), Occupancy(s.bvh, s.box, cell),
-                        planes_of(s)});
+      obstacles_.push_back({&s, s.frame.inverse(), s.frame.q.toRotationMatrix().transpose(),
+                            Occupancy(s.bvh, s.box, cell), planes_of(s), kRounding * both.size().norm()});
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k) {
       add(a[i], static_cast<std::uint32_t>(a.size() + k), true, depth, spacing_a, reach);
       add(b[k], static_cast<std::uint32_t>(i), false, depth, spacing_b, reach);
     }
-  Vec3 furthest = Vec3::Zero();  // from each axis: parts that are long turn about their length with little effect
-  for (const Pin& p : pins_)
+  // A rotation moves samples by their distance from its axis. Typical samples are almost as far out as the furthest; a
+  // long part that turns about its length moves them little. No sample is nearer than its depth, in effect.
+  Vec3 furthest = Vec3::Constant(depth);
+  for (const InteriorSample& p : samples_)
     for (int d = 0; d < 3; ++d) furthest[d] = std::max(furthest[d], p.at.cross(Vec3::Unit(d)).norm());
-  scale_ << (kLever * furthest).cwiseMax(kLeastLever), Vec3::Ones();
+  scale_ << 0.85 * furthest, Vec3::Ones();
 }
 
-void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, double spacing, double reach) {
-  const Solid& other = *faced_[faced].solid;
-  const Pose& to_other = faced_[faced].to_local;
+void SampledPair::add(const Solid& of, std::uint32_t obstacle, bool of_a, double depth, double spacing, double reach) {
+  const Solid& other = *obstacles_[obstacle].solid;
+  const Pose& to_other = obstacles_[obstacle].to_local;
   Aabb near = other.box;
   near.inflate(reach + depth);
   std::set<std::array<long, 3>> taken;
@@ -102,7 +105,7 @@ void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, 
     for (int i = 0; i <= nu; ++i)
       for (int k = 0; k <= nv; ++k) {
         const double x = static_cast<double>(i) / nu, y = static_cast<double>(k) / nv;
-        if (x + y > 1 + 1e-9) continue;
+        if (x + y > 1 + kRounding) continue;
         const Vec3 s = o + x * u + y * v;
         if (!near.contains(to_other * (of.frame * s))) continue;
         const auto p = sunk(of, s, -of.normals[t], depth);
@@ -111,27 +114,31 @@ void Pinned::add(const Solid& of, std::uint32_t faced, bool of_a, double depth, 
                                        std::lround(p->z() / (0.5 * spacing))};
         if (!taken.insert(cell).second) continue;
         const Vec3 assembled = of.frame * *p, there = to_other * assembled;
-        const double room = other.bvh.closest(there, reach).distance;
-        if (room < reach && !other.bvh.inside(there)) pins_.push_back({of_a, faced, assembled - center_, room});
+        const double clearance = other.bvh.closest(there, reach).distance;
+        if (clearance < reach && !other.bvh.inside(there))
+          samples_.push_back({of_a, obstacle, assembled - center_, clearance});
       }
   }
 }
 
-bool borderless(const std::vector<Solid>& solids) {
+bool all_closed(const std::vector<Solid>& solids) {
   return std::all_of(solids.begin(), solids.end(), [](const Solid& s) { return edge_use(s.mesh).closed(); });
 }
 
-Stance::Stance(const Pinned& pinned, const Vector6& x)
-    : pinned_(&pinned), turn_(rotation_from_vector(x.head<3>()).toRotationMatrix()), shift_(x.tail<3>()) {
-  moved_ = shift_.norm() + pinned.radius() * (turn_ - Eigen::Matrix3d::Identity()).norm();
+RelativePose::RelativePose(const SampledPair& pair, const Vector6& x)
+    : pair_(&pair), rotation_(rotation_from_vector(x.head<3>()).toRotationMatrix()), shift_(x.tail<3>()) {
+  max_displacement_ = shift_.norm() + pair.radius() * (rotation_ - Eigen::Matrix3d::Identity()).norm();
 }
 
-Vec3 Stance::seen(const Pin& pin) const {
-  const Vec3 p = pin.of_a ? Vec3(turn_ * pin.at + shift_) : Vec3(turn_.transpose() * (pin.at - shift_));
-  const Pinned::Faced& faced = pinned_->faced(pin);
-  return faced.turn * (p + pinned_->center()) + faced.to_local.t;
+Vec3 RelativePose::position(const InteriorSample& sample) const {
+  const Vec3 p =
+      sample.of_a ? Vec3(rotation_ * sample.at + shift_) : Vec3(rotation_.transpose() * (sample.at - shift_));
+  const SampledPair::Obstacle& obstacle = pair_->obstacle(sample);
+  return obstacle.rotation * (p + pair_->center()) + obstacle.to_local.t;
 }
 
-bool Stance::inside(const Pin& pin) const { return pinned_->faced(pin).occupied.inside(seen(pin)); }
+bool RelativePose::inside(const InteriorSample& sample) const {
+  return pair_->obstacle(sample).occupied.inside(position(sample));
+}
 
 }  // namespace dismantle::immobility

@@ -1,4 +1,4 @@
-#include "dismantle/immobility/free_part.h"
+#include "dismantle/immobility/free_space_bound.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +10,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr std::size_t kMostCorners = 600;  // of a box that meets more than that nothing is said
-constexpr std::size_t kMostNormals = 14;
-constexpr double kCutsOff = 0.01;  // of the box's width along the normal, cut off
-constexpr double kSurfaceRounding = 1e-9;
-constexpr double kNormalRounding = 1e-13;
-
 /// Convex; a triangle cut by six planes has nine corners at most.
 struct Polygon {
   std::array<Vec3, 12> corner;
@@ -23,12 +17,12 @@ struct Polygon {
   void add(const Vec3& p) { corner[count++] = p; }
 };
 
-/// Does the triangle's plane miss the box about the origin? The normal of a sliver is not known well, so it is taken
-/// with what rounding may have done to it.
-bool plane_is_elsewhere(const Pinned::Plane& plane, const Vec3& corner, const Vec3& half) {
-  const double reach = 1 + corner.lpNorm<1>();
-  return std::abs(plane.normal.dot(corner)) > plane.normal.cwiseAbs().dot(half) + kSurfaceRounding * plane.length +
-                                                  kNormalRounding * plane.edges * (1 + plane.edges) * reach;
+/// Does the triangle's plane certainly miss the box about the origin? `rounding`: error of a position. The normal is
+/// the product of two edges, so its error is that of the edges; of a sliver, this is much of the normal. Positions are
+/// good to 1e-13 of the coordinates, a ten thousandth of `rounding`.
+bool plane_misses_box(const SampledPair::Plane& plane, const Vec3& corner, const Vec3& half, double rounding) {
+  const double of_normal = 1e-4 * rounding * plane.edges * (corner.lpNorm<1>() + half.lpNorm<1>());
+  return std::abs(plane.normal.dot(corner)) > plane.normal.cwiseAbs().dot(half) + rounding * plane.length + of_normal;
 }
 
 /// The part of a triangle within the box about the origin.
@@ -58,9 +52,9 @@ Polygon clipped(const std::array<Vec3, 3>& triangle, const Vec3& half) {
 
 }  // namespace
 
-FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half) {
-  FreePart result;
-  const Solid& solid = *faced.solid;
+FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec3& at, const Vec3& half) {
+  FreeSpaceBound result;
+  const Solid& solid = *obstacle.solid;
   Aabb box;
   box.extend(Vec3(at - half));
   box.extend(Vec3(at + half));
@@ -68,17 +62,22 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     result.all = true;
     return result;
   }
+  // A larger box is cheaper to divide than to clip: most of its triangles do not matter for its halves.
+  constexpr std::size_t most_corners = 600;
+  // Directions of the box's faces, and eight of the solid's: each costs a pass over all corners.
+  constexpr std::size_t most_normals = 6 + 8;
+  // Every access to a thread_local variable is a call, so both are looked up together and only here.
   static thread_local struct { std::vector<Vec3> corners, normals; } kept;
-  auto& corners = kept.corners;  // once: to find what is the thread's own takes a call each time
+  auto& corners = kept.corners;
   auto& normals = kept.normals;
   corners.clear();
   normals.clear();
   for (int k = 0; k < 3; ++k)
     for (const double s : {-1.0, 1.0}) normals.push_back(s * Vec3::Unit(k));
   solid.bvh.overlapping(box, [&](std::uint32_t t) {
-    if (corners.size() > kMostCorners) return;
+    if (corners.size() > most_corners) return;
     const auto& whole = solid.bvh.corners(t);
-    if (plane_is_elsewhere(faced.planes[t], whole[0] - at, half)) return;
+    if (plane_misses_box(obstacle.planes[t], whole[0] - at, half, obstacle.rounding)) return;
     std::array<Vec3, 3> c = whole;
     for (Vec3& x : c) x -= at;
     const Polygon polygon = clipped(c, half);
@@ -86,16 +85,17 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
     corners.insert(corners.end(), polygon.corner.begin(),
                    polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
     const Vec3& normal = solid.normals[t];
-    if (!normal.isZero() && normals.size() < kMostNormals &&
+    if (!normal.isZero() && normals.size() < most_normals &&
         std::none_of(normals.begin(), normals.end(), [&](const Vec3& m) { return m.dot(normal) > 0.999; }))
       normals.push_back(normal);
   });
-  if (corners.size() > kMostCorners) return result;
+  if (corners.size() > most_corners) return result;
   if (corners.empty()) {
-    (faced.occupied.inside(at) ? result.none : result.all) = true;
+    (obstacle.occupied.inside(at) ? result.none : result.all) = true;
     return result;
   }
-  // Half spaces that cut off something of the box; what is free of its corners may leave them less.
+  // Only half spaces that cut off at least a hundredth of the box's width are worth a row of the linear programs. Free
+  // corners of the box may weaken them below that.
   struct Cut {
     Vec3 normal;
     double least, enough;
@@ -103,19 +103,20 @@ FreePart free_part(const Pinned::Faced& faced, const Vec3& at, const Vec3& half)
   static thread_local std::vector<Cut> cuts;
   cuts.clear();
   for (const Vec3& m : normals) {
-    Cut cut{m, std::numeric_limits<double>::infinity(), (2 * kCutsOff - 1) * m.cwiseAbs().dot(half)};
+    Cut cut{m, std::numeric_limits<double>::infinity(), (2 * 0.01 - 1) * m.cwiseAbs().dot(half)};
     for (const Vec3& c : corners) cut.least = std::min(cut.least, m.dot(c));
     if (cut.least > cut.enough) cuts.push_back(cut);
   }
   for (int k = 0; k < 8 && !cuts.empty(); ++k) {
     const Vec3 c(k & 1 ? half.x() : -half.x(), k & 2 ? half.y() : -half.y(), k & 4 ? half.z() : -half.z());
     if (std::none_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.normal.dot(c) < cut.least; }) ||
-        faced.occupied.inside(at + c))
+        obstacle.occupied.inside(at + c))
       continue;
     for (Cut& cut : cuts) cut.least = std::min(cut.least, cut.normal.dot(c));
     std::erase_if(cuts, [](const Cut& cut) { return !(cut.least > cut.enough); });
   }
-  for (const Cut& cut : cuts) result.within.push_back({cut.normal, cut.least + cut.normal.dot(at) - kSurfaceRounding});
+  for (const Cut& cut : cuts)
+    result.half_spaces.push_back({cut.normal, cut.least + cut.normal.dot(at) - obstacle.rounding});
   return result;
 }
 

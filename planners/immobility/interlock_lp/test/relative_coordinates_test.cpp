@@ -1,5 +1,5 @@
-// Where a body is, seen from another, is what its linear form says, but for the rest that it gives.
-#include "interlock_lp/body_coordinates.h"
+// The linear form of the relative coordinates of two bodies is exact up to the remainder that it states.
+#include "interlock_lp/relative_coordinates.h"
 
 #include <gtest/gtest.h>
 
@@ -23,11 +23,11 @@ Vector6 within(Rng& rng, const Vector6& most) {
   return x;
 }
 
-TEST(BodyCoordinates, SeenFromAnotherTheyAreLinearButForTheRest) {
+TEST(RelativeCoordinates, AreLinearUpToTheRemainder) {
   Rng rng(1);
   double worst = 0;
   for (int i = 0; i < 20'000; ++i) {
-    immobility::BodyReach a, b;
+    immobility::CoordinateBound a, b;
     const double turn = i % 3 == 0 ? 0.144 : rng.uniform(0, 0.144), shift = rng.uniform(0, 0.2);
     a.most << random_vector(rng, turn).cwiseAbs(), random_vector(rng, shift).cwiseAbs();
     if (i % 4 != 0) b.most << random_vector(rng, turn).cwiseAbs(), random_vector(rng, shift).cwiseAbs();
@@ -39,14 +39,14 @@ TEST(BodyCoordinates, SeenFromAnotherTheyAreLinearButForTheRest) {
     Vector6 seen;
     seen.head<3>() = rotation_vector(qb.conjugate() * qa);
     seen.tail<3>() = qb.conjugate() * (arm + x.tail<3>() - y.tail<3>()) - arm;
-    const immobility::SeenFrom linear = immobility::seen_from(a, b, arm, seen.cwiseAbs());
+    const immobility::RelativeCoordinates linear = immobility::relative_coordinates(a, b, arm, seen.cwiseAbs());
     const Vector6 off = (seen - linear.of_a * x - linear.of_b * y).cwiseAbs();
     EXPECT_TRUE((off.array() <= linear.rest.array() + 1e-12).all()) << off.transpose() << "\n"
                                                                     << linear.rest.transpose();
     for (int k = 0; k < 6; ++k)
       if (linear.rest[k] > 1e-3) worst = std::max(worst, off[k] / linear.rest[k]);
   }
-  EXPECT_GT(worst, 0.6) << "the rest is not much larger than it need be";
+  EXPECT_GT(worst, 0.6) << "the bound of the remainder is tight";
 }
 
 }  // namespace

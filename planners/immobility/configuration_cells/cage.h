@@ -1,0 +1,38 @@
+/// Proof that two parts cannot be separated: a region of relative poses that none of their motions leaves.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "configuration_cells/configuration_cells.h"
+#include "dismantle/geometry/solid.h"
+#include "dismantle/immobility/geometry_names.h"
+#include "dismantle/immobility/linear_bound.h"
+#include "dismantle/run_context.h"
+
+namespace dismantle::immobility {
+
+struct ConfigurationCage {
+  /// Bounds of the region: rotation vector and shift of `a` relative to `b`, about the centre of `a`'s box.
+  Vector6 lo = Vector6::Zero(), hi = Vector6::Zero();
+  std::size_t cells = 0;  ///< of the decomposition
+};
+
+/// Does every motion of `a` relative to `b` that begins assembled, and along which nothing penetrates by `depth` (> 0)
+/// or more, stay within a region? Nothing: not proved with the effort of `params`, or told to stop. `tolerance` (> 0,
+/// assembly units) is the unit of lengths in `params`.
+///
+/// The proof, by approximate cell decomposition (Lozano-Perez 1983; Zhang, Kim and Manocha 2008). Interior samples stay
+/// outside of their obstacles. A box of poses around the assembled one is divided into cells; contract() bounds the
+/// free poses of each. Two cells are neighbours when these bounds touch. A motion out of the box passes through
+/// neighbours up to its border. So when no chain of neighbours leads from the cell of the assembled pose to the border,
+/// there is no such motion. Only cells on a chain that does lead there are divided further. Where chains keep leading
+/// to the same side, the box grows by a cell on that side, and the random search is sent there: what it reaches has to
+/// be in the box, and if it separates the parts there is nothing to prove.
+std::optional<ConfigurationCage> cage_by_configuration_cells(const std::vector<Solid>& a, const std::vector<Solid>& b,
+                                                             double depth, double tolerance,
+                                                             const ConfigurationCellsParams& params,
+                                                             const RunContext& context);
+
+}  // namespace dismantle::immobility
