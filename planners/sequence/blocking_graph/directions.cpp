@@ -13,12 +13,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using geometry::FaceAxis;
 
-constexpr double kSame = 1 - 1e-6;      // cosine; 0.08 degrees
-constexpr std::size_t kOwnAxes = 5;     // flat faces of a part that count
-constexpr std::size_t kCommonAxes = 6;  // of the assembly, tried for every part
-constexpr double kLeastFlat = 0.02;     // share of a part's surface that a flat face needs
+// Cosine between axes that are one: 0.08 degrees. A straight path that is off by more rubs at a long fit.
+constexpr double kSame = 1 - 1e-6;
 
-/// +1 or -1: makes the first coefficient that is not all but zero positive.
+/// The same axis with its first coefficient positive that is not zero up to rounding.
 Vec3 with_sign(const Vec3& v) {
   for (int k = 0; k < 3; ++k)
     if (std::abs(v[k]) > 1e-9) return v[k] < 0 ? Vec3(-v) : v;
@@ -26,7 +24,7 @@ Vec3 with_sign(const Vec3& v) {
 }
 
 std::vector<FaceAxis> weighted_axes(const Mesh& mesh, std::size_t most) {
-  // Normals are binned first: round surfaces have thousands.
+  // Normals are binned first, since round surfaces have thousands.
   std::map<std::array<long, 3>, FaceAxis> bins;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   double total = 0;
@@ -47,7 +45,7 @@ std::vector<FaceAxis> weighted_axes(const Mesh& mesh, std::size_t most) {
   std::vector<FaceAxis> axes;
   for (const auto& w : sorted) geometry::add_face(axes, w, kSame);
   geometry::sort_by_area(axes);
-  std::erase_if(axes, [&](const FaceAxis& w) { return w.area < kLeastFlat * total; });
+  std::erase_if(axes, [&](const FaceAxis& w) { return w.area < 0.02 * total; });  // chamfers, facets of fillets
   if (axes.size() > most) axes.resize(most);
   if (total > 0) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
@@ -65,13 +63,13 @@ std::vector<Vec3> axes_of(const Mesh& mesh, std::size_t most) {
 }
 
 Directions directions_of(const Assembly& assembly) {
-  std::vector<FaceAxis> all;  // in the order in which they are first met: indices stay
+  std::vector<FaceAxis> all;  // in the order of their first appearance, so that indices stay valid
   for (int k = 0; k < 3; ++k) all.push_back({Vec3::Unit(k), 0});
   std::vector<std::vector<std::size_t>> own(assembly.parts.size());
   std::map<const Mesh*, std::vector<FaceAxis>> known;  // copies of a part may share their mesh
   for (const auto& part : assembly.parts) {
     auto [entry, is_new] = known.try_emplace(part.mesh.get());
-    if (is_new) entry->second = weighted_axes(*part.mesh, kOwnAxes);
+    if (is_new) entry->second = weighted_axes(*part.mesh, 5);  // a box has three; two more for inclined faces
     for (const auto& w : entry->second) {
       geometry::add_face(all, w, kSame);
       for (std::size_t k = 0; k < all.size(); ++k)
@@ -82,7 +80,7 @@ Directions directions_of(const Assembly& assembly) {
   for (std::size_t k = 0; k < all.size(); ++k) by_area[k] = k;
   std::stable_sort(by_area.begin(), by_area.end(),
                    [&](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
-  if (by_area.size() > kCommonAxes) by_area.resize(kCommonAxes);
+  if (by_area.size() > 6) by_area.resize(6);  // each is tried for every part
 
   Directions result;
   for (const auto& w : all) {

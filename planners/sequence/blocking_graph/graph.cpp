@@ -59,10 +59,10 @@ std::vector<std::vector<std::size_t>> free_groups(const std::vector<std::vector<
     for (const std::size_t i : components[c]) component[i] = c;
   std::vector<std::vector<std::size_t>> free;
   for (std::size_t c = 0; c < components.size(); ++c) {
-    const bool held = std::any_of(components[c].begin(), components[c].end(), [&](std::size_t i) {
+    const bool blocked = std::any_of(components[c].begin(), components[c].end(), [&](std::size_t i) {
       return std::any_of(in_way[i].begin(), in_way[i].end(), [&](std::size_t j) { return component[j] != c; });
     });
-    if (!held) free.push_back(components[c]);
+    if (!blocked) free.push_back(components[c]);
   }
   return free;
 }

@@ -6,11 +6,6 @@
 #include "dismantle/geometry/pair_check.h"
 
 namespace dismantle::blocking {
-namespace {
-
-constexpr double kReach = 4;  // tolerances: thinner than that, parts may be penetrated by less
-
-}  // namespace
 
 PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
     : assembly_(assembly),
@@ -23,7 +18,8 @@ PairSweep::PairSweep(const Assembly& assembly, PathOracle& oracle)
 const std::vector<geometry::Solid>& PairSweep::solids(PartId part) const {
   return *memo_.get<std::vector<geometry::Solid>>("solids", part, RunContext{}, [&] {
     std::vector<geometry::Solid> solids = geometry::split_into_solids(*assembly_.parts.at(part).mesh);
-    for (geometry::Solid& solid : solids) solid.measure_thickness(kReach * tolerance_);
+    // Where a part is thinner than a few tolerances, less penetration is allowed (see geometry::Solid).
+    for (geometry::Solid& solid : solids) solid.measure_thickness(4 * tolerance_);
     return std::optional(std::move(solids));
   });
 }

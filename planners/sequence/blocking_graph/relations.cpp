@@ -10,15 +10,13 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kGrid = 1e-6;    // offsets that differ by less are the same
-constexpr double kPast = 1e-3;  // how far past, so that the verifier's margins have room
-
 }  // namespace
 
 Relations::Relations(const PairSweep& sweep, const Directions& directions, const Orientations& orientations,
                      std::shared_ptr<Executor> executor)
     : directions_(directions),
       sweep_(sweep),
+      grid_(1e-4 * sweep.tolerance()),
       shadows_(directions.all.size()),
       orientations_(orientations),
       executor_(std::move(executor)),
@@ -61,22 +59,22 @@ std::pair<double, double> Relations::extent(PartId part, std::size_t direction, 
   return {s.lo[0], s.hi[0]};
 }
 
-/// One of both ways of looking at a pair: i along d past j is j along -d past i. A proof that has a budget may tell
-/// them apart, and rounding offsets; asked like this, it does not matter who asks.
-Pair Relations::canonical(Pair p) {
+/// "i along d past j" and "j along -d past i" are one question. A sweep with a budget, and rounded offsets, could give
+/// two answers, so only one form of the question is ever computed.
+Pair Relations::canonical(Pair p) const {
   if (p.moving > p.fixed) {
     std::swap(p.moving, p.fixed);
     std::swap(p.orientation_moving, p.orientation_fixed);
     p.offset = -p.offset;
     p.direction = Directions::opposite(p.direction);
   }
-  for (double& x : p.offset) x = kGrid * std::round(x / kGrid) + 0.0;
+  for (double& x : p.offset) x = grid_ * std::round(x / grid_) + 0.0;
   return p;
 }
 
-Relations::Key Relations::key_of(const Pair& pair) {
+Relations::Key Relations::key_of(const Pair& pair) const {
   const Pair p = canonical(pair);
-  const auto grid = [](double x) { return std::lround(x / kGrid); };
+  const auto grid = [this](double x) { return std::lround(x / grid_); };
   return {p.moving,
           p.fixed,
           p.direction,
@@ -110,12 +108,13 @@ bool Relations::far(const Pair& p) const {
   return false;
 }
 
-/// Does the part fail to pass the other on its straight way?
+/// The computation of blocks().
 Relations::Ahead::Request Relations::request(const Pair& pair) const {
   const Pair p = canonical(pair);
   const Pose begin{p.offset, orientations_[p.orientation_moving]};
   Pose end = begin;
-  end.t += (distance_past(p) + kPast) * directions_.all[p.direction];
+  // A tenth of the tolerance further than past, so that the check is not about parts that just touch at the end.
+  end.t += (distance_past(p) + 0.1 * sweep_.tolerance()) * directions_.all[p.direction];
   const Pose fixed_at{Vec3::Zero(), orientations_[p.orientation_fixed]};
   return {key_of(pair), [this, p, fixed_at, path = std::vector<Pose>{begin, end}](const RunContext&) {
             return !sweep_.passes(p.moving, p.fixed, fixed_at, path);

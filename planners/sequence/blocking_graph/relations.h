@@ -1,6 +1,6 @@
-/// Who is in whose way: part j blocks part i along direction d if i, moved in a straight line along d until it is past
-/// j, would cut into it. That depends on no other part, so it is computed once (Wilson and Latombe 1994: the
-/// directional blocking graphs of an assembly).
+/// Which part blocks which: part j blocks part i along direction d if i, translated along d until it is past j,
+/// penetrates it. That depends on no other part, so it is computed once (Wilson and Latombe 1994: the directional
+/// blocking graphs of an assembly).
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace dismantle::blocking {
 
-/// Two parts as they stand, and where one of them is to go.
+/// Two parts at their poses, and the direction of one of them.
 struct Pair {
   PartId moving = 0, fixed = 0;
   std::size_t direction = 0;
@@ -26,11 +26,11 @@ struct Pair {
   std::size_t orientation_moving = 0, orientation_fixed = 0;  ///< numbers of Orientations
 };
 
-/// A pair, how the two stand to each other, and a direction; see Relations.
+/// A pair, its relative pose, and a direction; see Relations.
 using RelationKey = std::tuple<PartId, PartId, std::size_t, long, long, long, std::size_t, std::size_t>;
 
-/// What is free here is a valid straight path past one part, up to the test of convex hulls at its end. Not safe to
-/// call from several threads; idle threads of an executor, if given, help.
+/// A relation that does not block is a valid straight path past one part, up to the test of convex hulls at its end.
+/// Not safe to call from several threads; idle threads of an executor, if given, compute likely relations ahead.
 class Relations {
  public:
   /// All references must outlive this; `executor` may be null.
@@ -38,25 +38,27 @@ class Relations {
             std::shared_ptr<Executor> executor);
 
   bool blocks(const Pair& pair);
-  /// The same for many.
+  /// Computes blocks() of many pairs, in parallel.
   void compute(std::span<const Pair> pairs);
-  /// Asked for before, or far. What was found ahead does not count, so that threads do not show.
+  /// Was it asked for before, or is it far()? Answers that were only computed ahead do not count, so that results do
+  /// not depend on the number of threads.
   bool known(const Pair& pair) const;
   /// Is it known, and does it block?
   bool known_to_block(const Pair& pair) const;
-  /// Are there threads for what will probably be asked?
+  /// Are there threads that compute ahead?
   bool works_ahead() const { return blocks_ahead_.computes_ahead(); }
-  /// Is it worth telling them? They have little left.
-  bool wants_hints() const { return works_ahead() && blocks_ahead_.waiting() < kEnoughHints; }
-  /// Each list in the order in which it will be asked, until a pair is blocked. Replaces what was told before.
+  /// Do these threads have little left to do? Eight questions keep a few threads busy until the next hint.
+  bool wants_hints() const { return works_ahead() && blocks_ahead_.waiting() < 8; }
+  /// Names pairs that will probably be asked for: each list in that order, until a pair is blocked. Replaces the last
+  /// hint.
   void hint(const std::vector<std::vector<Pair>>& lists);
-  /// Certainly apart all the way, by boxes alone.
+  /// Proved by boxes alone that the part does not touch the other one.
   bool far(const Pair& pair) const;
-  /// Way along d after which `moving` is past `fixed`.
+  /// Distance along the direction after which `moving` is past `fixed`.
   double distance_past(const Pair& pair) const;
-  /// Extent of a part along a direction, turned but not translated.
+  /// Extent of a part along a direction, rotated but not translated.
   std::pair<double, double> extent(PartId part, std::size_t direction, std::size_t turn = 0) const;
-  /// How many were asked for.
+  /// Number of relations that were asked for.
   std::uint64_t computed() const { return blocks_.size(); }
 
  private:
@@ -64,9 +66,8 @@ class Relations {
     double lo[3], hi[3];  // along the direction and two across it
   };
   using Key = RelationKey;
-  static constexpr std::size_t kEnoughHints = 8;
-  static Pair canonical(Pair pair);
-  static Key key_of(const Pair& pair);
+  Pair canonical(Pair pair) const;
+  Key key_of(const Pair& pair) const;
   using Ahead = SpeculativeCache<RelationKey, bool>;
   Ahead::Request request(const Pair& pair) const;
   Shadow scene(PartId part, std::size_t direction, const Eigen::Matrix3d& turn) const;
@@ -74,7 +75,8 @@ class Relations {
 
   const Directions& directions_;
   const PairSweep& sweep_;
-  std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
+  double grid_;  // offsets are rounded to multiples of it: far below the tolerance, and above rounding of poses
+  std::vector<Eigen::Matrix3d> frames_;  // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   const Orientations& orientations_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part

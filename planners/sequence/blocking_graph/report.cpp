@@ -44,7 +44,7 @@ void Report::add_inseparable() {
   }
 }
 
-/// The oracle proves at once that a part cannot leave which is inseparable from the beginning.
+/// Parts that are inseparable from the beginning have no stored proof. The oracle repeats it without a search.
 Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
   if (const Unsolved* proof = state_.proof_of(part)) return *proof;
   Unsolved reason;

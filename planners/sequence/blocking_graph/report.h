@@ -1,4 +1,4 @@
-/// What a run says at its end: which parts are left, and why.
+/// The report at the end of a run: which parts are left, and why.
 #pragma once
 
 #include <functional>
@@ -13,9 +13,9 @@ class Report {
  public:
   /// Both must outlive this.
   Report(DisassemblyState& state, PathOracle& oracle) : state_(state), oracle_(oracle) {}
-  /// The group is left as it is. `notes`: what strategies say about their failure, added to the message of each part.
+  /// Reports the parts of a group that was given up. `notes`: of the strategies; added to the message of each part.
   void add_left(const GroupState& group, const std::string& notes);
-  /// Every part that is proved inseparable from another, with the proof.
+  /// Reports every part that is proved inseparable from another, with the proof.
   void add_inseparable();
   SequenceResult finish() const;
 

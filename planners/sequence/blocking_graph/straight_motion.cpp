@@ -8,12 +8,8 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kWave = 4;    // directions of one part that are examined together, shortest path first
-constexpr std::size_t kHints = 12;  // directions about which other threads are told in advance
-constexpr std::size_t kBatch = 16;  // pairs of a graph that are computed between two checks of the time
-constexpr double kBeyond = 1e-3;    // assembly units: how far past the last part a path leads at most
-constexpr int kHalvings = 12;       // of the path, to find where the hulls come apart
-constexpr double kClear = 0.01;     // assembly units: further than that, so that rounding when written does no harm
+constexpr std::size_t kWave = 4;    // directions of one part that are examined together, the shortest path first
+constexpr std::size_t kHints = 12;  // directions in one hint to the threads that compute ahead; never changes a plan
 
 }  // namespace
 
@@ -28,7 +24,7 @@ StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, cons
 
 void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
   refused_.clear();
-  if (change.moves_remaining())  // what was in the way may not be any more
+  if (change.moves_remaining())  // remembered blockers may have moved away
     for (auto& known : blocker_) known.clear();
   else
     for (const SubassemblyId s : change.moved) blocker_[s].clear();
@@ -43,7 +39,7 @@ Pair StraightMotion::pair_of(PartId moving, PartId fixed, std::size_t direction,
           state_.orientation(fixed)};
 }
 
-/// Questions about parts that together say whether `moving` can pass `fixed`.
+/// Pairs of parts that decide together whether `moving` can pass `fixed`.
 std::vector<Pair> StraightMotion::pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const {
   std::vector<Pair> pairs;
   for (const PartId a : state_.parts_of(moving))
@@ -74,9 +70,10 @@ std::vector<std::vector<std::size_t>> StraightMotion::blocking_graph(const Group
     for (std::size_t j = 0; j < n; ++j)
       if (i != j)
         for (const Pair& pair : pairs_of(group.members[i], group.members[j], direction)) pairs.push_back(pair);
-  for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
+  constexpr std::size_t batch = 16;  // between two polls of the deadline
+  for (std::size_t first = 0; first < pairs.size(); first += batch) {
     if (state_.stop()) return {};
-    relations_.compute(std::span(pairs).subspan(first, std::min(kBatch, pairs.size() - first)));
+    relations_.compute(std::span(pairs).subspan(first, std::min(batch, pairs.size() - first)));
   }
   std::vector<std::vector<std::size_t>> blocked_by(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -179,7 +176,7 @@ std::vector<std::size_t> StraightMotion::directions_of(const GroupState& group, 
 std::vector<Pair> StraightMotion::open_pairs(const GroupState& group, SubassemblyId unit, std::size_t direction) {
   const auto known = blocker_[unit].find(direction);
   if (known != blocker_[unit].end()) {
-    if (group.contains(known->second)) return {};  // as long as that one is there
+    if (group.contains(known->second)) return {};  // that blocker is still in the group
     blocker_[unit].erase(known);
   }
   const auto [blocker, pairs] = examine(group, unit, direction);
@@ -187,11 +184,11 @@ std::vector<Pair> StraightMotion::open_pairs(const GroupState& group, Subassembl
   return pairs;
 }
 
-/// One that is known to be in the way; else the pairs that are not known.
+/// A subassembly that is known to block; if there is none, the pairs that are not known.
 std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::examine(const GroupState& group,
                                                                                    SubassemblyId unit,
                                                                                    std::size_t direction) const {
-  std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest is the likeliest
+  std::vector<std::pair<double, Pair>> unknown;  // by gap: the nearest part is the likeliest blocker
   for (const SubassemblyId other : group.members) {
     if (other == unit) continue;
     for (const Pair& pair : pairs_of(unit, other, direction)) {
@@ -211,7 +208,7 @@ std::pair<std::optional<SubassemblyId>, std::vector<Pair>> StraightMotion::exami
   return {std::nullopt, std::move(pairs)};
 }
 
-/// Decides the directions of `unit` wave by wave, until it has a free one.
+/// Examines the directions of `unit` in waves of kWave, until one is free.
 void StraightMotion::resolve(const GroupState& group, SubassemblyId unit, std::span<const SubassemblyId> next) {
   const std::vector<std::size_t> directions = directions_of(group, unit);
   for (std::size_t first = 0; first < directions.size() && !state_.stop();) {
@@ -234,8 +231,8 @@ void StraightMotion::resolve(const GroupState& group, SubassemblyId unit, std::s
   }
 }
 
-/// Tells idle threads what will probably be asked: about `unit` in these directions, then about the first that are open
-/// of those after it.
+/// Hints at the pairs that will probably be asked for: those of `unit` in these directions, then those of the first
+/// undecided directions of the next subassemblies.
 void StraightMotion::hint(const GroupState& group, std::span<const std::size_t> directions, SubassemblyId unit,
                           std::span<const SubassemblyId> next) {
   std::vector<std::vector<Pair>> lists;
@@ -261,8 +258,8 @@ void StraightMotion::hint(const GroupState& group, std::span<const std::size_t> 
   relations_.hint(lists);
 }
 
-/// Tells idle threads what will be asked when `ids` are out: about directions that only these are known to block, and
-/// what was not asked before.
+/// Hints at the pairs that will be asked for when `ids` have left: directions in which only these are known to block,
+/// and directions that were not examined yet.
 void StraightMotion::hint_after_removal(const GroupState& group, const Subassemblies& ids) {
   GroupState left = group;
   std::erase_if(left.members, [&](SubassemblyId u) { return std::find(ids.begin(), ids.end(), u) != ids.end(); });
@@ -295,7 +292,8 @@ std::optional<std::size_t> StraightMotion::free_direction(const GroupState& grou
   if (state_.stop()) return std::nullopt;
   for (const std::size_t d : directions_of(group, unit)) {
     if (blocker_[unit].contains(d) || was_refused({unit}, d)) continue;
-    if (!open_pairs(group, unit, d).empty()) continue;  // not examined: a nearer wave had a free one, which was refused
+    // Undecided directions remain where an earlier wave had a free one that the verifier then refused.
+    if (!open_pairs(group, unit, d).empty()) continue;
     if (!blocker_[unit].contains(d)) return d;
   }
   return std::nullopt;
@@ -305,8 +303,11 @@ double StraightMotion::length_out(const GroupState& group, const Subassemblies& 
                                   const Eigen::Vector3d& shift) const {
   Attempt attempt = state_.attempt_for(group, ids);
   for (PlacedPart& p : attempt.moving) p.pose.t += shift;
-  const double most = path_length(group, ids, direction, shift) + kBeyond;
-  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most, kHalvings) + kClear;
+  // Bisects the path to a 4096th of its length, and ends one tolerance further: poses are rounded when they are
+  // written.
+  const double most = path_length(group, ids, direction, shift) + 0.1 * sweep_.tolerance();
+  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most, 12) +
+         sweep_.tolerance();
 }
 
 bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {

@@ -1,4 +1,4 @@
-/// One way of getting on with a group of subassemblies. The planner is a list of these: see strategies/.
+/// A strategy takes subassemblies out of a group, or prepares that. A planner is a list of strategies.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dismantle::blocking {
 
-/// What a strategy costs where it finds nothing, as a rule; the list is in this order.
+/// The usual cost of a strategy that finds nothing. The list is in this order.
 enum class Cost {
   pair_sweeps,       ///< straight sweeps of pairs, remembered: fractions of a second
   arrangements,      ///< a search over arrangements of parts: up to a few seconds
@@ -19,14 +19,14 @@ enum class Cost {
   long_proofs,       ///< proofs that take up to half a minute each
 };
 
-/// What the planner does next.
+/// What the planner does after a strategy.
 enum class Result {
   unchanged,  ///< the next strategy is tried
-  restart,    ///< the group has changed, or earlier strategies may find more than before: begin with the first again
-  defer,      ///< other groups come first; this group is queued behind them
+  restart,    ///< the group has changed, or earlier strategies may find more now: the first strategy is next
+  defer,      ///< this group is queued behind the others
 };
 
-/// A strategy keeps what it knows of a group (PerGroup) until it is told of a change.
+/// A strategy keeps its results for a group (PerGroup) until the group changes.
 class Strategy : public GroupListener {
  public:
   virtual std::string_view name() const noexcept = 0;
@@ -34,7 +34,7 @@ class Strategy : public GroupListener {
   /// Called with groups of two or more subassemblies. Returns early when state.stop().
   virtual Result apply(GroupState& group) = 0;
   void on_group_changed(GroupState&, const GroupChange&) override {}
-  /// What the report says about this strategy where the group was given up; empty: nothing.
+  /// A note for the report when the group was given up; may be empty.
   virtual std::string failure_note(const GroupState&) const { return {}; }
 };
 

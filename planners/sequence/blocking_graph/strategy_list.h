@@ -1,4 +1,4 @@
-/// Takes an assembly apart by a list of strategies: what the planners that know groups have in common.
+/// Disassembles by a list of strategies: shared by the sequence planners that work on groups.
 #pragma once
 
 #include <memory>
@@ -16,12 +16,12 @@ class StrategyList {
  public:
   /// Both must outlive this.
   StrategyList(DisassemblyState& state, PathOracle& oracle) : state_(state), report_(state, oracle) {}
-  /// Behind those that were added before. It is told of every change.
+  /// Appends a strategy, and makes it a listener of every change.
   void add(std::unique_ptr<Strategy> strategy);
   /// In the order in which they are tried.
   const std::vector<std::unique_ptr<Strategy>>& strategies() const { return strategies_; }
-  /// Until all groups are taken apart or given up, or the run is to stop. In each group one strategy after the other is
-  /// tried; after a change the first again.
+  /// Runs until all groups are disassembled or given up, or the run is to stop. In each group the strategies are tried
+  /// in order, and from the first again after a change.
   SequenceResult run();
 
  private:

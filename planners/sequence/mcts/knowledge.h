@@ -1,4 +1,4 @@
-/// What the answers of the oracle say about the parts that are left, and what is to be expected of the next questions.
+/// The answers of the oracle so far, and estimates of success and cost of the next searches.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +8,17 @@
 
 namespace dismantle::mcts {
 
-/// One part, as far as it is known.
 struct PartKnowledge {
   bool gone = false;
-  bool closed = false;             ///< failed, and nothing has left since: the same question has the same answer
-  bool limited = false;            ///< its last search ended at its depth limit: a deeper one is another question
+  bool closed = false;             ///< its search failed and no part has left since: the same search would fail again
+  bool limited = false;            ///< its last search ended at its depth limit: a deeper one may succeed
   unsigned depth = 1;              ///< of the next search
   double cost = 0;                 ///< of the last search; 0: none yet
-  std::vector<PartId> blockers{};  ///< what the last search, which failed, met
-  std::size_t left = 0;            ///< parts that were left then
+  std::vector<PartId> blockers{};  ///< parts that the last, unsuccessful search met
+  std::size_t left = 0;            ///< number of parts that were left at that time
 };
 
-/// A sequence of questions, real or imagined. Copies are cheap: simulations work on them.
+/// The state after a sequence of searches, real or simulated. Copies are cheap; simulations work on copies.
 class Knowledge {
  public:
   /// `max_depth`: of searches; 0 = no limit.
@@ -27,21 +26,23 @@ class Knowledge {
 
   std::size_t left() const { return left_; }
   const PartKnowledge& operator[](PartId part) const { return parts_[part]; }
-  /// Parts whose next question may have a new answer, ascending.
+  /// Parts whose next search may have a new result, ascending.
   std::vector<PartId> open() const;
 
   void removed(PartId part, double cost);
-  /// An answer that is no success. `blocked_by`: what the search met.
+  /// Records an unsuccessful search. `blocked_by`: parts that it met.
   void failed(PartId part, Outcome outcome, const std::vector<PartId>& blocked_by, double cost);
-  /// The same in a simulation, which changes no means: it leaves, or it fails for the reason that it had before.
+  /// The same in a simulation, which does not change the observed rates and costs.
   void imagine_removal(PartId part);
   void imagine_failure(PartId part);
 
-  /// Chance in [0, 1] that `part`, which is open, leaves if it is asked for now. Of a part that never failed, the share
-  /// of successes so far (Laplace's rule). Of others that, times the share of what was in the way that has left since;
-  /// where the search was limited, each level of depth has half the chance of the one before.
+  /// Estimated probability that a search for `part`, which is open, succeeds now. For a part that never failed: the
+  /// share of successes so far (Laplace's rule). For others: that, times the share of its blockers that have left
+  /// since. After a search that ended at its depth limit, each further level has half the probability of the one
+  /// before.
   double chance(PartId part) const;
-  /// Cost of the question, in means of all costs so far: twice the last one where it goes deeper.
+  /// Estimated cost of the search, in units of the mean cost so far: that of the last one, twice that if it goes
+  /// deeper.
   double cost(PartId part) const;
 
  private:

@@ -7,26 +7,27 @@
 namespace dismantle {
 
 void MctsParams::describe(Schema<MctsParams>& s) {
+  s.add("simulations", &MctsParams::simulations,
+        {.unit = "1", .min = 1, .max = 1e9, .doc = "Simulated orders for each decision about the next search."});
   s.add(
-      "simulations", &MctsParams::simulations,
-      {.unit = "1", .min = 1, .max = 1e9, .doc = "Simulated orders for each decision about what to search for next."});
-  s.add("exploration", &MctsParams::exploration,
-        {.unit = "1",
-         .min = 0,
-         .max = 1e3,
-         .doc = "Weight of what was tried seldom against what has a high value (UCT)."});
+      "exploration", &MctsParams::exploration,
+      {.unit = "1",
+       .min = 0,
+       .max = 1e3,
+       .doc = "Weight of rarely visited parts against parts of high value: the constant of UCT. 0 = only the value."});
   s.add("discount", &MctsParams::discount,
         {.unit = "1",
          .min = 0,
          .max = 1,
          .min_open = true,
-         .doc = "What a removal is worth that takes one search of mean cost: less makes cheap searches come first."});
+         .doc = "Factor on the value of a removal for each search of mean cost before it. A smaller one prefers cheap "
+                "searches; 1 ignores costs."});
   s.add("horizon", &MctsParams::horizon,
-        {.unit = "1", .min = 1, .max = 1e6, .doc = "Searches in one simulated order, at most."});
+        {.unit = "1", .min = 1, .max = 1e6, .doc = "Most searches in one simulated order."});
   s.add("max_depth", &MctsParams::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the path search; 0 = no limit."});
   s.add("max_attempts", &MctsParams::max_attempts,
-        {.unit = "1", .min = 0, .doc = "Searches that are made in all; 0 = as many as it takes."});
+        {.unit = "1", .min = 0, .doc = "Most searches of a run; 0 = no limit."});
 }
 
 SequenceResult Mcts::plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -42,7 +43,7 @@ SequenceResult Mcts::plan(const Assembly& assembly, PathOracle& oracle, Sequence
     if (choices.empty()) break;
     if (choices.size() > 1) simulations += params_.simulations;
     const PartId part = choices.front().part;
-    // Two parts that are left: whatever depth the path planner needs.
+    // The last pair needs no other order, so it is searched without a depth limit.
     const bool last_pair = params_.max_depth == 0 && knowledge.left() == 2;
     const unsigned depth = last_pair ? 0 : knowledge[part].depth;
     std::vector<PartId> next;

@@ -1,4 +1,5 @@
-/// Which part to search for next, by Monte Carlo tree search over what the searches so far let expect.
+/// Chooses the next part to search for by Monte Carlo tree search over estimates from the searches so far.
+
 #pragma once
 
 #include <cstdint>

@@ -7,17 +7,15 @@
 namespace dismantle::mcts {
 namespace {
 
-constexpr double kLeastChance = 1e-3;  // so that every open part is drawn now and then
-
 struct Node;
 
-/// A question below a node.
+/// A search below a node.
 struct Branch {
   explicit Branch(PartId id) : part(id) {}
   PartId part;
   std::uint64_t visits = 0;
   double sum = 0;
-  std::unique_ptr<Node> after[2];  // by answer: it failed, it left
+  std::unique_ptr<Node> after[2];  // by result: failed, succeeded
 };
 
 struct Node {
@@ -43,7 +41,7 @@ class Simulation {
     return open_.empty();
   }
 
-  /// True: it left.
+  /// Simulates a search. True: the part left.
   bool ask(PartId part) {
     ++asked_;
     spent_ += knowledge_.cost(part);
@@ -58,18 +56,20 @@ class Simulation {
 
   double value() const { return possible_ > 0 ? sum_ / possible_ : 0; }
 
+  /// Draws an open part in proportion to its probability of success. None has weight 0, so that every part is drawn.
   PartId draw() {
+    const auto weight = [this](PartId p) { return std::max(1e-3, knowledge_.chance(p)); };
     double total = 0;
-    for (const PartId p : open_) total += std::max(kLeastChance, knowledge_.chance(p));
+    for (const PartId p : open_) total += weight(p);
     double at = rng_.uniform() * total;
     for (const PartId p : open_) {
-      at -= std::max(kLeastChance, knowledge_.chance(p));
+      at -= weight(p);
       if (at < 0) return p;
     }
     return open_.back();
   }
 
-  /// Down the tree, one new node, and back with the value of all that follows.
+  /// Descends the tree, adds one node, completes the simulation, and backs its value up.
   void descend(Node& node) {
     if (ended()) return;
     if (node.branches.empty())

@@ -15,8 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kOnCircle = 1e-6;  // sine of the angle to a circle below which a direction lies on it
-constexpr double kSame = 1 - 1e-10;
+// Sine of the angle to a circle below which a direction lies on it. Cross products of normals from files are good to
+// about 1e-7.
+constexpr double kOnCircle = 1e-6;
 
 using Signs = std::vector<int>;  // by circle: on which side, 0 on it
 
@@ -37,7 +38,8 @@ bool bounds(const Signs& vertex, const Signs& cell) {
 }
 
 bool is_new(const std::vector<Vector3d>& known, const Vector3d& d) {
-  return std::none_of(known.begin(), known.end(), [&](const Vector3d& v) { return v.dot(d) > kSame; });
+  // The cosine of an angle of 1.4e-5: vertices closer than that are on the same circles.
+  return std::none_of(known.begin(), known.end(), [&](const Vector3d& v) { return v.dot(d) > 1 - 1e-10; });
 }
 
 std::size_t rank_of(const std::vector<Vector3d>& normals) {

@@ -19,13 +19,15 @@ void NdbgParams::describe(Schema<NdbgParams>& s) {
                {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
                 {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
                 {"large_first", PartOrder::large_first, "descending volume"}},
-               "Order in which parts are taken when several are free.");
-  s.add("circles", &NdbgParams::circles,
-        {.unit = "1",
-         .min = 0,
-         .max = 24,
-         .doc = "Great circles of the arrangement, at most: those of the flat faces with most surface. The number of "
-                "cells grows with the square. 0 = only the axes of the parts."});
+               "Order in which parts are removed when several are free.");
+  s.add(
+      "circles", &NdbgParams::circles,
+      {.unit = "1",
+       .min = 0,
+       .max = 24,
+       .doc =
+           "Most great circles of the arrangement: those of the flat faces with the most surface. The number of cells, "
+           "and so the time, grows with the square. 0 = only the axes of the parts."});
   s.add_choice("cells", &NdbgParams::cells,
                {{"vertices", NdbgCells::vertices, "where two circles cross: along two flat contacts"},
                 {"arcs", NdbgCells::arcs, "and the arcs between: along one contact"},
@@ -33,14 +35,14 @@ void NdbgParams::describe(Schema<NdbgParams>& s) {
                "Cells of the arrangement that are examined.");
   s.add(
       "groups", &NdbgParams::groups,
-      {.doc = "When no single part is free, take out the smallest subassembly that is, and take it apart by itself."});
+      {.doc = "When no single part is free, remove the smallest subassembly that is, and disassemble it separately."});
   s.add("group_proposals", &NdbgParams::group_proposals,
         {.unit = "1",
          .min = 1,
          .doc = "Subassemblies that are proposed to the verifier before a group of parts is given up."});
   s.add("searches", &NdbgParams::searches,
-        {.doc = "Where no translation takes anything out, ask the path planner for each part, round by round. Off: "
-                "blocking graphs alone."});
+        {.doc = "When no translation removes anything, run the path planner for each part, one level deeper in every "
+                "round. Off: blocking graphs alone."});
   s.add("max_depth", &NdbgParams::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
 }
@@ -48,13 +50,13 @@ void NdbgParams::describe(Schema<NdbgParams>& s) {
 namespace ndbg {
 
 blocking::Directions directions_of(const Assembly& assembly, unsigned circles, NdbgCells cells) {
-  constexpr double kSame = 1 - 1e-6;  // cosine
   blocking::Directions directions = blocking::directions_of(assembly);
   const std::size_t axes = directions.all.size();
   const auto add = [&](const std::vector<Eigen::Vector3d>& list) {
     for (const Eigen::Vector3d& d : list) {
-      if (std::any_of(directions.all.begin(), directions.all.end(),
-                      [&](const Eigen::Vector3d& known) { return std::abs(known.dot(d)) > kSame; }))
+      if (std::any_of(directions.all.begin(), directions.all.end(), [&](const Eigen::Vector3d& known) {
+            return std::abs(known.dot(d)) > 1 - 1e-6;
+          }))  // as for axes of faces
         continue;
       directions.all.push_back(d);
       directions.all.push_back(-d);
@@ -90,7 +92,7 @@ SequenceResult Ndbg::plan(const Assembly& assembly, PathOracle& oracle, Sequence
     list.add(std::make_unique<FreePart>(state, *straight));
     if (params_.groups) list.add(std::make_unique<FreeGroup>(state, *straight, params_.group_proposals));
   }
-  // Without geometry there are no graphs: then the oracle is all that can be asked.
+  // An oracle without geometry allows no sweeps, so only searches are left.
   if (params_.searches || !straight)
     list.add(std::make_unique<SearchRounds>(state, oracle, SearchRounds::Settings{.max_depth = params_.max_depth}));
   SequenceResult result = list.run();

@@ -1,5 +1,5 @@
-/// Non-directional blocking graphs (Wilson and Latombe 1994): which parts can be translated to infinity, along any
-/// direction whatever?
+/// Non-directional blocking graphs (Wilson and Latombe 1994): the parts and groups that some translation to infinity
+/// removes.
 #pragma once
 
 #include "blocking_graph/directions.h"
@@ -36,8 +36,8 @@ class Ndbg final : public SequencePlanner {
 
 namespace ndbg {
 
-/// The axes of the parts (a round surface lets its part go along its axis: there all circles of its normals cross),
-/// then one direction of each cell of the arrangement.
+/// The axes of the parts, then one direction of each cell of the arrangement. The axis of a round surface is the point
+/// in which the circles of all its normals cross.
 blocking::Directions directions_of(const Assembly& assembly, unsigned circles, NdbgCells cells);
 
 }  // namespace ndbg

@@ -4,6 +4,6 @@
 
 DISMANTLE_PLUGIN("dismantle.ndbg", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::SequencePlanner, dismantle::Ndbg, dismantle::NdbgParams>(
-      "ndbg", "Non-directional blocking graphs alone: parts and groups that a translation takes out.",
+      "ndbg", "Non-directional blocking graphs alone: parts and groups that a translation removes.",
       {.source = "Wilson and Latombe 1994"});
 }

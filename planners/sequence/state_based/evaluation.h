@@ -6,12 +6,12 @@
 
 namespace dismantle::state_based {
 
-/// Sorts `ids`, all of the group, the most promising first; the housing last. Directions along which the housing is
-/// in the way do not count: it is what remains.
-/// - fewest_blockers: the fewest others in the way of it, from any state along any direction; of equals the most
-/// useful;
-/// - most_useful: the use of a part is the sum of its shares in the smallest sets that are in the way of others; of
-///   equals the one with fewest blockers.
+/// Sorts `ids`, all of the group, the most promising first and the housing last. Directions along which the housing
+/// blocks do not count, since it is what remains.
+/// - fewest_blockers: the part with the smallest set of blockers, from any state along any direction; ties: the most
+///   useful;
+/// - most_useful: the use of a part is the sum of its shares in the smallest sets that block others; ties: the fewest
+///   blockers.
 Subassemblies by_evaluation(const blocking::DisassemblyState& state, const MotionStates& states,
                             const GroupState& group, Subassemblies ids, StateBasedEvaluation evaluation);
 

@@ -41,7 +41,7 @@ Subassemblies MotionStates::in_way(const GroupState& group, SubassemblyId id, co
   return found;
 }
 
-/// How far it goes until it meets the first of those in the way, which is noted.
+/// The distance until the part meets the first blocker, which is stored in `translation`.
 double MotionStates::free_distance(SubassemblyId id, const State& state, std::size_t direction,
                                    Translation& translation) const {
   const PartId part = state_.part_of(id);
@@ -66,7 +66,7 @@ double MotionStates::free_distance(SubassemblyId id, const State& state, std::si
       nearest = lo;
       translation.first = other;
       if (nearest < params_.least_step * tolerance_)
-        return nearest;  // not worth a step: who is met first does not matter
+        return nearest;  // too short to be kept, so it does not matter which blocker is first
     }
   return std::max(0.0, nearest - params_.retreat * tolerance_);
 }

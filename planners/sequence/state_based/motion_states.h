@@ -1,5 +1,5 @@
-/// The states to which translations take a part, kept for the whole run: what is found while others are in the way is
-/// gone on from when they have left.
+/// The states to which translations take a part. They are kept for the whole run: states that were found while other
+/// parts were in the way are extended when these have left.
 #pragma once
 
 #include <cstddef>
@@ -18,42 +18,42 @@ using blocking::Subassemblies;
 using blocking::SubassemblyId;
 
 struct MotionStateParams {
-  std::size_t states = 24;  ///< of one part, at most
-  unsigned stops = 1;       ///< of one translation: at contact, and evenly spaced before
+  std::size_t states = 24;  ///< most states of one part
+  unsigned stops = 1;       ///< states per translation: at contact, and evenly spaced before it
   unsigned halvings = 12;
   double retreat = 1;      ///< from contact; tolerances of the verifier
   double least_step = 20;  ///< shortest translation that is kept; tolerances of the verifier
 };
 
-/// The blocking graph of each part, enriched with its motion states: from every state and along every direction, what
-/// is in the way.
+/// The blocking graph of each part, enriched with its motion states: the blockers from every state along every
+/// direction.
 class MotionStates {
  public:
   /// `tolerance`: of the verifier, assembly units. All references must outlive this.
   MotionStates(blocking::DisassemblyState& state, blocking::StraightMotion& straight, const blocking::PairSweep& sweep,
                double tolerance, const MotionStateParams& params);
 
-  /// Waypoints of a path that takes out a single part: translations since its pose in the group, the first zero. Goes
-  /// on with the states that it has, breadth first; nothing: no path through at most params.states of them. Paths that
-  /// were refused since the group changed are not found again.
+  /// Waypoints of a path that removes a single part: translations from its pose in the group, the first zero. Extends
+  /// the known states, breadth first; nothing: no path through at most params.states of them. Paths that were refused
+  /// since the group changed are not found again.
   std::optional<std::vector<Eigen::Vector3d>> path_out(const GroupState& group, SubassemblyId id);
   /// The checker refused the last path of this part.
   void refuse(SubassemblyId id);
   void on_group_changed() { refused_.clear(); }
 
-  /// Of all states of the part and all directions, the smallest set of others that is in the way, where `stays` (which
-  /// will not be removed) is not among them. Nothing: it always is.
+  /// The smallest set of blockers over all states of the part and all directions, among the sets without `stays` (which
+  /// will not be removed). Nothing: all sets contain it.
   std::optional<Subassemblies> fewest_blockers(const GroupState& group, SubassemblyId id, SubassemblyId stays) const;
   std::size_t size(SubassemblyId id) const;
   std::uint64_t states() const;  ///< of all parts
-  /// Examinations that the states kept from before made needless: they would have been made anew from the assembly.
+  /// Examinations that were saved because the states are kept.
   std::uint64_t kept() const { return kept_; }
 
  private:
   struct Translation {
     bool examined = false;
-    Subassemblies in_way;     ///< all that is in the way to infinity, when it was examined
-    SubassemblyId first = 0;  ///< the one that is met first; as long as it is there, nothing changes
+    Subassemblies in_way;     ///< all blockers up to infinity, when it was examined
+    SubassemblyId first = 0;  ///< the one that is met first; while it is in the group, the result stays valid
   };
   struct State {
     Eigen::Vector3d at;  ///< translation since the pose in the group

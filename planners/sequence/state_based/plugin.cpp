@@ -4,6 +4,6 @@
 
 DISMANTLE_PLUGIN("dismantle.state_based", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::SequencePlanner, dismantle::StateBased, dismantle::StateBasedParams>(
-      "state_based", "Translations before rotations; motion states are kept; parts chosen by what holds them.",
+      "state_based", "Translations before rotations; motion states are kept; parts are chosen by their blockers.",
       {.source = "in the manner of Lei, Lipovetzky and Ehinger, AAAI 2025"});
 }

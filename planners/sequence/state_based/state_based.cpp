@@ -11,32 +11,36 @@
 #include "state_based/translate_out.h"
 
 namespace dismantle {
-namespace {
-
-constexpr unsigned kGroupProposals = 8;
-
-}  // namespace
 
 void StateBasedParams::describe(Schema<StateBasedParams>& s) {
   s.add_choice("order", &StateBasedParams::order,
                {{"small_first", PartOrder::small_first, "ascending volume: screws and pins before the housing"},
                 {"as_given", PartOrder::as_given, "as the assembly lists its parts"},
                 {"large_first", PartOrder::large_first, "descending volume"}},
-               "Order in which translations are tried, and searches that are evaluated alike.");
+               "Order in which translations are tried, and searches of parts with equal evaluation.");
   s.add_choice("evaluation", &StateBasedParams::evaluation,
                {{"fewest_blockers", StateBasedEvaluation::fewest_blockers,
-                 "the part that the fewest others hold, from any state that it has reached"},
-                {"most_useful", StateBasedEvaluation::most_useful, "the part that holds most others"}},
-               "Which part is searched for first where translations take none out.");
+                 "the part that the fewest others block, from any state that it has reached"},
+                {"most_useful", StateBasedEvaluation::most_useful, "the part that blocks the most others"}},
+               "Which part is searched for first when no translation removes one.");
   s.add("states", &StateBasedParams::states,
-        {.unit = "1", .min = 1, .max = 1e5, .doc = "Motion states of one part that translations may reach, at most."});
+        {.unit = "1",
+         .min = 1,
+         .max = 1e5,
+         .doc = "Most motion states of one part. A part that needs a path of many short translations needs more; time "
+                "grows in proportion."});
   s.add("stops", &StateBasedParams::stops,
         {.unit = "1",
          .min = 1,
          .max = 100,
-         .doc = "States that one translation leads to: at contact, and evenly spaced on the way there."});
+         .doc =
+             "States that one translation leads to: at contact, and evenly spaced on the way there. Only more than one "
+             "finds an opening beside the path."});
   s.add("halvings", &StateBasedParams::halvings,
-        {.unit = "1", .min = 1, .max = 50, .doc = "Bisections to find where a translation meets a part."});
+        {.unit = "1",
+         .min = 1,
+         .max = 50,
+         .doc = "Bisections to find where a translation meets a part: 12 give a 4096th of its length."});
   s.add("retreat", &StateBasedParams::retreat,
         {.unit = "verify.max_penetration", .min = 0, .max = 1e6, .doc = "How far before contact a translation stops."});
   s.add("least_step", &StateBasedParams::least_step,
@@ -46,13 +50,16 @@ void StateBasedParams::describe(Schema<StateBasedParams>& s) {
          .min_open = true,
          .doc = "Shortest translation that is kept, and least distance between two states."});
   s.add("groups", &StateBasedParams::groups,
-        {.doc = "Where no single part is free, take out the smallest group that is."});
-  s.add(
-      "searches", &StateBasedParams::searches,
-      {.doc = "Where translations take nothing out, ask the path planner for each part, round by round: that is where "
-              "rotations come in."});
+        {.doc = "When no single part is free, remove the smallest group that is."});
+  s.add("group_proposals", &StateBasedParams::group_proposals,
+        {.unit = "1",
+         .min = 1,
+         .doc = "Subassemblies that are proposed to the verifier before a group of parts is given up."});
+  s.add("searches", &StateBasedParams::searches,
+        {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every round. "
+                "Only this finds rotations."});
   s.add("resume", &StateBasedParams::resume,
-        {.doc = "Searches by the path planner, too, go on with the states that they had when others were in the way."});
+        {.doc = "A search by the path planner resumes the last one of the same part."});
   s.add("max_depth", &StateBasedParams::max_depth,
         {.unit = "1", .min = 0, .max = 1e6, .doc = "Largest depth of the searches; 0 = no limit."});
 }
@@ -77,12 +84,12 @@ SequenceResult StateBased::plan(const Assembly& assembly, PathOracle& oracle, Se
     state.add_listener(*straight);
     list.add(std::make_unique<FreePart>(state, *straight));
     list.add(std::make_unique<state_based::TranslateOut>(state, *states, oracle));
-    if (params_.groups) list.add(std::make_unique<FreeGroup>(state, *straight, kGroupProposals));
+    if (params_.groups) list.add(std::make_unique<FreeGroup>(state, *straight, params_.group_proposals));
     order = [&](const GroupState& group, const Subassemblies& ids) {
       return state_based::by_evaluation(state, *states, group, ids, params_.evaluation);
     };
   }
-  // Without geometry there are no states: then the oracle is all that can be asked.
+  // An oracle without geometry allows no sweeps, so only searches are left.
   if (params_.searches || !straight)
     list.add(std::make_unique<SearchRounds>(state, oracle, SearchRounds::Settings{params_.max_depth, params_.resume},
                                             std::move(order)));

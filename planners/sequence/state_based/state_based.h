@@ -1,5 +1,5 @@
-/// Translations before rotations, motion states that are kept, parts chosen by blocking graphs enriched with states: in
-/// the manner of Lei, Lipovetzky and Ehinger (AAAI 2025).
+/// Translations before rotations, motion states that are kept for the whole run, and parts chosen by blocking graphs
+/// enriched with states: in the manner of Lei, Lipovetzky and Ehinger (AAAI 2025).
 #pragma once
 
 #include "dismantle/parameters.h"
@@ -20,6 +20,7 @@ struct StateBasedParams {
   double retreat = 1;
   double least_step = 20;
   bool groups = false;
+  unsigned group_proposals = 8;
   bool searches = true;
   bool resume = true;
   unsigned max_depth = 0;

@@ -1,4 +1,5 @@
-/// Removes a single part along several translations, through states that are kept.
+/// Removes a single part by several translations, through its motion states.
+
 #pragma once
 
 #include "blocking_graph/strategy.h"

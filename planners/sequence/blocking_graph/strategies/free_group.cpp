@@ -19,7 +19,7 @@ Result FreeGroup::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Fewest parts first. What is left of a group could move the other way just as well: the smaller side moves.
+/// Fewest parts first. Moving a group along d or the rest along -d separates them alike, so the smaller one moves.
 std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group) {
   std::vector<Candidate> found;
   const auto candidate = [&](Subassemblies ids, std::size_t direction) {
@@ -46,7 +46,7 @@ std::vector<FreeGroup::Candidate> FreeGroup::candidates(const GroupState& group)
   return found;
 }
 
-/// The search for partial translations ends where a group is free, and names it, so these need no second examination.
+/// Partial translations need no second examination: the search for them ends where a group is free, and names it.
 void FreeGroup::on_group_changed(GroupState& group, const GroupChange& change) {
   if (change.kind != GroupChange::Kind::translated) done_[group] = false;
 }

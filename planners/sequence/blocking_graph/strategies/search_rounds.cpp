@@ -4,11 +4,6 @@
 #include <span>
 
 namespace dismantle::blocking {
-namespace {
-
-constexpr std::size_t kAheadPerThread = 2;  // searches hinted per thread
-
-}  // namespace
 
 Attempt SearchRounds::question(const GroupState& group, SubassemblyId id, unsigned depth) const {
   Attempt attempt = state_.attempt_for(group, {id});
@@ -17,16 +12,17 @@ Attempt SearchRounds::question(const GroupState& group, SubassemblyId id, unsign
   return attempt;
 }
 
-/// True: it left.
+/// True: the subassembly was removed.
 bool SearchRounds::search(GroupState& group, SubassemblyId id, unsigned depth, std::span<const SubassemblyId> next) {
   RunContext& context = state_.context();
   const PartId part = state_.part_of(id);
   state_.show_progress(part);
   const Attempt attempt = question(group, id, depth);
-  // A search that resumes another one depends on what was asked before: nothing is to be asked ahead of it.
+  // The answer of a search that resumes another one depends on the order of questions, so it is never computed ahead.
   if (context.threads > 1 && !settings_.resume) {
     std::vector<Attempt> ahead{attempt};
-    for (const SubassemblyId other : next.first(std::min(next.size(), kAheadPerThread * context.threads)))
+    // Two searches per thread keep all threads busy while one search takes long.
+    for (const SubassemblyId other : next.first(std::min<std::size_t>(next.size(), 2 * context.threads)))
       ahead.push_back(question(group, other, depth));
     oracle_.prefetch(ahead, context);
   }
@@ -50,13 +46,13 @@ Result SearchRounds::apply(GroupState& group) {
   for (const SubassemblyId s : group.members)
     if (state_.is_single(s) && state_.may_leave(group, {s})) ids.push_back(s);
   if (order_) ids = order_(group, ids);
-  // Two parts that are left: whatever depth the path planner needs.
+  // The last pair needs no other order, so it is searched without a depth limit.
   const bool last_pair = group.is_pair() && settings_.max_depth == 0;
   Round& round = rounds_[group];
   const unsigned depth = last_pair ? 0 : round.depth;
   std::erase_if(ids, [&](SubassemblyId s) {
     const auto known = round.last.find(state_.part_of(s));
-    return known != round.last.end() && known->second != Outcome::depth_limit;  // more depth finds nothing more
+    return known != round.last.end() && known->second != Outcome::depth_limit;  // a deeper search finds nothing new
   });
   for (std::size_t k = 0; k < ids.size() && !state_.stop(); ++k)
     if (search(group, ids[k], depth, std::span(ids).subspan(k + 1))) return Result::restart;

@@ -1,5 +1,5 @@
 /// Rounds of searches by the path planner for single parts, one action deeper whenever no part left (Tian et al. 2022,
-/// Algorithm 2). Knows of nothing but the searches; `blocking` has a cleverer one.
+/// Algorithm 2). `blocking` has a strategy of its own that orders searches by cost.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ class SearchRounds final : public Strategy {
     unsigned max_depth = 0;  ///< 0 = no limit
     bool resume = false;     ///< each search resumes the last one of the same part (Attempt::resume)
   };
-  /// Those of the group that may leave, in the order in which they are to be searched for.
+  /// Sorts the subassemblies of the group that may leave into the order of the searches.
   using Order = std::function<Subassemblies(const GroupState& group, const Subassemblies& ids)>;
 
   /// `order`: empty: as the group lists them. All references must outlive this.

@@ -1,4 +1,4 @@
-// Who is in whose way does not depend on who is asked, on which thread, and what was told ahead.
+// Relations do not depend on the thread that computes them, on the order of questions, or on hints.
 #include "blocking_graph/relations.h"
 
 #include <gtest/gtest.h>
