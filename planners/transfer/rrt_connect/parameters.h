@@ -15,19 +15,22 @@ struct Parameters {
   double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t max_checks = 30'000;
+  int max_refused = 10;
 
   static void describe(Schema<Parameters>& s) {
     s.add("straight_first", &Parameters::straight_first,
-          {.doc = "Try to lift the part, turn it, carry it over everything and put it down before any tree is grown."});
+          {.doc =
+               "Before any tree is grown, try to lift the part, rotate it, carry it over everything and put it down."});
     s.add("clearance", &Parameters::clearance,
-          {.unit = "unit", .min = 0, .doc = "What a part that is carried over others keeps off them."});
+          {.unit = "unit", .min = 0, .doc = "Height above all other parts at which a part is carried over them."});
     s.add("range", &Parameters::range,
           {.unit = "unit", .min = 0, .min_open = true, .doc = "Longest extension of a tree."});
     s.add("step", &Parameters::step,
           {.unit = "unit",
            .min = 1e-5,
            .max = 1,
-           .doc = "Extensions are checked every so far; largest way of any point of the part."});
+           .doc = "Distance between checked states of an extension: the largest displacement of any point of the part. "
+                  "Smaller steps miss fewer thin obstacles and take more checks."});
     s.add("tolerance_share", &Parameters::tolerance_share,
           {.unit = "1",
            .min = 0,
@@ -35,7 +38,14 @@ struct Parameters {
            .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding."});
     s.add("simplify", &Parameters::simplify, {.doc = "Replace detours by straight motions where these are free."});
     s.add("max_checks", &Parameters::max_checks,
-          {.unit = "1", .min = 0, .doc = "State checks for one transfer; 0 = no limit but those of the run."});
+          {.unit = "1", .min = 0, .doc = "Most state checks for one transfer; 0 = only the limits of the run apply."});
+    s.add(
+        "max_refused", &Parameters::max_refused,
+        {.unit = "1",
+         .min = 1,
+         .max = 1e6,
+         .doc = "Paths of the trees that the verifier may refuse. Where simulator and verifier disagree, more paths of "
+                "the same kind hardly help."});
   }
 };
 

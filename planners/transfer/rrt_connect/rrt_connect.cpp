@@ -22,14 +22,14 @@ class RrtConnect final : public TransferPlanner {
     PathResult result;
     Pose goal;
     if (!displacement_to_goal(query, goal)) {
-      result.fail(Outcome::unsupported, "the group would have to change its shape on the way");
+      result.fail(Outcome::unsupported, "the goal is not a rigid displacement of the group");
       return result;
     }
     if (parameters_.straight_first && goes_straight(query, context, result)) return result;
     const Capabilities has = query.simulator.capabilities();
     if (!has.distance || has.max_moving < query.scene.moving.size()) {
       result.fail(Outcome::unsupported,
-                  "no straight way, and trees need a simulator with distance queries for all moving parts");
+                  "no straight path, and trees need a simulator with distance queries for all moving parts");
       return result;
     }
     const auto grow =

@@ -10,11 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRigid = 1e-7;  // assembly units
-
-/// How far things reach in direction `v`. Of most, their boxes tell that others reach further.
-double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<PlacedPart>& parts,
-             const Pose& displacement, const Vector3d& v) {
+/// The largest coordinate of the parts in direction `v`. Vertices are visited only of parts whose box reaches further
+/// than the others.
+double reach(const Assembly& assembly, PartBoxes& boxes, const std::vector<PlacedPart>& parts, const Pose& displacement,
+             const Vector3d& v) {
   double most = -std::numeric_limits<double>::infinity();
   std::vector<double> tops;
   for (const auto& p : parts)
@@ -39,7 +38,11 @@ bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
   displacement = query.goal[0] * moving[0].pose.inverse();
   for (std::size_t i = 1; i < moving.size(); ++i) {
     const Pose there = displacement * moving[i].pose;
-    if ((there.t - query.goal[i].t).norm() > kRigid || angle_between(there.q, query.goal[i].q) > kRigid) return false;
+    // Poses are read from files with about ten digits.
+    constexpr double rounding = 1e-8;
+    const double size = displacement.t.norm() + moving[i].pose.t.norm();
+    if ((there.t - query.goal[i].t).norm() > rounding * size || angle_between(there.q, query.goal[i].q) > 10 * rounding)
+      return false;
   }
   return true;
 }
@@ -97,7 +100,7 @@ Path StraightTransfers::path_of(const std::vector<Pose>& displacements) const {
 Path StraightTransfers::over(const Vector3d& v) const {
   const bool turns = angle_between(goal_.q, Eigen::Quaterniond::Identity()) > 1e-9;
   const Vector3d there = goal_ * center_;
-  // A group that turns takes the room of its ball; one that does not, only its own.
+  // A group that rotates needs the room of its bounding sphere, another one only its own.
   const double own_start = -reach(query_.assembly, boxes_, query_.scene.moving, {}, -v);
   const double own_goal = -reach(query_.assembly, boxes_, query_.scene.moving, goal_, -v);
   const double lowest_start = turns ? v.dot(center_) - radius_ : own_start;

@@ -1,4 +1,4 @@
-/// Transfers that need no search: lift, turn, carry over everything, put down.
+/// Transfers that need no search: lift, rotate, carry over everything, put down.
 #pragma once
 
 #include <cstddef>
@@ -28,9 +28,9 @@ class PartBoxes {
   std::vector<Known> known_;  // by part
 };
 
-/// Candidate paths, the most promising first: over everything on the side `up`, below everything, straight from place
-/// to place, around on the other four sides. The group turns about its middle where all else is at least `clearance`
-/// (assembly units) away. Each is computed when it is asked for, since the first is mostly free.
+/// Candidate paths, the most promising first: over everything on the side `up`, below everything, straight from start
+/// to goal, around on the other four sides. The group rotates about its centre where all other parts are at least
+/// `clearance` (assembly units) away. Each is computed when it is asked for, since the first is mostly free.
 class StraightTransfers {
  public:
   /// `query` and `boxes` must outlive this.

@@ -17,11 +17,6 @@ using sampling::CheckBudget;
 using sampling::ConnectTrees;
 using sampling::SamplingProblem;
 
-/// State checks without turns where nothing else limits them.
-constexpr std::uint64_t kChecksWithoutTurns = 10'000;
-/// Paths that the verifier may refuse: where simulator and verifier differ, more paths of the same kind do not help.
-constexpr int kMostRefused = 10;
-
 void grow(const Parameters& parameters, const TransferQuery& query, const Pose& goal, RunContext& context,
           PathResult& result) {
   PathQuery removal{query.assembly, query.simulator, query.prepared, query.scene,
@@ -32,12 +27,13 @@ void grow(const Parameters& parameters, const TransferQuery& query, const Pose& 
   CheckBudget budget(removal, context);
   sampling::CandidatePaths candidates(query.checker, parameters.simplify);
 
-  // Without a turn to make, a quarter of the budget goes to searching without turns.
+  // When start and goal have the same orientation, a quarter of the budget goes to a search among translations.
   const bool turns = angle_between(goal.q, Eigen::Quaterniond::Identity()) > 1e-9;
   result.fail(Outcome::timeout);
   for (const MotionSpace motion : {MotionSpace::translation, MotionSpace::rigid}) {
     if (motion == MotionSpace::translation && turns) continue;
-    const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : most > 0 ? most / 4 : kChecksWithoutTurns;
+    const std::uint64_t budgeted = most > 0 ? most : static_cast<std::uint64_t>(Parameters{}.max_checks);
+    const std::uint64_t limit = motion == MotionSpace::rigid ? 0 : budgeted / 4;
     SamplingProblem problem(removal, motion, parameters.tolerance_share * query.tolerance, parameters.step, budget,
                             goal);
     ConnectTrees trees(problem, parameters.range, context.rng.fork(motion == MotionSpace::translation ? 1 : 2));
@@ -51,7 +47,7 @@ void grow(const Parameters& parameters, const TransferQuery& query, const Pose& 
     trees.setProblemDefinition(definition);
     const ob::PlannerTerminationCondition stop([&] { return budget.spent() || (limit > 0 && budget.checks >= limit); });
     ob::PlannerStatus status = ob::PlannerStatus::TIMEOUT;
-    for (int shown = 0; shown < kMostRefused && !stop(); ++shown) {
+    for (int shown = 0; shown < parameters.max_refused && !stop(); ++shown) {
       status = trees.solve(stop);
       if (status != ob::PlannerStatus::EXACT_SOLUTION) break;
       std::size_t edge = 0;  // not used: both trees begin anew

@@ -5,8 +5,8 @@
 #include "dismantle/transfer_planner.h"
 #include "parameters.h"
 
-/// What the library exports. `goal`: the displacement to find a way for; the simulator has distance queries for what
-/// moves.
+/// What the library exports. `goal`: the displacement to find a path for; the simulator has distance queries for the
+/// moving parts.
 extern "C" __attribute__((visibility("default"))) void dismantle_connect_by_trees(
     const dismantle::rrt_connect::Parameters& parameters, const dismantle::TransferQuery& query,
     const dismantle::Pose& goal, dismantle::RunContext& context, dismantle::PathResult& result);
