@@ -1,5 +1,5 @@
-/// What a run of `blocking` knows: the subassemblies and where they stand, the groups that still hang together, and the
-/// removals made so far.
+/// The state of a disassembly: the subassemblies and their poses, the groups that are not separated yet, and the
+/// removals so far.
 #pragma once
 
 #include <cstddef>
@@ -15,61 +15,61 @@
 
 namespace dismantle::blocking {
 
-/// A subassembly is moved as one: a single part, or parts that a constraint keeps together or that are proved
+/// A subassembly moves as one rigid body: a single part, or parts that a constraint keeps together or that are proved
 /// inseparable. Subassemblies are numbered in the order in which they are tried.
 using SubassemblyId = std::size_t;
 using Subassemblies = std::vector<SubassemblyId>;
 
 /// Subassemblies that have not been separated from each other. A run begins with one group of all of them; each removal
-/// splits a group in two. `members`, `id` and `initial` say what the group is; the rest is how far the searches for it
-/// have got, as far as more than one strategy needs it. What one strategy alone needs it keeps for itself (PerGroup).
+/// splits a group in two. `members`, `id` and `initial` define the group. The rest is progress of searches that more
+/// than one strategy uses; data of a single strategy is in a PerGroup of that strategy.
 struct GroupState {
   std::size_t id = 0;     ///< different for every group of a run
   Subassemblies members;  ///< in the order in which they are tried
-  bool initial = false;   ///< the group of the beginning, without what has left it
+  bool initial = false;   ///< the first group of the run, without the parts that have left it
 
   unsigned search_depth = 1;        ///< of the next round of path searches; grows by one with every unsuccessful round
   bool searches_exhausted = false;  ///< deeper rounds would find nothing more, or are not allowed
-  bool searches_finished = false;   ///< so are unlimited searches for pairs, and the postponed ones
-  Subassemblies waiting;            ///< those whose last search reached its depth limit, in the order of the next round
+  bool searches_finished = false;   ///< unlimited searches for pairs and postponed ones are exhausted, too
+  Subassemblies waiting;  ///< members whose last search reached its depth limit, in the order of the next round
 
   unsigned pair_depth = 1;     ///< groups of two: depth of the last search of the pair, doubled each time
   bool pair_finished = false;  ///< groups of two: searched without limit, or deeper searches would find nothing more
 
-  bool translations_limited = false;    ///< the last search for partial translations ran out of its effort
-  bool translations_exhausted = false;  ///< it visited all arrangements, and none frees anything
+  bool translations_limited = false;    ///< the last search for partial translations spent its budget
+  bool translations_exhausted = false;  ///< that search visited all arrangements, and none frees a part
 
   bool contains(SubassemblyId member) const;
   bool is_pair() const { return members.size() == 2; }
 };
 
-/// What has happened to a group.
+/// A change of a group.
 struct GroupChange {
   enum class Kind {
-    removed,      ///< the moved ones have left the group together
-    translated,   ///< they were translated, and stay in the group
-    rotated,      ///< they were rotated where they are, and stay in the group
-    one_removed,  ///< several moved, each in its own way: one has left, the others stay where they came to
-    merged,       ///< they are one subassembly from now on, under the number of the first
+    removed,      ///< the moved subassemblies have left the group together
+    translated,   ///< they were translated and stay in the group
+    rotated,      ///< they were rotated in place and stay in the group
+    one_removed,  ///< several moved simultaneously: one has left, the others stay in the group at their new poses
+    merged,       ///< they were merged into one subassembly with the number of the first
   };
   Kind kind = Kind::removed;
   Subassemblies moved;
 
-  /// Have some of those that stay in the group been moved?
+  /// Did subassemblies move that stay in the group?
   bool moves_remaining() const {
     return kind == Kind::translated || kind == Kind::rotated || kind == Kind::one_removed;
   }
 };
 
-/// Told of every change.
+/// Receives every change.
 class GroupListener {
  public:
   virtual ~GroupListener() = default;
-  /// Poses are those after the change; `group.members` still has those that leave.
+  /// Called after poses have changed; `group.members` still has the subassemblies that leave.
   virtual void on_group_changed(GroupState& group, const GroupChange& change) = 0;
 };
 
-/// Data of one strategy for each group that it has dealt with.
+/// Data of one strategy by group.
 template <class T>
 class PerGroup {
  public:
@@ -83,7 +83,7 @@ class PerGroup {
   std::map<std::size_t, T> data_;
 };
 
-/// Parts that are inseparable before anything is tried.
+/// Pairs that are known to be inseparable from the beginning.
 using InseparablePairs = std::vector<std::pair<PartId, PartId>>;
 
 class DisassemblyState {
@@ -98,20 +98,20 @@ class DisassemblyState {
 
   // Subassemblies.
   std::size_t subassemblies() const { return parts_.size(); }
-  /// Ascending. None: it was merged into another.
+  /// Ascending. Empty: it was merged into another.
   const std::vector<PartId>& parts_of(SubassemblyId id) const { return parts_[id]; }
   std::vector<PartId> parts_of(const Subassemblies& ids) const;
   bool is_single(SubassemblyId id) const { return parts_[id].size() == 1; }
-  /// The part of a single one, or the first.
+  /// Its only part, or the first.
   PartId part_of(SubassemblyId id) const { return parts_[id].front(); }
   SubassemblyId subassembly_of(PartId part) const { return of_part_[part]; }
   bool is_base(PartId part) const;
   /// Is a part of it proved inseparable from another?
   bool is_inseparable(SubassemblyId id) const;
   bool is_inseparable(PartId part) const { return inseparable_[part]; }
-  /// Why, where that was proved in the course of the run; else null.
+  /// The proof that `part` is inseparable, if it was found during the run; else null.
   const Unsolved* proof_of(PartId part) const;
-  /// The one with the largest box.
+  /// The member with the largest box.
   SubassemblyId housing_of(const GroupState& group) const;
 
   // Poses.
@@ -126,21 +126,21 @@ class DisassemblyState {
   const std::deque<GroupState>& waiting() const { return waiting_; }
   /// Do the constraints let `ids` leave the others of the group?
   bool may_leave(const GroupState& group, const Subassemblies& ids) const;
-  /// Those of the group that are not among `ids`, in its order.
+  /// The other members of the group, in its order.
   Subassemblies others(const GroupState& group, const Subassemblies& ids) const;
-  /// `ids` leave the others of the group.
+  /// The attempt to remove `ids` from the others of the group.
   Attempt attempt_for(const GroupState& group, const Subassemblies& ids) const;
 
-  // Changes. Listeners are told of each.
+  // Changes. Listeners receive each.
   void add_listener(GroupListener& listener) { listeners_.push_back(&listener); }
-  /// Records a successful answer: notes where the parts are now, and which of them left the group.
+  /// Records a successful answer: the new poses, and which subassemblies have left the group.
   void commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt, const AttemptResult& answer,
               GroupChange::Kind kind);
-  /// Makes one subassembly of all that have one of `parts`, which are proved inseparable.
+  /// Merges all subassemblies that contain one of `parts`, which are proved inseparable.
   void merge(GroupState& group, const std::vector<PartId>& parts, const Certificate& proof);
 
   // Progress and result.
-  /// The run is to end: it was interrupted, or the target is out.
+  /// Should the run end? It was interrupted, or the target is removed.
   bool stop();
   bool interrupted() const { return interrupted_; }
   bool target_removed() const { return target_removed_; }
@@ -148,7 +148,8 @@ class DisassemblyState {
   void count(const std::string& name, double amount = 1) { counts_[name] += amount; }
   const std::map<std::string, double>& counts() const { return counts_; }
   const std::vector<Removal>& removals() const { return removals_; }
-  /// The last failure that is known of a part, for the report.
+  /// The last known failure of a part, for the report.
+
   void set_failure(Unsolved failure) { failures_[failure.part] = std::move(failure); }
   const Unsolved* failure_of(PartId part) const;
 
