@@ -37,6 +37,22 @@ class Overlap(CliTest):
                 if not forced:
                     self.assertEqual([s["moves"] for s in off["disassembly"]], [s["moves"] for s in plan["disassembly"]])
 
+    def test_a_false_region_of_an_overlap_is_refused(self):
+        self.run_program("sample", "gear_pair", "-o", "in", "-q", status=0)
+        plan = self.plan("in", status=0)
+        named = [o for step in plan["disassembly"] for o in step.get("overlaps", []) if "region" in o]
+        self.assertTrue(named)
+        for lo_shift, hi_shift in [(-5, 5), (0, 5), (1, 1)]:
+            with self.subTest((lo_shift, hi_shift)):
+                edited = json.loads(self.read("out", "plan.json"))
+                for step in edited["disassembly"]:
+                    for overlap in step.get("overlaps", []):
+                        lo, hi = overlap["region"]
+                        overlap["region"] = [[x + lo_shift for x in lo], [x + hi_shift for x in hi]]
+                self.write("false.json", json.dumps(edited))
+                done = self.run_program("verify", "false.json", status=1)
+                self.assertIn("elsewhere", done.stderr + done.stdout)
+
     def test_a_forced_step_names_pair_depth_and_place_everywhere(self):
         self.run_program("sample", "part_in_solid", "-o", "in", "-q", status=0)
         done = self.run_program("plan", "in", "-o", "out", "--threads", "1", status=1)

@@ -20,8 +20,11 @@ void bind_forced(py::module_& m) {
       .def_readonly("reason", &PlanForced::reason, "Why no verified path is known.")
       .def_readonly("certificate", &PlanForced::certificate,
                     "Index in Plan.certificates: the proof that there is no path; None: there is no proof.")
+      .def_readonly("lower_bound", &PlanForced::lower_bound,
+                    "True when the time was up before depth was measured to its end: it is at least that.")
       .def("__repr__", [](const PlanForced& f) {
-        return fmt::format("<Forced: '{}' cuts {:.4g} into '{}'>", f.part, f.depth, f.other);
+        return fmt::format("<Forced: '{}' cuts {}{:.4g} into '{}'>", f.part, f.lower_bound ? "at least " : "", f.depth,
+                           f.other);
       });
   py::class_<PlanStepOverlap>(m, "StepOverlap", "A pair that a step moves past each other although it overlaps.")
       .def_readonly("part", &PlanStepOverlap::part, "Name of the part that moves.")

@@ -32,6 +32,7 @@ struct PlanForced {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< where, input units, world
   std::string reason;                            ///< why no verified path is known
   std::optional<std::size_t> certificate{};      ///< index into Plan::certificates: proof that there is none
+  bool lower_bound = false;  ///< the time was up before `depth` was measured to its end: it is at least that
 };
 
 /// A pair of parts that a step moves relative to each other and that overlaps when assembled, by so much that one

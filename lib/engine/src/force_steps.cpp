@@ -171,7 +171,10 @@ bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
   context.log(LogLevel::info, fmt::format("forced: '{}' past '{}', {}{:.4g} deep", assembly_.parts[stated.part].name,
                                           assembly_.parts[stated.other].name, choice->exact ? "" : "at least ",
                                           stated.depth / assembly_.normalization.scale));
-  builder_.force(parts, written.path, stated, choice->exact, seconds_since(begin));
+  RunContext proving = context;
+  proving.deadline = budget.for_planning(steps_left());
+  const Certificate* proof = oracle_.proofs().prove_pair(stated.part, stated.other, ProofEffort::medium, proving);
+  builder_.force(parts, written.path, stated, choice->exact, proof, seconds_since(begin));
   return true;
 }
 

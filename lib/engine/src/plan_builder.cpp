@@ -257,10 +257,21 @@ PlanCertificate PlanBuilder::to_plan(const Certificate& certificate) const {
   return written;
 }
 
+/// Its place in plan().certificates, where each is written once.
+std::size_t PlanBuilder::index_of(const Certificate& certificate) {
+  const auto known = std::find(written_.begin(), written_.end(), &certificate);
+  const auto index = static_cast<std::size_t>(known - written_.begin());
+  if (known == written_.end()) {
+    written_.push_back(&certificate);
+    plan_.certificates.push_back(to_plan(certificate));
+  }
+  return index;
+}
+
 void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved, const ContactsOf& places) {
   plan_.unsolved.clear();
   plan_.certificates.clear();
-  std::vector<const Certificate*> written;
+  written_.clear();
   for (const auto& u : unsolved) {
     PlanUnsolved entry;
     entry.part = assembly_.parts.at(u.part).name;
@@ -278,14 +289,7 @@ void PlanBuilder::set_unsolved(const std::vector<Unsolved>& unsolved, const Cont
     if (!u.best_pose.empty() && places)
       for (const Contact& c : places(u.part, reached))
         entry.places.push_back({assembly_.parts.at(c.other).name, assembly_.normalization.to_input(c.point)});
-    if (u.certificate != nullptr) {
-      const auto known = std::find(written.begin(), written.end(), u.certificate);
-      entry.certificate = static_cast<std::size_t>(known - written.begin());
-      if (known == written.end()) {
-        written.push_back(u.certificate);
-        plan_.certificates.push_back(to_plan(*u.certificate));
-      }
-    }
+    if (u.certificate != nullptr) entry.certificate = index_of(*u.certificate);
     plan_.unsolved.push_back(std::move(entry));
   }
 }

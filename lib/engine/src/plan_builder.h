@@ -44,9 +44,10 @@ class PlanBuilder {
 
   const Plan& plan() const { return plan_; }
   /// Records a step that no oracle has accepted: `parts`, which are together in a group, leave the rest of it along
-  /// `path` (columns as `parts`). `worst`: what was measured along it, to the end when `exact`. @throws
-  /// std::logic_error as record().
-  void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact, double seconds);
+  /// `path` (columns as `parts`). `worst`: what was measured along it, to the end when `exact`. `proof`: that the pair of
+  /// `worst` cannot be separated; may be null. @throws std::logic_error as record().
+  void force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact,
+             const Certificate* proof, double seconds);
   /// Groups of several parts that are asked to come apart, each with where its parts are.
   std::vector<std::vector<PlacedPart>> open_groups() const;
   std::size_t forced() const { return forced_; }
@@ -79,6 +80,7 @@ class PlanBuilder {
   std::vector<PartId>& group_of(const std::vector<PartId>& parts);
   PlanStep to_step(const Removal& removal) const;
   PlanCertificate to_plan(const Certificate& certificate) const;
+  std::size_t index_of(const Certificate& certificate);
   bool goes_on(const Removal& removal, std::size_t from) const;
   void take_back_last(PlanStep& step, Path& path);
   void refresh_status();
@@ -91,6 +93,7 @@ class PlanBuilder {
   std::vector<Pose> poses_;                  // by part id
   std::vector<std::vector<PartId>> groups_;  // the first is the one that was never left; [i + 1] made by step i
   std::vector<RecordedStep> recorded_;
+  std::vector<const Certificate*> written_;  // those of plan_.certificates
   std::size_t forced_ = 0;
 };
 

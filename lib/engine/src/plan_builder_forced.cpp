@@ -67,7 +67,7 @@ std::string PlanBuilder::why_forced(const std::vector<PartId>& parts, std::optio
 }
 
 void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, const MotionDepth& worst, bool exact,
-                        double seconds) {
+                        const Certificate* proof, double seconds) {
   std::vector<PartId>& group = group_of(parts);
   const auto moves = [&](PartId id) { return std::find(parts.begin(), parts.end(), id) != parts.end(); };
   std::vector<PartId> rest;
@@ -98,9 +98,9 @@ void PlanBuilder::force(const std::vector<PartId>& parts, const Path& path, cons
                            (overlap == nullptr ? 0 : overlap->depth) / to.scale,
                            to.to_input(worst.point),
                            {},
-                           proof_against(parts, rest, worst)};
+                           proof != nullptr ? index_of(*proof) : proof_against(parts, rest, worst),
+                           !exact};
   step.forced->reason = why_forced(parts, step.forced->certificate);
-  if (!exact) step.forced->reason += "; the time was up before the depth was measured to its end: it is at least that";
 
   const auto from = static_cast<std::size_t>(&group - groups_.data());
   plan_.assembly_steps.insert(plan_.assembly_steps.begin(), reversed(step));

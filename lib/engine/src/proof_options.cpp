@@ -35,6 +35,12 @@ void ProofOptions::describe(Schema<ProofOptions>& s) {
        .min = 0,
        .doc =
            "Advanced. Parts for which proofs are tried at the end of a run, at most; up to a minute each. 0 = none."});
+  s.add("deadline_share", &ProofOptions::deadline_share,
+        {.unit = "1",
+         .min = 0.01,
+         .max = 1,
+         .doc = "Advanced. Share of the time left until the deadline that one of the most expensive proofs may take. "
+                "Without a deadline they are limited by counts only."});
 }
 
 }  // namespace dismantle

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -71,11 +72,14 @@ std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& q
                                                         bool depends_on_poses, const RunContext& context) {
   const Clock::time_point begin = Clock::now();
   Answer answer;
+  RunContext own = context;
+  if (const double left = context.deadline.seconds_left(); effort == ProofEffort::high && std::isfinite(left))
+    own.deadline = Deadline::after_seconds(options_.deadline_share * left);
   for (const Prover& prover : provers_) {
     if (!asks(prover, effort, depends_on_poses, query.moving.size() + query.fixed.size())) continue;
     const Clock::time_point began = Clock::now();
     try {
-      answer = prover.named.prover->prove(query, context);
+      answer = prover.named.prover->prove(query, own);
     } catch (const std::exception& e) {
       answer.reset();
       context.log(LogLevel::error, fmt::format("immobility prover '{}' threw: {}", prover.named.id, e.what()));
@@ -184,7 +188,6 @@ const Certificate* ProofSchedule::prove_low(const Attempt& attempt, const RunCon
   return prove({{attempt.moving.front().part, attempt.fixed.front().part}, ProofEffort::low, 1}, context);
 }
 
-/// All of the tolerance up to `most`.
 const Certificate* ProofSchedule::prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context) {
   for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high}) {
     if (effort > most) break;

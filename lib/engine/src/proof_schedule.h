@@ -31,6 +31,8 @@ namespace dismantle {
 /// - All: at the end of the run, about parts that are left: each and the only one that it touched, a few together.
 ///
 /// What is not proved with the reduced tolerance is not proved with all of it either, and takes less time.
+/// With a deadline, a proof of high effort gets no more than a share of the time that is left: others wait for their
+/// turn.
 class ProofSchedule {
  public:
   /// References must outlive the schedule. `context` is used for the trivial proofs, on its threads.
@@ -53,6 +55,9 @@ class ProofSchedule {
   /// As PathOracle::prove.
   const Certificate* prove(const SeparationQuestion& question, const RunContext& context);
 
+  /// That two parts cannot be separated, by provers of low effort first, up to `most`, for all of the tolerance.
+  const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
+
   PartMemo& memo() { return memo_; }
   /// Time that proofs took, on all threads, those computed ahead included.
   double seconds() const { return static_cast<double>(nanoseconds_.load()) * 1e-9; }
@@ -67,7 +72,6 @@ class ProofSchedule {
   bool asks(const Prover& prover, ProofEffort effort, bool depends_on_poses, std::size_t parts) const;
   std::optional<Answer> ask(const SeparationQuery& query, ProofEffort effort, bool depends_on_poses,
                             const RunContext& context);
-  const Certificate* prove_pair(PartId a, PartId b, ProofEffort most, const RunContext& context);
   const Certificate* prove_reduced(PartId a, PartId b, const RunContext& context);
   const Certificate* prove_placed(const Attempt& attempt, const RunContext& context);
   const Certificate* prove_low(const Attempt& attempt, const RunContext& context);

@@ -9,6 +9,7 @@
 
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/testing/trials.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 namespace {
@@ -149,6 +150,27 @@ TEST(ForcedDepth, WithoutTimeThereIsAWholeAnswerAllTheSame) {
     EXPECT_EQ(r.plan.disassembly.size(), parts.size() - 1);
     EXPECT_TRUE(r.plan.unsolved.empty());
     for (const PlanStep& step : r.plan.disassembly) EXPECT_FALSE(step.forced && step.forced->reason.empty());
+  }
+}
+
+TEST(ForcedDepth, ALowerBoundThatIsTooDeepIsRefused) {
+  Rng rng(47);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Assembly assembly = fake::assembly_of(blocks_in_a_cage(rng));
+    Plan plan = forced_run(assembly, {}).plan;
+    const auto valid = [&] {
+      RunContext checking;
+      return check_plan(plan, assembly, VerifyOptions{}, checking).valid;
+    };
+    auto step = std::find_if(plan.disassembly.begin(), plan.disassembly.end(), [](const auto& s) { return s.forced; });
+    ASSERT_NE(step, plan.disassembly.end());
+    const double depth = step->forced->depth;
+    step->forced->depth = 0.5 * depth;
+    EXPECT_FALSE(valid());
+    step->forced->lower_bound = true;
+    EXPECT_TRUE(valid());
+    step->forced->depth = 1.5 * depth;
+    EXPECT_FALSE(valid());
   }
 }
 

@@ -15,18 +15,14 @@ constexpr std::size_t kAtATime = 4;
 
 }  // namespace
 
+/// What costs little is asked first.
 const Certificate* ProofsAhead::ask(const ImmobilityQuestion& q, const RunContext& context) const {
-  switch (q.kind) {
-    case Kind::cage:
-      return oracle_.prove({{q.a, q.b}, ProofEffort::low, 1}, context);
-    case Kind::flat:
-      return oracle_.prove({{q.a, q.b}, ProofEffort::medium, 1}, context);
-    case Kind::confined_full:
-      return oracle_.prove({{q.a, q.b}, ProofEffort::high, kFullShare}, context);
-    case Kind::confined_half:
-      break;
-  }
-  return oracle_.prove({{q.a, q.b}, ProofEffort::high, kHalfShare}, context);
+  const std::vector<PartId> pair{q.a, q.b};
+  if (const Certificate* found = oracle_.prove({pair, ProofEffort::low, 1}, context)) return found;
+  if (q.kind == Kind::cage) return nullptr;
+  if (const Certificate* found = oracle_.prove({pair, ProofEffort::medium, 1}, context)) return found;
+  if (q.kind == Kind::flat) return nullptr;
+  return oracle_.prove({pair, ProofEffort::high, q.kind == Kind::confined_full ? kFullShare : kHalfShare}, context);
 }
 
 void ProofsAhead::begin(std::span<const ImmobilityQuestion> wanted, const RunContext& context) {

@@ -31,8 +31,8 @@ export function number(x) {
 }
 
 /** What a forced step does, in input units. */
-export const forcedWords = ({pair, depth, assembled, at}) =>
-  `${pair[0]} cuts ${number(depth)} units into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
+export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound}) =>
+  `${pair[0]} cuts ${bound ? 'at least ' : ''}${number(depth)} units into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
 
 export function seconds(s) {
   if (s < 0.0995) return `${number(Number((1000 * s).toPrecision(2)))} ms`;

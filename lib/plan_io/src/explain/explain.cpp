@@ -111,8 +111,8 @@ Explanation explain(const Plan& plan, const ExplainSettings& settings, const std
 }
 
 std::string forced_text(const Plan& plan, const PlanForced& forced) {
-  return fmt::format("{} cuts {} into {} ({} when assembled)", forced.part, length_text(plan, forced.depth),
-                     forced.other, length_text(plan, forced.assembled));
+  return fmt::format("{} cuts {}{} into {} ({} when assembled)", forced.part, forced.lower_bound ? "at least " : "",
+                     length_text(plan, forced.depth), forced.other, length_text(plan, forced.assembled));
 }
 
 std::string overlaps_text(const Plan& plan, const PlanStep& step) {

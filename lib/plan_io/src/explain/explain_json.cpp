@@ -62,6 +62,7 @@ std::string explain_json(const Explanation& e) {
                        {"assembled", forced->assembled},
                        {"reason", forced->reason}};
       if (forced->certificate) one["forced"]["certificate"] = *forced->certificate + 1;
+      if (forced->lower_bound) one["forced"]["lower_bound"] = true;
     }
     steps.push_back(std::move(one));
   }

@@ -208,7 +208,7 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
     }
   if (place.has("forced")) {
     const Place forced = place.at("forced");
-    forced.object({"pair", "depth", "assembled", "at", "reason"}, {"certificate"});
+    forced.object({"pair", "depth", "assembled", "at", "reason"}, {"certificate", "lower_bound"});
     const auto pair = forced.at("pair").items();
     if (pair.size() != 2) forced.at("pair").fail("expected two parts");
     s.forced = PlanForced{read_part(pair[0], parts),
@@ -218,6 +218,7 @@ PlanStep read_step(const Place& place, unsigned number, StepKind kind, const Nam
                           read_vector(forced.at("at")),
                           forced.at("reason").text()};
     if (forced.has("certificate")) s.forced->certificate = forced.at("certificate").count();
+    if (forced.has("lower_bound")) s.forced->lower_bound = forced.at("lower_bound").truth();
   }
   return s;
 }

@@ -70,6 +70,7 @@ Json step_json(const PlanStep& s, bool assembly) {
               {"at", vector_json(s.forced->at)},
               {"reason", s.forced->reason}};
     if (s.forced->certificate) forced["certificate"] = *s.forced->certificate;
+    if (s.forced->lower_bound) forced["lower_bound"] = true;
   }
   return out;
 }

@@ -23,7 +23,8 @@ std::optional<std::string> DepthStatements::wrong(const PlanForced& said, const 
   const auto found =
       meter_.deepest(motion.moving, fixed, motion.path, {verifier_.options().max_penetration, kShare / 2}, context_);
   const double measured = found ? found->depth : 0;
-  if (agrees(said.depth * scale, measured)) return {};
+  const double stated = said.depth * scale;
+  if (agrees(stated, measured) || (said.lower_bound && stated <= measured)) return {};
   return fmt::format("it is forced and says that '{}' cuts {:.4g} into '{}'; measured: {:.4g}, '{}' into '{}'",
                      said.part, said.depth, said.other, measured / scale, found ? state_.name(found->part) : said.part,
                      found ? state_.name(found->other) : said.other);

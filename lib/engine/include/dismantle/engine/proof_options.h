@@ -16,6 +16,7 @@ struct ProofOptions {
   std::int64_t medium_effort_steps = 20'000;
   double reduced_tolerance = 0.5;
   unsigned final_parts = 8;
+  double deadline_share = 0.25;
   DISMANTLE_API static void describe(Schema<ProofOptions>& s);
 };
 
