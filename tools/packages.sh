@@ -1,7 +1,19 @@
 # shellcheck shell=bash
 # Sourced by quickstart and check. Needs $root, the root of the repository.
 
+# packages_for [OPTION...]: those that every build needs, and those that are for these options of check only.
 # shellcheck disable=SC2154  # root is set by the script that sources this
+packages_for() {
+  local first rest
+  while read -r first rest; do
+    if [ "${first:0:1}" != "[" ]; then
+      echo "$first"
+    elif [[ " $* " == *" ${first:1:-1} "* ]]; then
+      echo "$rest"
+    fi
+  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/packages.txt")
+}
+
 missing_packages() {
   local package there
   # Also what another package provides: NodeSource's nodejs contains npm, and excludes Debian's.
@@ -11,17 +23,17 @@ missing_packages() {
     if ! grep -qxF "$package" <<<"$there"; then
       echo "$package"
     fi
-  done < <(sed -e 's/#.*//' -e '/^[[:space:]]*$/d' "$root/tools/packages.txt")
+  done < <(packages_for "$@")
 }
 
-# Installs what is missing of tools/packages.txt; silent, and without network, when nothing is.
+# install_packages [OPTION...]: installs what is missing of tools/packages.txt; silent, and without network, when nothing is.
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then
     echo "This is not Debian: the packages of tools/packages.txt (or their like) must be there already." >&2
     return 0
   fi
   local missing
-  mapfile -t missing < <(missing_packages)
+  mapfile -t missing < <(missing_packages "$@")
   if [ "${#missing[@]}" -eq 0 ]; then
     return 0
   fi
