@@ -120,10 +120,10 @@ std::optional<ForceSteps::Choice> ForceSteps::measured_choice(const RunContext& 
 }
 
 /// The most promising of few motions, and what rays say of its depth.
-std::optional<ForceSteps::Choice> ForceSteps::quick_choice() {
+std::optional<ForceSteps::Choice> ForceSteps::quick_choice(const RunContext& context) {
   std::optional<ForcedMotion> best;
   for (const Placed& group : builder_.open_groups()) {
-    std::optional<ForcedMotion> m = motions_.quick_candidate(group);
+    std::optional<ForcedMotion> m = motions_.quick_candidate(group, context);
     if (m && (!best || more_promising(*m, *best))) best = std::move(m);
   }
   if (!best) return std::nullopt;
@@ -144,9 +144,11 @@ bool ForceSteps::is_valid(const Choice& choice, RunContext& context) {
 bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
   const auto begin = std::chrono::steady_clock::now();
   std::optional<Choice> choice;
-  if (budget.limited()) choice = quick_choice();
-  double least_time = seconds_since(begin);
   RunContext own = context;
+  own.deadline = budget.for_all();
+  if (budget.limited()) choice = quick_choice(own);
+  if (own.should_stop()) return false;
+  double least_time = seconds_since(begin);
   own.deadline = budget.for_measuring(steps_left());
   if (!own.should_stop())
     if (std::optional<Choice> better = measured_choice(own)) choice = std::move(better);

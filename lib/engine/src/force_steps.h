@@ -24,7 +24,8 @@ class ForceSteps {
   /// Until nothing is left to take apart, or cancelled: forces the part or group out that cuts in least above what it
   /// overlaps when assembled, then removes what verified paths are found for. Without a deadline the result depends on
   /// nothing but the question. With one, motions are compared as long as there is time, and each part that is left then
-  /// still gets a step, of the most promising motion among few. `searches`: false when no world was prepared for
+  /// still gets a step, of the most promising motion among few, unless they are so many that this takes longer than a second
+  /// beyond the deadline. `searches`: false when no world was prepared for
   /// searches, so that none are made.
   void run(bool searches, RunContext& context);
 
@@ -37,7 +38,7 @@ class ForceSteps {
     double excess() const { return depth ? depth->excess() : 0; }
   };
   std::vector<const ForcedMotion*> chosen(const std::vector<ForcedMotion>& all) const;
-  std::optional<Choice> quick_choice();
+  std::optional<Choice> quick_choice(const RunContext& context);
   std::optional<Choice> best_of(const std::vector<const ForcedMotion*>& list, const RunContext& context);
   std::optional<Choice> measured_choice(const RunContext& context);
   bool is_valid(const Choice& choice, RunContext& context);

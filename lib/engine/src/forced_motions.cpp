@@ -54,6 +54,12 @@ Placed without(const Placed& group, const Placed& gone) {
   return rest;
 }
 
+std::vector<Aabb> boxes_of(const Assembly& assembly) {
+  std::vector<Aabb> boxes;
+  for (const Part& part : assembly.parts) boxes.push_back(part.mesh->box());
+  return boxes;
+}
+
 }  // namespace
 
 bool more_promising(const ForcedMotion& a, const ForcedMotion& b) {
@@ -75,7 +81,11 @@ ForcedMotions::ForcedMotions(const Assembly& assembly, const Verifier& verifier,
       options_(options),
       meter_(assembly, verifier),
       axes_(assembly.parts.size()),
-      turns_(assembly.parts.size()) {}
+      turns_(assembly.parts.size()),
+      boxes_(boxes_of(assembly)),
+      ways_(
+          boxes_, [this](const PlacedPart& p, const Vec3& along) { return reach(p, along); },
+          [this](const PlacedPart& p, const PlacedPart& q, const Vec3& along) { return known(p, q, along).thickness; }) {}
 
 const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
   std::vector<geometry::FaceAxis>& known = axes_.at(part);
@@ -153,16 +163,19 @@ std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety
 }
 
 ForcedMotions::Known& ForcedMotions::known(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along) {
-  constexpr double kSteps = 1e6;
-  const std::array<int, 3> rounded{static_cast<int>(std::lround(kSteps * along.x())),
-                                   static_cast<int>(std::lround(kSteps * along.y())),
-                                   static_cast<int>(std::lround(kSteps * along.z()))};
-  const auto [at, is_new] = known_.try_emplace({moving.part, fixed.part, rounded});
+  const auto [at, is_new] = known_.try_emplace({moving.part, fixed.part, rounded_direction(along)});
   Known& entry = at->second;
   if (!is_new && entry.moving == moving.pose && entry.fixed == fixed.pose) return entry;
   entry = {moving.pose, fixed.pose};
   send_rays(moving, fixed, along, entry);
   return entry;
+}
+
+const ForcedMotions::Known& ForcedMotions::in_the_way(const PlacedPart& moving, const PlacedPart& fixed,
+                                                      const Vec3& along) {
+  static const Known kNever;
+  const Aabb a = geometry::box_under(boxes_[moving.part], moving.pose);
+  return may_meet(a, geometry::box_under(boxes_[fixed.part], fixed.pose), along) ? known(moving, fixed, along) : kNever;
 }
 
 /// Largest of along * x over the hull.
@@ -176,8 +189,8 @@ double ForcedMotions::reach(const PlacedPart& part, const Vec3& along) const {
 bool ForcedMotions::in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Vec3& along,
                              double distance) const {
   const geometry::SweptBoxes swept({moving.pose, {moving.pose.t + distance * along, moving.pose.q}},
-                                   assembly_.parts[moving.part].mesh->box());
-  return swept.meets(geometry::SweptBoxes({fixed.pose}, assembly_.parts[fixed.part].mesh->box()), 0);
+                                   boxes_[moving.part]);
+  return swept.meets(geometry::SweptBoxes({fixed.pose}, boxes_[fixed.part]), 0);
 }
 
 /// Rays along the motion from the one, and against it from the other, that enter the other side, and how long they stay
@@ -223,7 +236,7 @@ ForcedMotion ForcedMotions::straight(const Placed& moving, const Placed& group, 
   for (const PlacedPart& p : m.moving) behind = std::max(behind, reach(p, -along));
   m.duration = std::max(0.0, front + behind) + kClearance * verifier_.options().max_penetration;
   for (const PlacedPart& p : m.moving)
-    for (const PlacedPart& q : m.fixed) m.thickness += known(p, q, along).thickness;
+    for (const PlacedPart& q : m.fixed) m.thickness += in_the_way(p, q, along).thickness;
   return m;
 }
 
@@ -244,7 +257,7 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
         if (moves[other]) continue;
         double share = 0;
         for (const PlacedPart& p : all[open[k]])
-          for (const PlacedPart& q : all[other]) share = std::max(share, known(p, q, along).blocked);
+          for (const PlacedPart& q : all[other]) share = std::max(share, in_the_way(p, q, along).blocked);
         if (share <= most) continue;
         moves[other] = true;
         open.push_back(other);
@@ -302,16 +315,26 @@ std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const R
   return list;
 }
 
-std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group) {
+std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, const RunContext& context) {
   std::vector<Placed> leaving = units(group);
   std::erase_if(leaving, [&](const Placed& unit) { return !allowed(unit, group); });
-  std::optional<ForcedMotion> best;
-  for (const Vec3& d : directions(group, Variety::few))
+  struct Best {
+    const Placed* unit = nullptr;
+    Vec3 along = Vec3::Zero();
+    double thickness = 0, length = 0;
+  } best;
+  ways_.look_at(group);
+  for (const Vec3& d : directions(group, Variety::few)) {
+    const WaysOut::Along ways = ways_.along(d);
     for (const Placed& unit : leaving) {
-      ForcedMotion m = straight(unit, group, d);
-      if (!best || more_promising(m, *best)) best = std::move(m);
+      if (context.should_stop()) return std::nullopt;
+      const double thickness = ways.thickness(unit), length = ways.length(unit);
+      if (!best.unit || thickness < best.thickness || (thickness == best.thickness && length < best.length))
+        best = {&unit, d, thickness, length};
     }
-  return best;
+  }
+  if (!best.unit) return std::nullopt;
+  return straight(*best.unit, group, best.along);
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {

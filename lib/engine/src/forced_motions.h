@@ -14,6 +14,7 @@
 #include "dismantle/geometry/twist.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/verification/motion_depth.h"
+#include "ways_out.h"
 
 namespace dismantle {
 
@@ -45,8 +46,8 @@ class ForcedMotions {
   /// translations of parts alone and of those that are in each other's way, and screws of threaded parts.
   std::vector<ForcedMotion> candidates(const Placed& group, const RunContext& context);
   /// The most promising of few: each part alone, along few directions. Its cost does not depend on how deep anything
-  /// cuts in. Nothing when the constraints let no part leave.
-  std::optional<ForcedMotion> quick_candidate(const Placed& group);
+  /// cuts in. Nothing when the constraints let no part leave, or when told to stop.
+  std::optional<ForcedMotion> quick_candidate(const Placed& group, const RunContext& context);
   /// A lower bound of how deep a straight motion cuts in, from rays, until more than `enough` is found; nothing where
   /// they meet nothing.
   std::optional<MotionDepth> least_depth(const ForcedMotion& motion,
@@ -79,6 +80,8 @@ class ForcedMotions {
   const std::vector<geometry::Twist>& turns(PartId part);
   std::optional<MotionDepth> depth_at_instants(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
+  /// As known(), and remembers nothing of pairs that never meet, which most pairs of many parts are.
+  const Known& in_the_way(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   bool in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, double distance) const;
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
@@ -96,6 +99,8 @@ class ForcedMotions {
   std::vector<std::vector<geometry::FaceAxis>> axes_;               // by part, made when first needed
   std::vector<std::optional<std::vector<geometry::Twist>>> turns_;  // by part, in its frame
   std::map<Key, Known> known_;
+  std::vector<Aabb> boxes_;  // by part, in its frame
+  WaysOut ways_;
 };
 
 }  // namespace dismantle

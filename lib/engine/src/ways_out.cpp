@@ -1,0 +1,126 @@
+#include "ways_out.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "dismantle/geometry/swept_boxes.h"
+
+namespace dismantle {
+
+namespace {
+
+constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+
+bool among(const std::vector<PlacedPart>& parts, PartId id) {
+  return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
+}
+
+}  // namespace
+
+std::array<int, 3> rounded_direction(const Eigen::Vector3d& d) {
+  constexpr double kSteps = 1e6;
+  return {static_cast<int>(std::lround(kSteps * d.x())), static_cast<int>(std::lround(kSteps * d.y())),
+          static_cast<int>(std::lround(kSteps * d.z()))};
+}
+
+bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along) {
+  double first = 0, last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const double near = fixed.lo[k] - moving.hi[k], far = fixed.hi[k] - moving.lo[k];
+    if (along[k] == 0) {
+      if (near > 0 || far < 0) return false;
+      continue;
+    }
+    const double a = near / along[k], b = far / along[k];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last;
+}
+
+WaysOut::WaysOut(std::vector<Aabb> boxes, Reach reach, Thickness thickness)
+    : boxes_(std::move(boxes)),
+      reach_(std::move(reach)),
+      thickness_(std::move(thickness)),
+      family_(boxes_.size(), 0),
+      pose_(boxes_.size()),
+      placed_box_(boxes_.size()),
+      present_(boxes_.size(), false) {}
+
+void WaysOut::look_at(const Placed& group) {
+  group_ = &group;
+  std::fill(present_.begin(), present_.end(), false);
+  bool known = true;
+  for (const PlacedPart& p : group) {
+    present_[p.part] = true;
+    known = known && family_[p.part] != 0 && family_[p.part] == family_[group.front().part] && pose_[p.part] == p.pose;
+  }
+  if (known) return;
+  ++families_;
+  for (const PlacedPart& p : group) {
+    family_[p.part] = families_;
+    pose_[p.part] = p.pose;
+    placed_box_[p.part] = geometry::box_under(boxes_[p.part], p.pose);
+    for (Row& row : rows_) row.of[p.part] = {};
+  }
+}
+
+WaysOut::Entry& WaysOut::measured(Row& row, const PlacedPart& part) {
+  Entry& entry = row.of[part.part];
+  if (entry.measured) return entry;
+  entry.ahead = reach_(part, row.direction);
+  entry.behind = reach_(part, -row.direction);
+  entry.measured = true;
+  return entry;
+}
+
+const std::vector<WaysOut::InTheWay>& WaysOut::blockers(Row& row, const PlacedPart& part) {
+  Entry& entry = measured(row, part);
+  if (entry.listed) return entry.blockers;
+  for (const PlacedPart& q : *group_) {
+    if (q.part == part.part || !may_meet(placed_box_[part.part], placed_box_[q.part], row.direction)) continue;
+    if (const double t = thickness_(part, q, row.direction); t > 0) entry.blockers.push_back({q.part, t});
+  }
+  entry.listed = true;
+  return entry.blockers;
+}
+
+WaysOut::Along::Along(WaysOut& ways, const Eigen::Vector3d& direction)
+    : ways_(ways), row_(0), furthest_(kNowhere), second_(kNowhere) {
+  auto& rows = ways.rows_;
+  while (row_ < rows.size() && !(rounded_direction(rows[row_].direction) == rounded_direction(direction))) ++row_;
+  if (row_ == rows.size()) rows.push_back({direction, std::vector<Entry>(ways.boxes_.size())});
+  for (const PlacedPart& p : *ways.group_) {
+    const double ahead = ways.measured(rows[row_], p).ahead;
+    second_ = std::max(second_, std::min(ahead, furthest_));
+    if (ahead > furthest_) {
+      furthest_ = ahead;
+      front_ = p.part;
+    }
+  }
+}
+
+double WaysOut::Along::thickness(const Placed& unit) const {
+  double sum = 0;
+  for (const PlacedPart& p : unit)
+    for (const InTheWay& q : ways_.blockers(ways_.rows_[row_], p))
+      if (ways_.present_[q.part] && !among(unit, q.part)) sum += q.thickness;
+  return sum;
+}
+
+double WaysOut::Along::length(const Placed& unit) const {
+  Row& row = ways_.rows_[row_];
+  double ahead = among(unit, front_) ? second_ : furthest_, behind = kNowhere;
+  for (const PlacedPart& p : unit) behind = std::max(behind, ways_.measured(row, p).behind);
+  if (unit.size() > 1 && among(unit, front_)) {  // the second may move along, too
+    ahead = kNowhere;
+    for (const PlacedPart& p : *ways_.group_)
+      if (!among(unit, p.part)) ahead = std::max(ahead, ways_.measured(row, p).ahead);
+  }
+  return std::max(0.0, ahead + behind);
+}
+
+}  // namespace dismantle
