@@ -16,6 +16,7 @@
 #include "dismantle/preparation/flexible_parts.h"
 #include "dismantle/preparation/read_input.h"
 #include "dismantle/verification/contact.h"
+#include "dismantle/verification/interruptible_depth.h"
 #include "dismantle/verification/verifier.h"
 #include "parallel_phase.h"
 #include "repair_part.h"
@@ -256,7 +257,8 @@ class Preparation {
         pairs.size(), context_, "overlaps",
         [&](std::size_t i) {
           const DepthBody &a = body(pairs[i].a), &b = body(pairs[i].b);
-          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, kOverlapTolerance);
+          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, kOverlapTolerance, context_);
+          if (context_.should_stop()) return;  // a lower bound, which the phase does not let out
           pairs[i].depth = deepest.depth;
           if (deepest.depth > kOverlapRecorded)
             pairs[i].place = classify_overlap(a, b, deepest, kOverlapTolerance).place;

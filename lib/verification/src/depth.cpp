@@ -11,9 +11,9 @@
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/starts_off.h"
+#include "dismantle/verification/interruptible_depth.h"
 #include "dismantle/verification/verifier.h"
 #include "geometry_names.h"
-#include "interruptible_depth.h"
 
 namespace dismantle {
 
@@ -39,6 +39,7 @@ class Descent {
   /// True when one shrunken copy of all of A keeps off the surface of B.
   bool run() {
     if (first_round()) return true;
+    if (stopped_) return false;
     std::uint64_t sampled = 0;
     for (const Patch& patch : open_) {
       for (const auto& p : patch.p) sample(place_ * p);
@@ -91,13 +92,17 @@ class Descent {
   bool first_round() {
     const double e = level();
     std::vector<Patch> clear;
+    std::uint64_t seen_so_far = 0;
     collect(0, [&](const Patch& patch) {
+      stopped_ = stopped_ || told_to_stop(++seen_so_far);
+      if (stopped_) return;
       const Sighting seen = look(moved_by_vertices(patch, e));
       if (seen == Sighting::unclear)
         open_.push_back(patch);
       else if (seen == Sighting::clear)
         clear.push_back(patch);
     });
+    if (stopped_) return false;
     if (open_.empty()) {
       bool all_outside = true;
       for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
@@ -154,6 +159,7 @@ class Descent {
   const Pose& frame_;
   Penetration& deepest_;
   const RunContext& context_;
+  bool stopped_ = false;  // in the first round
   std::deque<Patch> open_;
 };
 

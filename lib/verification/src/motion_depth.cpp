@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "dismantle/geometry/swept_boxes.h"
-#include "interruptible_depth.h"
+#include "dismantle/verification/interruptible_depth.h"
 
 namespace dismantle {
 namespace {

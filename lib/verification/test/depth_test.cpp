@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/verification/interruptible_depth.h"
 #include "dismantle/verification/verifier.h"
 #include "dismantle/testing/shapes.h"
 
@@ -106,6 +107,23 @@ TEST(PenetrationDepth, AgreesWithSampling) {
     EXPECT_LE(found, sampled + 0.1);  // samples miss the deepest point by about their spacing
     EXPECT_EQ(found, penetration_depth(DepthBody(a), pa, DepthBody(b), pb, 1e-3));
   }
+}
+
+/// Two balls that are slow to settle: what is found of them before the first look at the clock is less than the depth.
+TEST(PenetrationDepth, ToldToStopItIsALowerBoundOfLittleWork) {
+  Rng rng(9);
+  RunContext stopped;
+  stopped.cancel.cancel();
+  int less = 0;
+  for (int i = 0; i < 10; ++i) {
+    const DepthBody a(shapes::sphere({0, 0, 0}, 1, 3)), b(shapes::sphere(rng.uniform(0.3, 1) * Vec3::UnitX(), 1, 3));
+    const Pose world = random_pose(rng, 3);
+    const double whole = penetration_depth(a, world, b, world, kTolerance);
+    const double found = deepest_penetration(a, world, b, world, kTolerance, stopped).depth;
+    EXPECT_LE(found, whole + kTolerance);
+    less += found < whole - kTolerance ? 1 : 0;
+  }
+  EXPECT_GT(less, 5);
 }
 
 TEST(PenetrationDepth, ToleranceMustBePositive) {

@@ -9,6 +9,7 @@
 
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/verification/contact.h"
+#include "dismantle/verification/interruptible_depth.h"
 #include "dismantle/verification/verifier.h"
 #include "parallel_phase.h"
 
@@ -162,8 +163,11 @@ class Geometry {
 
   std::optional<PairContact> contact(const InitialOverlap& pair) const {
     const DepthBody &a = *bodies_[pair.a], &b = *bodies_[pair.b];
-    if (pair.depth > 0)
-      return classify_overlap(a, b, deepest_penetration(a, Pose{}, b, Pose{}, tolerance_), tolerance_);
+    if (pair.depth > 0) {
+      const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance_, context_);
+      if (context_.should_stop()) return std::nullopt;
+      return classify_overlap(a, b, deepest, tolerance_);
+    }
     const std::optional<ContactClass> apart = classify_apart(a, b, tolerance_, kTouching * size_);
     if (!apart) return std::nullopt;
     PairContact found;
