@@ -41,8 +41,6 @@ std::map<std::string, Rgba> read_material_library(const std::filesystem::path& f
   const auto number = [](std::string_view& rest, double otherwise) {
     return to_double(take_word(rest)).value_or(otherwise);
   };
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) return {};  // pipes and devices would hang
   try {
     LineReader lines(file);
     std::string_view line;

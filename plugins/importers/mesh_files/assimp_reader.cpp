@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <cmath>
@@ -15,6 +16,7 @@
 
 #include "appearance.h"
 #include "dismantle/errors.h"
+#include "dismantle/lies_beside.h"
 #include "names_3mf.h"
 #include "text_scan.h"
 
@@ -52,6 +54,27 @@ class Polling : public Assimp::ProgressHandler {
 
  private:
   const RunContext& context_;
+};
+
+/// Opens the file itself, and of those that it names the ones that lie beside it.
+class FilesBeside : public Assimp::DefaultIOSystem {
+ public:
+  /// `refused`: the last one that was not opened for this reason.
+  FilesBeside(std::filesystem::path file, std::string& refused) : file_(std::move(file)), refused_(refused) {}
+  bool Exists(const char* name) const override { return may_be_read(name) && DefaultIOSystem::Exists(name); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    return may_be_read(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+  }
+
+ private:
+  bool may_be_read(const char* name) const {
+    if (file_ == name || lies_beside(name, file_)) return true;
+    refused_ = name;
+    return false;
+  }
+
+  std::filesystem::path file_;
+  std::string& refused_;
 };
 
 class SceneReader {
@@ -162,14 +185,18 @@ std::vector<RawPart> read_scene(const std::filesystem::path& file, const RunCont
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   try {
+    std::string refused;
     Assimp::Importer importer;
-    importer.SetProgressHandler(new Polling(context));  // the importer owns it
+    importer.SetIOHandler(new FilesBeside(file, refused));  // the importer owns both
+    importer.SetProgressHandler(new Polling(context));
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
     stop_if_told(context, file);
     if (!scene || !scene->mRootNode) {
       const std::string why = importer.GetErrorString();
+      if (!refused.empty())
+        throw InputError(file.string(), fmt::format("it names '{}', which is no file in its folder", refused));
       // What assimp says of a file whose begin it does not recognise.
       if (why.starts_with("No suitable reader found") || why.starts_with("Failed to open file"))
         throw InputError(file.string(), fmt::format("this is no {} file, or it is cut off", ending));

@@ -9,6 +9,7 @@
 #include "appearance.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/lies_beside.h"
 #include "readers.h"
 #include "text_scan.h"
 
@@ -158,8 +159,8 @@ class ObjReader {
   std::map<std::string, Rgba> colours() const {
     std::map<std::string, Rgba> all;
     for (const std::string& library : libraries_) {
-      const std::filesystem::path name(library);
-      if (!name.is_absolute()) all.merge(read_material_library(file_.parent_path() / name));
+      const std::filesystem::path name = file_.parent_path() / library;
+      if (lies_beside(name, file_)) all.merge(read_material_library(name));
     }
     return all;
   }

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "dismantle/lies_beside.h"
 #include "input/own_files.h"
 #include "input/sha256.h"
 
@@ -115,9 +116,8 @@ std::vector<fs::path> buffers_of_gltf(const fs::path& file) {
         name += uri[i];
       }
     }
-    std::error_code ec;
     const fs::path path = file.parent_path() / name;
-    if (fs::is_regular_file(path, ec)) buffers.push_back(path);
+    if (lies_beside(path, file)) buffers.push_back(path);
   }
   return buffers;
 }

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "dismantle/errors.h"
 #include "dismantle/run_context.h"
@@ -45,6 +48,55 @@ TEST(UntrustedFiles, AMaterialLibraryThatIsAPipeIsNotWaitedFor) {
   const auto parts = read_obj(folder.write("a.obj", "mtllib pipe.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
   ASSERT_EQ(parts.size(), 1U);
   EXPECT_FALSE(parts[0].colour);
+}
+
+TEST(UntrustedFiles, AMaterialLibraryLiesBesideItsMesh) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "model/paint");
+  for (const char* name : {"outside.mtl", "model/inside.mtl", "model/paint/below.mtl"})
+    folder.write(name, "newmtl m\nKd 1 0 0\n");
+  std::filesystem::create_symlink("../outside.mtl", folder / "model/link.mtl");
+  const std::string absolute = (folder / "outside.mtl").string();
+  for (const auto& [library, is_read] : std::vector<std::pair<std::string, bool>>{{"inside.mtl", true},
+                                                                                  {"paint/below.mtl", true},
+                                                                                  {"paint/../inside.mtl", true},
+                                                                                  {"../outside.mtl", false},
+                                                                                  {"link.mtl", false},
+                                                                                  {absolute, false}}) {
+    const auto parts = read_obj(folder.write(
+        "model/a.obj", "mtllib " + library + "\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    ASSERT_EQ(parts.size(), 1U);
+    EXPECT_EQ(parts[0].colour.has_value(), is_read) << library;
+  }
+}
+
+/// The same triangle in a buffer within the folder of the model and outside of it.
+TEST(UntrustedFiles, AGltfReadsNothingOutsideOfItsFolder) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "model/sub");
+  const std::array<float, 9> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::string bytes(reinterpret_cast<const char*>(corners.data()), sizeof corners);
+  for (const char* name : {"outside.bin", "model/inside.bin", "model/sub/below.bin"}) folder.write(name, bytes);
+  std::filesystem::create_symlink("../outside.bin", folder / "model/link.bin");
+  const auto model = [&](const std::string& uri) {
+    return folder.write(
+        "model/a.gltf",
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"n","mesh":0}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+            uri + "\"}]}");
+  };
+  for (const char* uri : {"inside.bin", "sub/below.bin", "sub/../inside.bin"}) {
+    const auto parts = MeshFiles().read(model(uri), {});
+    ASSERT_EQ(parts.size(), 1U) << uri;
+    EXPECT_EQ(parts[0].mesh.triangles.size(), 1U) << uri;
+  }
+  for (const std::string& uri :
+       {std::string("../outside.bin"), std::string("sub/../../outside.bin"), std::string("link.bin"),
+        (folder / "outside.bin").string(), std::string("/dev/zero"), std::string("missing.bin")})
+    EXPECT_NE(input_error([&] { MeshFiles().read(model(uri), {}); }).find("no file in its folder"), std::string::npos)
+        << uri;
 }
 
 TEST(UntrustedFiles, ReadingEndsWhenItIsToldTo) {

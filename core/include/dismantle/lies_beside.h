@@ -1,0 +1,23 @@
+/// Files that other files name.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace dismantle {
+
+/// May `named` be read because `file`, which may come from anywhere, names it? Only a regular file in the folder of
+/// `file` or below it, once `..` and links are followed: models that were sent to somebody read nothing else of theirs.
+inline bool lies_beside(const std::filesystem::path& named, const std::filesystem::path& file) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(named, problem)) return false;  // pipes and devices would hang
+  const std::filesystem::path there = std::filesystem::canonical(named, problem);
+  if (problem) return false;
+  const std::filesystem::path parent = file.parent_path();
+  const std::filesystem::path folder = std::filesystem::canonical(parent.empty() ? "." : parent, problem);
+  if (problem) return false;
+  return std::mismatch(folder.begin(), folder.end(), there.begin(), there.end()).first == folder.end();
+}
+
+}  // namespace dismantle
