@@ -1,8 +1,10 @@
 #include "world.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
+#include "dismantle/finite.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::mesh_collision {
@@ -58,6 +60,7 @@ void MeshWorld::place(const State& state) {
 }
 
 double MeshWorld::penetration(const State& state) {
+  if (!is_finite(state)) return std::numeric_limits<double>::infinity();
   place(state);
   double deepest = 0;
   const std::size_t others = fixed_.size() + moving_.size();
@@ -75,6 +78,7 @@ double MeshWorld::penetration(const State& state) {
 }
 
 bool MeshWorld::separated(const State& state) {
+  if (!is_finite(state)) return false;
   if (rest_hull_.empty()) return true;
   place(state);
   Aabb box;
@@ -89,6 +93,7 @@ bool MeshWorld::separated(const State& state) {
 }
 
 bool MeshWorld::body_separated(const State& state, std::size_t body) {
+  if (!is_finite(state)) return false;
   place(state);
   std::vector<Eigen::Vector3d> others = rest_hull_;
   moving_hull_.clear();

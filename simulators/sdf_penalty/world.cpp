@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dismantle/finite.h"
+
 namespace dismantle::sdf_penalty {
 namespace {
 
@@ -200,16 +202,24 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
 }
 
 StepReport PenaltyWorld::advance(State& state, const Action& action, double duration, Trace* trace) {
-  begin(state, action);
   StepReport report;
+  const auto not_finite = [&report] {
+    report.finite = false;
+    report.stalled = true;
+    return report;
+  };
+  if (!begin(state, action)) return not_finite();
   const State begin_state = state;
+  const std::size_t begin_trace = trace != nullptr ? trace->size() : 0;
   const bool quasi_static = parameters_.dynamics == Dynamics::quasi_static;
   const double natural = quasi_static ? quasi_static_step(action) : parameters_.time_step;
   if (!(natural > 0)) {  // no force, no inertia: nothing happens
     report.stalled = true;
     return report;
   }
-  const int steps = std::max(1, static_cast<int>(std::ceil(duration / natural - 1e-9)));
+  const double wanted = std::ceil(duration / natural - 1e-9);
+  if (!(wanted <= std::numeric_limits<int>::max())) return not_finite();  // a force beyond all measure
+  const int steps = std::max(1, static_cast<int>(wanted));
   const double dt = duration / steps;
   const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
   const bool may_rest = !quasi_static && parameters_.rest_share > 0;
@@ -228,11 +238,10 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     else
       moved = step<6>(state, action, n * dt, n, &travel);
     ++report.steps;
-    if (!std::isfinite(travel)) {
+    if (!std::isfinite(travel) || !is_finite(state)) {
       state = begin_state;
-      report.finite = false;
-      report.stalled = true;
-      return report;
+      if (trace != nullptr) trace->resize(begin_trace);
+      return not_finite();
     }
     if (trace != nullptr) {
       std::vector<Pose> instant;

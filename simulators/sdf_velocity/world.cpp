@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/finite.h"
+
 namespace dismantle::sdf_velocity {
 namespace {
 
@@ -88,10 +90,17 @@ VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, doub
 }
 
 StepReport VelocityWorld::advance(State& state, const Action& action, double duration, Trace* trace) {
-  begin(state, action);
   StepReport report;
+  const auto not_finite = [&report] {
+    report.finite = false;
+    report.stalled = true;
+    return report;
+  };
+  if (!begin(state, action)) return not_finite();
   const State begin_state = state;
+  const std::size_t begin_trace = trace != nullptr ? trace->size() : 0;
   const double free = duration * travel_of<Eigen::Dynamic>(free_motion(state, action));
+  if (!std::isfinite(free)) return not_finite();  // a force beyond all measure
   if (!(free > 0)) {  // no force: nothing happens
     report.stalled = true;
     return report;
@@ -102,11 +111,10 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     const double allowed = std::max(kTooDeep, deepest());
     const Step done = step(state, action, left, limit);
     ++report.steps;
-    if (!std::isfinite(done.way)) {
+    if (!std::isfinite(done.way) || !is_finite(state)) {
       state = begin_state;
-      report.finite = false;
-      report.stalled = true;
-      return report;
+      if (trace != nullptr) trace->resize(begin_trace);
+      return not_finite();
     }
     report.stalled = done.way == 0;
     if (report.stalled) break;

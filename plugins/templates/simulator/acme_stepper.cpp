@@ -1,8 +1,10 @@
 // acme.stepper: a simulator. No inertia; a body takes small steps along the force until its surface points touch.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "dismantle/finite.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/plugin.h"
@@ -62,6 +64,8 @@ class AcmeStepperWorld final : public dismantle::World {
   dismantle::StepReport advance(dismantle::State& state, const dismantle::Action& action, double duration,
                                 dismantle::Trace* trace) override {
     dismantle::StepReport report;
+    report.finite = dismantle::is_finite(state) && dismantle::is_finite(action);
+    if (!report.finite) return report;
     dismantle::Pose& pose = state.bodies.at(0).pose;
     const dismantle::Pose begin = pose;
     const auto count = static_cast<std::uint64_t>(std::ceil(duration / params_.time_step - 1e-9));
@@ -79,6 +83,7 @@ class AcmeStepperWorld final : public dismantle::World {
   }
 
   double penetration(const dismantle::State& state) override {
+    if (!dismantle::is_finite(state)) return std::numeric_limits<double>::infinity();
     contacts(state, scratch_);
     double deepest = 0;
     for (const auto& contact : scratch_) deepest = std::max(deepest, contact.depth);
@@ -104,6 +109,7 @@ class AcmeStepperWorld final : public dismantle::World {
   }
 
   bool separated(const dismantle::State& state) override {
+    if (!dismantle::is_finite(state)) return false;
     if (scene_.fixed.empty()) return true;
     std::vector<Vector3d> points;
     for (const auto& v : assembly_.parts[scene_.moving[0].part].mesh->vertices)

@@ -1,8 +1,10 @@
 // What every simulator must obey, as far as its capabilities go, with its default parameters.
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <thread>
 
+#include "dismantle/finite.h"
 #include "dismantle/geometry/hull.h"
 #include "simulator_contract.h"
 
@@ -194,6 +196,53 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
       const MotionCheck check = m.small->verifier->check_motion({m.small->leaves}, world->scene().fixed, path);
       EXPECT_TRUE(check.valid) << m.small->name << ", direction " << direction;
     }
+}
+
+/// Whatever is not finite is reported; a state that was finite stays finite, and so does its trace.
+TEST_P(SimulatorContract, NoNumberThatIsNotFiniteLeavesUnnoticed) {
+  const Capabilities has = make()->capabilities();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> bad{std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity};
+  const Made& m = all().front();
+  for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid})
+    for (int place = 0; place < 6; ++place)
+      for (const double number : bad) {
+        SCOPED_TRACE(std::to_string(place) + ", " + std::to_string(number));
+        const auto world = m.world(space);
+        const State good = world->initial_state();
+        State s = good;
+        (place < 3 ? s.bodies[0].pose.t[place] : s.bodies[0].pose.q.coeffs()[place - 3]) = number;
+        if (has.distance) {
+          EXPECT_GT(world->penetration(s), 0) << "it is not taken for free";
+        }
+        EXPECT_FALSE(world->separated(s));
+        if (!has.dynamics) continue;
+        EXPECT_FALSE(world->advance(s, push(*world, Vector3d(0, 0, 100)), 0.1).finite);
+        Action action = push(*world, Vector3d(0, 0, 100));
+        (place < 3 ? action.wrenches[0].force : action.wrenches[0].torque)[place % 3] = number;
+        State t = good;
+        Trace trace;
+        EXPECT_FALSE(world->advance(t, action, 0.1, &trace).finite);
+        EXPECT_TRUE(bitwise(t.bodies[0].pose, good.bodies[0].pose));
+        EXPECT_TRUE(trace.empty());
+        // The world is as good as new afterwards.
+        const StepReport report = world->advance(t, push(*world, Vector3d(0, 0, 100)), 0.1, &trace);
+        EXPECT_TRUE(report.finite);
+        for (const auto& instant : trace) EXPECT_TRUE(is_finite(instant[0]));
+        EXPECT_TRUE(is_finite(t));
+      }
+  if (!has.dynamics) return;
+  for (const double force : {1e200, 1e300, std::numeric_limits<double>::max()}) {
+    const auto world = m.world(MotionSpace::rigid);
+    const State good = world->initial_state();
+    State s = good;
+    Trace trace;
+    const StepReport report =
+        world->advance(s, push(*world, Vector3d(force, -force, force), Vector3d(force, 0, force)), 0.1, &trace);
+    EXPECT_TRUE(is_finite(s)) << force;
+    EXPECT_TRUE(report.finite || bitwise(s.bodies[0].pose, good.bodies[0].pose)) << force;
+    for (const auto& instant : trace) EXPECT_TRUE(is_finite(instant[0])) << force;
+  }
 }
 
 TEST_P(SimulatorContract, SameCallsSameBits) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "dismantle/finite.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::sdf {
@@ -93,9 +94,10 @@ double BodyWorld::deepest() const {
   return depth;
 }
 
-void BodyWorld::begin(const State& state, const Action& action) {
+bool BodyWorld::begin(const State& state, const Action& action) {
   if (action.wrenches.size() != bodies_.size() || state.bodies.size() != bodies_.size())
     throw std::invalid_argument("state and action need one entry per moving part");
+  if (!is_finite(state) || !is_finite(action)) return false;
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
   if (same_poses(poses_, begin_at_)) {
     touching_ = begin_touching_;
@@ -111,6 +113,7 @@ void BodyWorld::begin(const State& state, const Action& action) {
     begin_rows_ = rows_;
   }
   rows_current_ = true;
+  return true;
 }
 
 template <int Dof>
@@ -308,6 +311,7 @@ void BodyWorld::project_to_clearance(State& state, double clearance) {
 }
 
 double BodyWorld::penetration(const State& state) {
+  if (!is_finite(state)) return std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
   if (!same_poses(poses_, touching_at_)) {
     if (!sensor_) sensor_ = std::make_unique<ContactScene>(contact_scene_.with_margin(kSensorMargin));
@@ -339,6 +343,7 @@ void BodyWorld::contacts(const State& state, std::vector<Contact>& out) {
 }
 
 bool BodyWorld::separated(const State& state) {
+  if (!is_finite(state)) return false;
   if (rest_hull_.empty()) return true;
   std::vector<Eigen::Vector3d> moving;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -347,6 +352,7 @@ bool BodyWorld::separated(const State& state) {
 }
 
 bool BodyWorld::body_separated(const State& state, std::size_t body) {
+  if (!is_finite(state)) return false;
   std::vector<Eigen::Vector3d> alone, others = rest_hull_;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (const auto& corner : bodies_[i].hull) (i == body ? alone : others).push_back(state.bodies[i].pose * corner);

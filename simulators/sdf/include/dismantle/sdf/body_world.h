@@ -62,9 +62,10 @@ class BodyWorld : public World {
   RowColumns& columns() { return columns_; }
   double deepest() const;  ///< of touching(), >= 0
 
-  /// Contacts and rows at `state`, remembered: the next advance() often begins there too.
+  /// Contacts and rows at `state`, remembered: the next advance() often begins there too. False, and nothing done, when
+  /// a number in state or action is not finite.
   /// @throws std::invalid_argument unless state and action have one entry per body.
-  void begin(const State& state, const Action& action);
+  [[nodiscard]] bool begin(const State& state, const Action& action);
   /// Contacts at `state`.
   void update_contacts(const State& state);
   /// Contacts after the bodies were displaced by `x`, no point by more than `travel`: by their own linear model over
