@@ -34,7 +34,7 @@ def targets_of(folder):
     return sorted(f.name[len("fuzz_"):] for f in folder.glob("fuzz_*") if f.name != "fuzz_step_seeds" and os.access(f, os.X_OK))
 
 
-def run_target(name, folder, seconds, seed):
+def run_target(name, folder, seconds, seed, hang):
     """Returns what it did: executions, coverage, CPU seconds, and whether something was found."""
     corpus, found = folder.parent / "corpus" / name, folder.parent / "found" / name
     corpus.mkdir(parents=True, exist_ok=True)
@@ -42,7 +42,7 @@ def run_target(name, folder, seconds, seed):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     words = ROOT / "tests/fuzz/words" / (name + ".dict")
     command = [str(folder / ("fuzz_" + name)), str(corpus), "-artifact_prefix=%s/" % found, "-max_total_time=%d" % seconds,
-               "-timeout=10", "-rss_limit_mb=2048", "-malloc_limit_mb=1024", "-print_final_stats=1", "-seed=%d" % seed,
+               "-timeout=%d" % hang, "-rss_limit_mb=2048", "-malloc_limit_mb=1024", "-print_final_stats=1", "-seed=%d" % seed,
                "-max_len=%d" % LONGEST_INPUT.get(name, 16384), "-close_fd_mask=1"]
     if words.exists():
         command.append("-dict=%s" % words)
@@ -53,7 +53,7 @@ def run_target(name, folder, seconds, seed):
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace",
                                env=environment, preexec_fn=lambda: os.nice(19), start_new_session=True)
     try:
-        _, log = process.communicate(timeout=seconds + 120)
+        _, log = process.communicate(timeout=seconds + 120 + hang)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         _, log = process.communicate()
@@ -75,6 +75,8 @@ def main():
     parser.add_argument("--targets", help="names, separated by commas")
     parser.add_argument("--seconds", type=float, default=120, help="of all targets together")
     parser.add_argument("--cpu-minutes", type=float, help="of each target, in turns")
+    parser.add_argument("--hang", type=int, default=10,
+                        help="wall seconds for one input that count as a hang; more where the machine is busy with other things")
     parser.add_argument("--seed", type=int, default=1, help="of the mutations")
     options = parser.parse_args()
     folder = options.build / "fuzz"
@@ -95,7 +97,7 @@ def main():
         name = queue.pop(0)
         turn += 1
         seconds = options.seconds / turns if options.cpu_minutes is None else SLICE
-        result = run_target(name, folder, max(1, int(seconds)), options.seed + turn)
+        result = run_target(name, folder, max(1, int(seconds)), options.seed + turn, options.hang)
         spent[name] += result["cpu_seconds"]
         known = total.setdefault(name, {"executions": 0, "cpu_seconds": 0, "failures": 0})
         known["executions"] += result["executions"]

@@ -139,6 +139,8 @@ TEST(MutatedPlans, NoneThatGoesTooDeepPasses) {
   int passed = 0, refused = 0, unexplained = 0;
   double deepest = 0;
   for (int trial = 0; trial < trials; ++trial) {
+    if (testing_support::nightly() && trial % 1000 == 0 && trial > 0)
+      std::cout << trial << " plans mutated: " << passed << " passed, the deepest by " << deepest << std::endl;
     const OneStep& one = good_steps()[static_cast<std::size_t>(trial) % good_steps().size()];
     Plan plan = one.plan;
     auto& poses = plan.disassembly[0].moves[0].poses;

@@ -216,6 +216,9 @@ TEST(ProofSoundness, NoProofOfPartsThatCanBeSeparated) {
     EXPECT_EQ(unsound, "") << "after " << separable << " separable puzzles";
     proved += !puzzle->separable && asked.proofs > 0 ? 1 : 0;
     certificates += asked.checked;
+    if (testing_support::nightly() && (separable + held) % 100 == 0)
+      std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved << " proved; "
+                << certificates << " certificates checked" << std::endl;
   }
   std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved
             << " proved; " << certificates << " certificates checked\n";
