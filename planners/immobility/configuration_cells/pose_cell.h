@@ -17,7 +17,7 @@ struct PoseCell {
   bool empty = false;                   ///< no pose of it is free
   bool center_free = false;             ///< no active sample is inside at the centre
   std::shared_ptr<SampleList> samples;  ///< active samples that may be inside somewhere in the cell
-  std::size_t known = 0;  ///< length of the prefix of the active samples that `samples` accounts for
+  std::size_t known = 0;                ///< length of the prefix of the active samples that `samples` accounts for
 
   Vector6 center() const { return 0.5 * (lo + hi); }
   Vector6 size() const { return hi - lo; }

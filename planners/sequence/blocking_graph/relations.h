@@ -76,7 +76,7 @@ class Relations {
   const Directions& directions_;
   const PairSweep& sweep_;
   double grid_;  // offsets are rounded to multiples of it: far below the tolerance, and above rounding of poses
-  std::vector<Eigen::Matrix3d> frames_;  // by direction: rows are the direction and two across it
+  std::vector<Eigen::Matrix3d> frames_;               // by direction: rows are the direction and two across it
   mutable std::vector<std::vector<Shadow>> shadows_;  // by direction, by part; filled when first asked for
   const Orientations& orientations_;
   mutable std::map<std::tuple<std::size_t, std::size_t, PartId>, Shadow> rotated_shadows_;  // turn, direction, part

@@ -84,7 +84,7 @@ class StraightMotion final : public GroupListener {
   const PairSweep& sweep_;
   Directions directions_;
   Relations relations_;
-  std::vector<std::map<std::size_t, SubassemblyId>> blocker_;  // by subassembly, by direction: one blocker
+  std::vector<std::map<std::size_t, SubassemblyId>> blocker_;      // by subassembly, by direction: one blocker
   std::set<std::pair<std::vector<PartId>, std::size_t>> refused_;  // since the last change
 };
 

@@ -55,9 +55,10 @@ void StateBasedParams::describe(Schema<StateBasedParams>& s) {
         {.unit = "1",
          .min = 1,
          .doc = "Subassemblies that are proposed to the verifier before a group of parts is given up."});
-  s.add("searches", &StateBasedParams::searches,
-        {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every round. "
-                "Only this finds rotations."});
+  s.add(
+      "searches", &StateBasedParams::searches,
+      {.doc = "When translations remove nothing, run the path planner for each part, one level deeper in every round. "
+              "Only this finds rotations."});
   s.add("resume", &StateBasedParams::resume,
         {.doc = "A search by the path planner resumes the last one of the same part."});
   s.add("max_depth", &StateBasedParams::max_depth,

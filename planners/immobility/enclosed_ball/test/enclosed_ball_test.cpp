@@ -33,7 +33,7 @@ Mesh room(double window) {
 
 /// Its certificate is accepted, and none with a larger ball or with finer claims.
 std::optional<Certificate> enclosed(const ProverRig& rig, const std::vector<PlacedPart>& moving,
-                                   const std::vector<PlacedPart>& fixed) {
+                                    const std::vector<PlacedPart>& fixed) {
   auto found = EnclosedBall{}.prove(rig.query(moving, fixed), {});
   if (!found) return found;
   EXPECT_EQ(rig.objection(EnclosedBall{}, *found), "");
@@ -87,7 +87,8 @@ TEST(EnclosedBall, WhatMayBePenetratedCountsAsOpen) {
     // The ball of radius 0.4 passes as long as no more than `allowed` is missing on either side.
     for (const double missing : {0.9 * allowed, 1.6 * allowed + 0.1}) {
       const ProverRig rig(assembly_of({cube(0.8, Vec3::Zero()), room(0.8 - 2 * missing)}), allowed);
-      EXPECT_EQ(enclosed(rig, {{0, Pose{}}}, {{1, Pose{}}}).has_value(), missing > allowed) << allowed << " " << missing;
+      EXPECT_EQ(enclosed(rig, {{0, Pose{}}}, {{1, Pose{}}}).has_value(), missing > allowed)
+          << allowed << " " << missing;
     }
   }
 }
