@@ -4,11 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include "dismantle/free_space/led_walk.h"
+#include "dismantle/free_space/navigation_search.h"
 #include "dismantle/path/time_limit.h"
 #include "dismantle/plugin.h"
 #include "dismantle/tolerant_walk/geometry_cache.h"
-#include "dismantle/tolerant_walk/walk.h"
+#include "dismantle/tolerant_walk/rrt_search.h"
 #include "parameters.h"
 
 namespace dismantle::navigation_tree {
@@ -16,7 +16,7 @@ namespace {
 
 using tolerant_walk::Overlap;
 
-/// Where its searches have stopped; null where there was none, or nothing to begin with.
+/// The states of the searches when they stopped; null for a search that was not made or did not begin.
 class State final : public SearchState {
  public:
   std::shared_ptr<const SearchState> tree, near_start;
@@ -26,9 +26,9 @@ bool unsuccessful(const PathResult& r) {
   return r.outcome() == Outcome::depth_limit || r.outcome() == Outcome::exhausted;
 }
 
-/// One search; of a group that is thinner than its initial overlap, two: that overlap is first allowed near the start
-/// only. A group that has only some play so may be held with interference all the way out, and then it is allowed
-/// everywhere. Else such paths would lead through walls.
+/// Makes one search; for a group that is thinner than its initial overlap, two. The first allows that overlap near the
+/// start only, because elsewhere it would let paths lead through walls. If the group then shows only some play, it may
+/// be held with interference along its whole path, and the second search allows the overlap everywhere.
 class Search final : public PathSearch {
  public:
   Search(const Parameters& parameters, tolerant_walk::GeometryCache& cache, const PathQuery& query, RunContext& context)
@@ -59,16 +59,16 @@ class Search final : public PathSearch {
   SearchStatus run_on(const Budget& portion) {
     const Deadline end = path::deadline_of(portion);
     if (!tree_) {
-      thin_ = free_space::overlaps_through(query_);
+      thin_ = free_space::thinner_than_overlap(query_, parameters_.control_points);
       begin(thin_ ? Overlap::near_start : Overlap::everywhere);
     }
-    if (tree_->starts_out()) {
+    if (tree_->starts_separated()) {
       last_.start_is_goal();
       return SearchStatus::solved;
     }
     const std::uint64_t begun_at = used();
     while (true) {
-      if (tree_->leads_out() && left_of_budget() > 0) {
+      if (tree_->has_route_out() && left_of_budget() > 0) {
         Budget own{.timeout = portion.timeout > 0 ? std::max(1e-9, end.seconds_left()) : 0};
         if (portion.max_steps > 0)
           own.max_steps =
@@ -80,10 +80,10 @@ class Search final : public PathSearch {
       }
       if (unsuccessful(last_) && context_.cancel.cancelled()) last_.fail(Outcome::cancelled);
       if (unsuccessful(last_) && left_of_budget() == 0) last_.fail(Outcome::timeout);
-      if (!near_start_ || !unsuccessful(last_) || !tree_->held()) return status_of(last_.outcome());
-      before_ += tree_->looks();
+      if (!near_start_ || !unsuccessful(last_) || !tree_->only_play()) return status_of(last_.outcome());
+      before_ += tree_->state_checks();
       first_stats_ = std::exchange(last_.stats, {});
-      first_stats_.extra.clear();  // the distance that is left does not add up
+      first_stats_.extra.clear();  // the remaining distances of two searches do not add up
       begin(Overlap::everywhere);
     }
   }
@@ -93,18 +93,17 @@ class Search final : public PathSearch {
     const auto* state = dynamic_cast<const State*>(query_.resume_from);
     PathQuery own = query_;
     own.resume_from = state != nullptr ? (near_start_ ? state->near_start : state->tree).get() : nullptr;
-    if (query_.budget.max_steps > 0)  // what the first search has used is not there for the second
+    if (query_.budget.max_steps > 0)  // the first search has used its share
       own.budget.max_steps =
           std::max<std::uint64_t>(1, query_.budget.max_steps - std::min(query_.budget.max_steps, before_));
     tree_.reset();
     own_query_.emplace(own);
-    tree_.emplace(parameters_.tree(thin_ && !near_start_), *own_query_, context_,
-                  free_space::LedWalk::Effort{static_cast<std::size_t>(parameters_.cells), patience_, detours_},
-                  overlap, cache_);
+    tree_.emplace(parameters_.search(thin_ && !near_start_), *own_query_, context_,
+                  free_space::NavigationSearch::Effort{patience_, detours_}, overlap, cache_);
   }
 
   /// State checks of both searches.
-  std::uint64_t used() const { return before_ + tree_->looks(); }
+  std::uint64_t used() const { return before_ + tree_->state_checks(); }
   std::uint64_t left_of_budget() const {
     if (query_.budget.max_steps == 0) return ~std::uint64_t{0};
     return query_.budget.max_steps - std::min(query_.budget.max_steps, used());
@@ -118,7 +117,7 @@ class Search final : public PathSearch {
   unsigned detours_ = 0;
   bool thin_ = false, near_start_ = false;
   std::optional<PathQuery> own_query_;
-  std::optional<free_space::LedWalk> tree_;
+  std::optional<free_space::NavigationSearch> tree_;
   std::uint64_t before_ = 0;  // state checks of the first search
   SearchStats first_stats_;
   PathResult last_ = PathResult::failure(Outcome::depth_limit);

@@ -1,4 +1,4 @@
-// The first member of a fallback on this thread, and the others on an idle one.
+// Runs the first member of a fallback on this thread, and the others on an idle thread.
 #include <algorithm>
 #include <utility>
 
@@ -8,11 +8,11 @@
 namespace dismantle::portfolio {
 namespace {
 
-/// While the first search has a candidate path verified, the searches beside it pause: if it is accepted, they are not
-/// needed.
+/// Pauses the speculative searches while a candidate path of the first search is verified: if it is accepted, they are
+/// not needed.
 class PausingChecker final : public PathChecker {
  public:
-  /// Both outlive it.
+  /// Both arguments outlive this.
   PausingChecker(Executor& executor, const PathChecker& checker) : executor_(executor), checker_(checker) {}
   PathCheck check(const Path& path) const override {
     const Executor::PauseScope pause(executor_);
@@ -31,7 +31,7 @@ struct CancelAtEnd {
 
 }  // namespace
 
-/// A step budget is shared, so that each member has to know what the one before it has left.
+/// With a step budget each member depends on what the one before it has used, so none can run ahead.
 bool PortfolioSearch::may_run_beside() const {
   if (!parameters_.speculative || order_.size() < 2 || query_.budget.max_steps > 0) return false;
   if (context_.executor == nullptr || context_.executor->threads() < 2) return false;
@@ -40,7 +40,7 @@ bool PortfolioSearch::may_run_beside() const {
   });
 }
 
-/// What the others find is used only where the first one finds nothing: as if they had begun after its end.
+/// Results of the others are used only if the first member finds nothing, as if they had begun after its end.
 PortfolioSearch::Decision PortfolioSearch::run_beside_first(Portion& portion) {
   RunContext own = context_;
   own.cancel = CancelToken();
@@ -49,7 +49,8 @@ PortfolioSearch::Decision PortfolioSearch::run_beside_first(Portion& portion) {
   own.speculative = true;
   MemberSearch& first = *order_.front();
   if (!ready(first)) return {};
-  for (const MemberSearch* m : order_) least_depth(m->member());  // the size is computed here, not by two threads
+  for (const MemberSearch* m : order_)
+    least_depth(m->member());  // computes the size of the group before two threads need it
   pausing_ = std::make_unique<PausingChecker>(*context_.executor, query_.checker);
   begin(first, context_, *pausing_);
   std::size_t at = 1;

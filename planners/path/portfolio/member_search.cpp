@@ -2,10 +2,6 @@
 
 namespace dismantle::portfolio {
 
-bool in_vain(const PathResult& result) {
-  return result.outcome() == Outcome::depth_limit || result.outcome() == Outcome::exhausted;
-}
-
 void MemberSearch::begin(const PathQuery& query, const RunContext& context) {
   query_.emplace(query);
   context_.emplace(context);

@@ -11,13 +11,10 @@
 
 namespace dismantle::portfolio {
 
-/// True when a search found nothing, and neither time nor anybody stopped it.
-bool in_vain(const PathResult& result);
-
 class MemberSearch {
  public:
-  /// `planner` and `member` outlive it. `stream`: 0, or a number for members of a type that another one has, too, so
-  /// that their random numbers differ.
+  /// `planner` and `member` outlive this. `stream`: 0 for the first member of a type, different numbers for the others,
+  /// so that their random numbers differ.
   MemberSearch(PathPlanner& planner, const Member& member, std::string name, std::uint64_t stream)
       : planner_(&planner), member_(&member), name_(std::move(name)), stream_(stream) {}
 
@@ -26,20 +23,20 @@ class MemberSearch {
   const std::string& name() const { return name_; }  ///< id of its type
 
   bool begun() const { return search_ != nullptr; }
-  bool ended() const { return ended_; }  ///< it will not be run again
+  bool ended() const { return ended_; }  ///< it is not run again
   void leave_out() { ended_ = true; }
   /// Makes the search. References in `query` outlive this; `context` is copied.
   void begin(const PathQuery& query, const RunContext& context);
-  /// Runs it for so many steps and state checks; 0 = no limit. Ends it where it cannot go on.
+  /// Runs the search for `steps` steps and state checks; 0: without a limit.
   SearchStatus run(std::uint64_t steps);
-  /// As before begin().
+  /// Back to the state before begin().
   void reset();
 
-  /// Steps and state checks until now.
+  /// Steps and state checks so far.
   std::uint64_t spent() const { return last_.stats.steps + last_.stats.state_checks; }
-  /// What its last run() said.
+  /// The result after the last run().
   const PathResult& last() const { return last_; }
-  /// There is more to do, but no budget for it.
+  /// The budget is used up before the search is.
   void time_out() { last_.fail(Outcome::timeout); }
 
  private:

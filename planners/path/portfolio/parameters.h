@@ -12,7 +12,7 @@ namespace dismantle::portfolio {
 enum class Mode { fallback, alternate };
 enum class Size { any, small, large };
 
-/// One planner of the portfolio, and when it takes part.
+/// One planner of the portfolio, and the searches in which it participates.
 struct Member {
   PluginRef<PathPlanner> plugin{};
   std::int64_t after = 0;
@@ -33,23 +33,23 @@ struct Member {
           {.unit = "1",
            .min = 0,
            .max = 1e12,
-           .doc = "`alternate`: takes part once the first member has spent this many steps and state checks, or has "
-                  "ended."});
+           .doc = "`alternate`: begins when the first member has spent this many steps and state checks, or has ended. "
+                  "Larger: the first member has more time alone."});
     s.add("whole", &Member::whole, {.doc = "`alternate`: its first turn lasts until it ends."});
-    s.add("max_steps", &Member::max_steps,
-          {.unit = "1", .min = 0, .max = 1e12, .doc = "Steps and state checks after which it is given up; 0: none."});
+    s.add(
+        "max_steps", &Member::max_steps,
+        {.unit = "1", .min = 0, .max = 1e12, .doc = "Steps and state checks after which it is stopped; 0: no limit."});
     s.add("share", &Member::share,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .min_open = true,
-           .doc = "The largest share of `run.path_steps` that it may spend, where there is such a limit."});
-    s.add("depth_limited", &Member::depth_limited, {.doc = "Takes part in searches with a depth limit."});
+           .doc = "The largest share of `run.path_steps` that it may spend, if there is such a limit."});
+    s.add("depth_limited", &Member::depth_limited, {.doc = "Participates in searches with a depth limit."});
     s.add("least_depth", &Member::least_depth,
-          {.unit = "1", .min = 0, .max = 1000, .doc = "Takes part only where the depth limit is at least this."});
-    s.add(
-        "least_depth_large", &Member::least_depth_large,
-        {.unit = "1", .min = 0, .max = 1000, .doc = "The same for large groups, where it is more than `least_depth`."});
+          {.unit = "1", .min = 0, .max = 1000, .doc = "Least depth limit with which it participates."});
+    s.add("least_depth_large", &Member::least_depth_large,
+          {.unit = "1", .min = 0, .max = 1000, .doc = "The same for large groups, if it is more than `least_depth`."});
     s.add("large", &Member::large,
           {.unit = "1",
            .min = 0,
@@ -60,16 +60,15 @@ struct Member {
                        {{"any", Size::any, "all groups"},
                         {"small", Size::small, "groups that are not `large`"},
                         {"large", Size::large, "groups that are `large`"}},
-                       "The groups for which it takes part.");
-    s.add("first", &Member::first,
-          {.doc = "Under a depth limit it runs before the members without this key, whatever its place in the list."});
+                       "The groups for which it participates.");
+    s.add("first", &Member::first, {.doc = "Under a depth limit it runs before all members without this key."});
     s.add(
         "when_refused", &Member::when_refused,
-        {.doc = "Under a depth limit: where the first member was exhausted and the verifier refused paths of it, this "
-                "one takes part at any depth, and runs without a depth limit. Such paths lead out and cut in a little "
-                "too deep."});
+        {.doc = "Under a depth limit: if the first member was exhausted and the verifier has refused paths of it, this "
+                "member participates at any depth and runs without a depth limit. Such paths lead out but penetrate a "
+                "little too deeply."});
     s.add("final", &Member::final,
-          {.doc = "When it ends as `exhausted`, the portfolio does, too. For members whose search is complete."});
+          {.doc = "When it is exhausted, the portfolio is exhausted as well. For members whose search is complete."});
   }
 };
 
@@ -84,14 +83,14 @@ struct Parameters {
 
   static void describe(Schema<Parameters>& s) {
     const std::vector<EnumChoice<Mode>> modes{
-        {"fallback", Mode::fallback, "one after the other: the next one begins when the one before has found nothing"},
+        {"fallback", Mode::fallback, "one after the other: a member begins when the one before has found nothing"},
         {"alternate", Mode::alternate,
          "in turns that grow, so that the sum is at most a few times the cost of the best"}};
     s.add_choice<Mode>("mode", &Parameters::mode, modes, "How members share a search without a depth limit.");
     s.add_choice<Mode>("depth_limited_mode", &Parameters::depth_limited_mode, modes,
                        "How members share a search with a depth limit.");
     s.add("of", &Parameters::of,
-          {.doc = "The members, in order. What the first one says is the outcome where none finds a path."});
+          {.doc = "The members, in order. If none finds a path, the outcome is that of the first one."});
     s.add("turn", &Parameters::turn,
           {.unit = "1",
            .min = 1,
@@ -103,12 +102,11 @@ struct Parameters {
           {.unit = "1",
            .min = 0,
            .max = 1e12,
-           .doc = "`alternate`: length of the very first turn of the first member in place of `turn`, where the group "
-                  "is thinner than its initial overlap; the round after it has the length `turn` again. 0: no "
-                  "exception."});
+           .doc = "`alternate`: length of the first turn of the first member instead of `turn`, for a group that is "
+                  "thinner than its initial overlap. The next round has the length `turn`. 0: no exception."});
     s.add("speculative", &Parameters::speculative,
-          {.doc = "`fallback` without `run.path_steps`: an idle thread may run the other members beside the first one. "
-                  "Results do not depend on it."});
+          {.doc = "`fallback` without `run.path_steps`: an idle thread may run the other members concurrently with the "
+                  "first one. Results do not depend on it."});
   }
 };
 

@@ -36,7 +36,7 @@ class Portfolio final : public PathPlanner {
       const Capabilities needs = planners_[k]->traits().needs;
       if ((needs.dynamics && !has.dynamics) || (needs.contacts && !has.contacts) || (needs.distance && !has.distance))
         return path::unsupported("its member '" + parameters_.of[k].plugin.type() +
-                                 "' needs what the simulator does not have; 'dismantle plugins list' shows the needs");
+                                 "' needs capabilities that the simulator does not have; see 'dismantle plugins list'");
     }
     return std::make_unique<PortfolioSearch>(parameters_, planners_, query, context);
   }
@@ -52,6 +52,6 @@ class Portfolio final : public PathPlanner {
 
 DISMANTLE_PLUGIN("dismantle.portfolio", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::portfolio::Portfolio, dismantle::portfolio::Parameters>(
-      "portfolio", "Several path planners that share a search: one after the other, or in turns that grow.",
+      "portfolio", "Several path planners in one search: one after the other, or in turns that grow.",
       {.source = "Huberman, Lukose and Hogg 1997 (portfolios); Luby, Sinclair and Zuckerman 1993 (growing turns)"});
 }

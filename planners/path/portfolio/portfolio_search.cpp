@@ -5,16 +5,11 @@
 #include <functional>
 #include <map>
 
-#include "dismantle/free_space/led_walk.h"
+#include "dismantle/free_space/navigation_search.h"
 #include "dismantle/path/placed_parts.h"
 #include "dismantle/path/time_limit.h"
 
 namespace dismantle::portfolio {
-namespace {
-
-constexpr std::uint64_t kLongestTurn = std::uint64_t{1} << 62;
-
-}  // namespace
 
 PortfolioSearch::PortfolioSearch(const Parameters& parameters,
                                  const std::vector<std::shared_ptr<PathPlanner>>& planners, const PathQuery& query,
@@ -67,19 +62,19 @@ void PortfolioSearch::choose_members() {
   const auto overlap_turn = static_cast<std::uint64_t>(parameters_.overlap_turn);
   const bool alternating = (limited_ ? parameters_.depth_limited_mode : parameters_.mode) == Mode::alternate;
   short_round_ = alternating && order_.size() > 1 && overlap_turn > 0 && overlap_turn < turn_ &&
-                 free_space::overlaps_through(query_);
+                 free_space::thinner_than_overlap(query_);
 }
 
 SearchStatus PortfolioSearch::run(const Budget& portion) {
   if (status_ != SearchStatus::paused) return status_;
   if (query_.simulator.capabilities().max_moving < query_.scene.moving.size()) {
-    refusal_.fail(Outcome::unsupported, "the simulator cannot move so many parts at the same time");
+    refusal_.fail(Outcome::unsupported, "the simulator cannot move this number of parts simultaneously");
     return status_ = SearchStatus::failed;
   }
   if (order_.empty()) choose_members();
   if (order_.empty()) {
     refusal_.fail(limited_ ? Outcome::depth_limit : Outcome::unsupported,
-                  "no planner of the portfolio takes part in such a search");
+                  "no planner of the portfolio participates in such a search");
     return status_ = limited_ ? SearchStatus::exhausted : SearchStatus::failed;
   }
   Portion left;
@@ -93,7 +88,7 @@ SearchStatus PortfolioSearch::run(const Budget& portion) {
   return status_ = decision.status;
 }
 
-/// What is left of the budget of the query.
+/// The rest of the query's budget.
 std::uint64_t PortfolioSearch::budget_left() const {
   if (query_.budget.max_steps == 0) return kUnlimited;
   std::uint64_t spent = 0;
@@ -101,7 +96,7 @@ std::uint64_t PortfolioSearch::budget_left() const {
   return query_.budget.max_steps - std::min(query_.budget.max_steps, spent);
 }
 
-/// What is left of what the member may spend.
+/// The rest of the member's own budget.
 std::uint64_t PortfolioSearch::allowance(const MemberSearch& m) const {
   const Member& member = m.member();
   std::uint64_t most = member.max_steps > 0 ? static_cast<std::uint64_t>(member.max_steps) : kUnlimited;
@@ -111,7 +106,7 @@ std::uint64_t PortfolioSearch::allowance(const MemberSearch& m) const {
   return most == kUnlimited ? most : most - std::min(most, m.spent());
 }
 
-/// The verifier refused paths of the first member, and nothing else is left to it.
+/// The first member is exhausted, and the verifier has refused paths of it.
 bool PortfolioSearch::was_refused(const MemberSearch& m) const {
   return limited_ && m.member().when_refused && primary_ != &m && primary_->last().outcome() == Outcome::exhausted &&
          primary_->last().stats.refused > 0;
@@ -184,15 +179,14 @@ PortfolioSearch::Decision PortfolioSearch::run_in_order(std::size_t& at, const R
   return {};
 }
 
-/// In rounds: all members that are ready have a turn.
+/// Works in rounds. Each member that is ready has one turn in a round.
 PortfolioSearch::Decision PortfolioSearch::alternate(Portion& portion) {
   while (true) {
     if (at_ == order_.size()) {
       if (std::all_of(order_.begin(), order_.end(), [](const MemberSearch* m) { return m->ended(); })) return {};
-      // After a short turn of the first member the whole round follows, unless it has ended.
+      // A round with a short turn of the first member is followed by a full round of the same length.
       if (!short_round_ || primary_->ended())
-        turn_ = static_cast<std::uint64_t>(
-            std::min(parameters_.growth * static_cast<double>(turn_), static_cast<double>(kLongestTurn)));
+        turn_ = static_cast<std::uint64_t>(std::min(parameters_.growth * static_cast<double>(turn_), 4e18));
       short_round_ = false;
       at_ = 0;
     }
@@ -209,7 +203,7 @@ PortfolioSearch::Decision PortfolioSearch::alternate(Portion& portion) {
   }
 }
 
-/// `exhausted`: the turn is over. `paused`: the portion is.
+/// Returns `exhausted` when the turn is over, `paused` when the portion is.
 PortfolioSearch::Decision PortfolioSearch::take_turn(MemberSearch& m, Portion& portion) {
   if (portion.steps_left == 0) return {SearchStatus::paused, nullptr};
   if (budget_left() == 0) {

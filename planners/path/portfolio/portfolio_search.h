@@ -1,4 +1,4 @@
-/// A search that several planners share.
+/// A search that several planners carry out together.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace dismantle::portfolio {
 
-/// Where each member has stopped, in the order of the list; null where it was not run.
+/// The state of each member when it stopped, in the order of the list; null if it was not run.
 class PortfolioState final : public SearchState {
  public:
   std::vector<std::shared_ptr<const SearchState>> members;
@@ -20,7 +20,7 @@ class PortfolioState final : public SearchState {
 
 class PortfolioSearch final : public PathSearch {
  public:
-  /// All outlive it. `planners`: one for each member.
+  /// All arguments outlive this. `planners`: one for each member.
   PortfolioSearch(const Parameters& parameters, const std::vector<std::shared_ptr<PathPlanner>>& planners,
                   const PathQuery& query, RunContext& context);
 
@@ -29,11 +29,11 @@ class PortfolioSearch final : public PathSearch {
 
  private:
   static constexpr std::uint64_t kUnlimited = ~std::uint64_t{0};
-  /// What one call of run() may still spend.
+  /// Budget that is left of one call of run().
   struct Portion {
     std::uint64_t steps_left = kUnlimited;
   };
-  /// How it stands, and the member that says so; null: none has found anything, or stopped.
+  /// The status, and the member that decided it; null: no member has found a path or failed.
   struct Decision {
     SearchStatus status = SearchStatus::exhausted;
     const MemberSearch* by = nullptr;
@@ -64,18 +64,18 @@ class PortfolioSearch final : public PathSearch {
   const bool limited_;  ///< in depth
   Deadline deadline_;
   std::vector<MemberSearch> members_;                   ///< in the order of the list
-  std::vector<MemberSearch*> order_;                    ///< those that take part, in the order in which they are run
-  MemberSearch* primary_ = nullptr;                     ///< the first of the list that takes part
+  std::vector<MemberSearch*> order_;                    ///< those that participate, in the order in which they are run
+  MemberSearch* primary_ = nullptr;                     ///< the first of the list that participates
   std::optional<std::pair<double, double>> diagonals_;  ///< of the boxes of the moving and of the fixed parts
   std::unique_ptr<PathChecker> pausing_;
-  std::size_t at_ = 0;            ///< whose turn it is, in `order_`
+  std::size_t at_ = 0;            ///< the member whose turn it is, in `order_`
   std::uint64_t turn_ = 0;        ///< `alternate`: length of the turns of this round
-  std::uint64_t turn_began_ = 0;  ///< what the member had spent when its turn began
+  std::uint64_t turn_began_ = 0;  ///< work of the member when its turn began
   bool in_turn_ = false;          ///< a portion ended before the turn did
   bool short_round_ = false;      ///< the first member has a short turn
   SearchStatus status_ = SearchStatus::paused;
   const MemberSearch* decided_by_ = nullptr;
-  PathResult refusal_;  ///< where no member takes part
+  PathResult refusal_;  ///< result if no member participates
 };
 
 }  // namespace dismantle::portfolio

@@ -1,4 +1,4 @@
-/// A round wire that is wound about an axis.
+/// A helical wire of round cross-section.
 #pragma once
 
 #include <Eigen/Geometry>

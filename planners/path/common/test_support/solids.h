@@ -20,7 +20,7 @@ inline Aabb block(double x0, double y0, double z0, double x1, double y1, double 
   return {{x0, y0, z0}, {x1, y1, z1}};
 }
 
-/// Turned anyhow, within a cube about the origin of half width `spread`.
+/// A random rotation, and a translation within a cube about the origin of half width `spread`.
 inline Pose random_pose(Rng& rng, double spread) {
   const Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
   return {spread * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)), q.normalized()};
@@ -33,13 +33,13 @@ inline Mesh open_ring(double gap) {
                 block(1, 0.5 * gap, -0.25, 1.5, 1, 0.25)});
 }
 
-/// Likewise without a gap, in the plane y = 0, around the side of the open one that is opposite to the gap.
+/// A ring without a gap, in the plane y = 0, around the side of the open ring that is opposite to the gap.
 inline Mesh linked_ring() {
   return boxes({block(-3, -0.25, -1.5, -2.5, 0.25, 1.5), block(-2.5, -0.25, -1.5, 0, 0.25, -1),
                 block(-2.5, -0.25, 1, 0, 0.25, 1.5), block(-0.5, -0.25, -1, 0, 0.25, 1)});
 }
 
-/// All of it turned by `pose`.
+/// An assembly of these meshes, moved by `pose`.
 inline Assembly assembly_of(const std::vector<Mesh>& meshes, const Pose& pose = {}) {
   Assembly a;
   for (const auto& mesh : meshes) {

@@ -53,21 +53,21 @@ struct Table {
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
   std::shared_ptr<const PreparedAssembly> prepared;
   Verifier verifier;
-  std::atomic<std::size_t> judged = 0;
-  std::shared_ptr<Executor> executor;  ///< whose idle threads may help
+  std::atomic<std::size_t> checked = 0;  ///< paths
+  std::shared_ptr<Executor> executor;    ///< its idle threads may help
 
   explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {
     RunContext context;
     prepared = simulator->prepare(assembly, 0.01, context);
   }
 
-  /// Part 0 leaves, by this path planner.
+  /// Plans the removal of part 0.
   PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, std::uint64_t max_steps,
                   unsigned max_depth = 0) {
     return plan(planner, given, seed, {.max_depth = max_depth, .max_steps = max_steps}, {0});
   }
 
-  /// These parts leave as one; others may have left before.
+  /// Plans the removal of `moving` as one group. Parts in `left` are absent.
   PathResult plan(const std::string& planner, const ParamSet& given, std::uint64_t seed, const Budget& budget,
                   const std::vector<PartId>& moving, const std::vector<PartId>& left = {},
                   const SearchState* resume_from = nullptr) {
@@ -81,7 +81,7 @@ struct Table {
     context.rng = Rng(seed);
     context.executor = executor;
     const fake::RuleChecker checker([&](const Path& path) {
-      ++judged;
+      ++checked;
       fake::Ruling ruling = fake::ruling_of(verifier.check_motion(moving, scene.fixed, path));
       std::vector<PlacedPart> group = scene.moving;
       for (std::size_t i = 0; i < group.size(); ++i) group[i].pose = path.back()[i];

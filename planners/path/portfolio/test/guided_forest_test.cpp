@@ -1,4 +1,4 @@
-// Where pushes get nowhere a forest takes turns with them, within the same budget.
+// A forest alternates with contact search within one budget.
 #include <gtest/gtest.h>
 
 #include "narrow_places.h"
@@ -12,7 +12,7 @@ using path::test::linked_ring;
 using path::test::open_ring;
 using path::test::Table;
 
-/// Without the other trees, which sometimes take the ring off, too.
+/// Without the other trees, which sometimes solve the assembly as well.
 ParamSet forest(std::int64_t after, std::int64_t steps) {
   std::vector<std::string> without{"navigation_tree", "tolerant_rrt"};
   if (steps == 0) without.emplace_back("tunnel_forest");
@@ -20,13 +20,13 @@ ParamSet forest(std::int64_t after, std::int64_t steps) {
                             without);
 }
 
-TEST(GuidedForest, TakesARingOffAnOpenOneThatPushesDoNot) {
+TEST(GuidedForest, TakesOffARingThatContactSearchDoesNot) {
   Rng rng(21);
   for (std::uint64_t k = 1; k <= 2; ++k) {
     const Pose turned{Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()), tunnel_forest::random_turn(rng)};
     Table table(assembly_of({linked_ring(), open_ring(0.6)}, k == 1 ? Pose{} : turned));
     const PathResult alone = table.plan("guided", forest(2000, 0), k, 20'000);
-    EXPECT_EQ(alone.outcome(), Outcome::timeout) << "or it is no test";
+    EXPECT_EQ(alone.outcome(), Outcome::timeout) << "contact search alone must not solve it";
     EXPECT_FALSE(alone.stats.extra.contains("tunnel_forest_steps"));
     const PathResult both = table.plan("guided", forest(2000, 1'000'000), k, 1'000'000);
     ASSERT_EQ(both.outcome(), Outcome::solved) << k;
@@ -37,7 +37,7 @@ TEST(GuidedForest, TakesARingOffAnOpenOneThatPushesDoNot) {
   }
 }
 
-TEST(GuidedForest, BothLiveOnOneBudget) {
+TEST(GuidedForest, BothShareOneBudget) {
   for (const std::uint64_t steps : {500u, 3000u, 9000u}) {
     Table table(assembly_of({linked_ring(), open_ring(0.4)}));
     const PathResult r = table.plan("guided", forest(1000, 1'000'000), 1, steps);
@@ -45,7 +45,7 @@ TEST(GuidedForest, BothLiveOnOneBudget) {
     double used = r.stats.cost;  // state checks of the forest are not limited
     if (r.stats.extra.contains("tunnel_forest_state_checks")) used -= r.stats.extra.at("tunnel_forest_state_checks");
     EXPECT_GE(used, 0.9 * static_cast<double>(steps));
-    // The end of a portion does not cut an extension of a forest.
+    // The end of a portion does not interrupt an extension of a forest.
     EXPECT_LE(used, static_cast<double>(steps) + 300);
   }
 }

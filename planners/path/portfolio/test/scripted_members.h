@@ -14,16 +14,16 @@
 
 namespace dismantle::portfolio {
 
-/// What a scripted member does: so many steps, and then it has found a path, or has nothing left.
+/// A scripted member does `work` steps; then it has found a path, or is exhausted.
 struct Script {
   std::uint64_t work = 100;
   bool solves = false;
-  bool used_up = false;  ///< in vain because its own limit is reached, not because nothing is left
+  bool used_up = false;  ///< unsuccessful because its own limit is reached, not because it is exhausted
   std::uint64_t refused = 0;
   PathPlannerTraits traits{.concurrent = true, .simultaneous_motion = true, .resumable = true};
 };
 
-/// Who was run for how many steps, in this order.
+/// Members and the numbers of steps for which they were run, in order.
 struct Log {
   std::mutex mutex;
   std::vector<std::pair<std::size_t, std::uint64_t>> runs;

@@ -5,25 +5,31 @@
 #include "dismantle/shared_object.h"
 
 namespace dismantle::tolerant_walk {
-namespace {
-
-constexpr double kCell = 0.01;  // assembly units: of the fields
-
-}  // namespace
 
 std::shared_ptr<GeometryCache> GeometryCache::shared() {
   return std::static_pointer_cast<GeometryCache>(
       shared_object("dismantle.tolerant_walk.GeometryCache", [] { return std::make_shared<GeometryCache>(); }));
 }
 
-GeometryCache::Pair::Pair(const Mesh& of, const Mesh& other, const Pose& place, const Allowance& allowance,
-                          double excused_within)
+GeometryCache::Pair::Pair(const Mesh& of, const Mesh& other, const Pose& place, const Sampling& sampling,
+                          const Allowance& allowance, double reach)
     : meshes_{&of, &other},
-      numbers_{place.q.w(), place.q.x(), place.q.y(),       place.q.z(),      place.t.x(),
-               place.t.y(), place.t.z(), allowance.overlap, allowance.beyond, excused_within},
-      exactly_(allowance.exactly) {}
+      numbers_{place.q.w(),
+               place.q.x(),
+               place.q.y(),
+               place.q.z(),
+               place.t.x(),
+               place.t.y(),
+               place.t.z(),
+               sampling.resolution.cell,
+               static_cast<double>(sampling.max_samples),
+               allowance.overlap,
+               allowance.tolerance,
+               reach},
+      exact_(allowance.exact) {}
 
-GeometryCache::Pair::Pair(const Mesh& of, const Allowance& allowance) : Pair(of, of, Pose{}, allowance, 0) {
+GeometryCache::Pair::Pair(const Mesh& of, const Sampling& sampling, const Allowance& allowance)
+    : Pair(of, of, Pose{}, sampling, allowance, 0) {
   meshes_[1] = nullptr;
 }
 
@@ -34,10 +40,11 @@ void GeometryCache::make_room() {
   fields_.clear();
 }
 
-std::shared_ptr<SolidField> GeometryCache::field(const std::shared_ptr<const Mesh>& mesh) {
+std::shared_ptr<DistanceField> GeometryCache::field(const std::shared_ptr<const Mesh>& mesh,
+                                                    const Resolution& resolution) {
   const std::scoped_lock lock(mutex_);
-  auto& known = fields_[mesh.get()];
-  if (!known) known = std::make_shared<SolidField>(mesh, kCell);
+  auto& known = fields_[{mesh.get(), resolution.cell}];
+  if (!known) known = std::make_shared<DistanceField>(mesh, resolution);
   return known;
 }
 

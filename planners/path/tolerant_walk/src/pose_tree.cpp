@@ -12,17 +12,6 @@
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tolerant_walk {
-namespace {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
-constexpr double kLookEvery = 0.02;  // assembly units, along a shortcut
-constexpr double kTurn = 0.2;        // rad between the instants of a path
-constexpr double kInstants = 0.25;   // assembly units, likewise
-constexpr double kRoom = 0.1;        // share of the looks in vain at which a tree was
-                                     // stuck; less is not what held it
-constexpr std::size_t kRepairs = 4;  // tries to shorten the same way, after it has been learned where it cuts
-
-}  // namespace
 
 PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, RunContext& context, Rng& rng,
                    Overlap overlap, GeometryCache& cache)
@@ -32,7 +21,9 @@ PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, Run
       rng_(rng),
       deadline_(path::deadline_of(query, context)),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, MotionSpace::rigid)),
-      tolerance_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache) {
+      validity_(query.assembly, query.scene, parameters.tolerance_share * query.tolerance, overlap, cache,
+                {{parameters.field_cell * query.tolerance}, static_cast<std::size_t>(parameters.max_samples)},
+                parameters.overlap_reach) {
   const std::size_t count = query.scene.moving.size();
   bodies_ = path::balls_of(*world_);
   for (std::size_t i = 0; i < count; ++i)
@@ -42,26 +33,26 @@ PoseTree::PoseTree(const TreeParameters& parameters, const PathQuery& query, Run
   nodes_.push_back({Pose{}, center_});
 }
 
-bool PoseTree::Reached::has_room_now(const Scene& scene) const {
+bool PoseTree::SearchTreeState::obstacles_removed(const Scene& scene, double share) const {
   std::uint64_t all = 0, gone = 0;
-  for (const auto& [part, count] : stuck_at) {
+  for (const auto& [part, count] : blocked_since_progress) {
     all += count;
     if (!path::contains(scene.fixed, part)) gone += count;
   }
-  return gone > 0 && static_cast<double>(gone) >= kRoom * static_cast<double>(all);
+  return gone > 0 && static_cast<double>(gone) >= share * static_cast<double>(all);
 }
 
-void PoseTree::resume(const Reached& known) {
+void PoseTree::resume(const SearchTreeState& known) {
   const auto here = [&](PartId part) {
     return path::contains(query_.scene.moving, part) || path::contains(query_.scene.fixed, part);
   };
-  for (const Reached::Lesson& lesson : known.lessons) {
-    if (!here(lesson.part) || !here(lesson.other)) continue;
-    tolerance_.learn(lesson.part, lesson.other, lesson.point, lesson.displacement);
-    lessons_.push_back(lesson);
+  for (const SearchTreeState::RefusedPlace& place : known.refused_places) {
+    if (!here(place.part) || !here(place.other)) continue;
+    validity_.add_contact_sample(place.part, place.other, place.point, place.displacement);
+    refused_places_.push_back(place);
   }
   nodes_ = known.nodes;
-  for (Node& node : nodes_) {  // parents come first
+  for (Node& node : nodes_) {  // parents come before their children
     const Node& parent = nodes_[node.parent];
     if (node.cut && node.cut_by && !path::contains(query_.scene.fixed, *node.cut_by))
       node.cut = false, node.cut_by.reset();
@@ -69,18 +60,18 @@ void PoseTree::resume(const Reached& known) {
   }
   for (const auto& [part, count] : known.touched)
     if (path::contains(query_.scene.fixed, part)) touched_[part] = count;
-  spared_ = known.looks;
+  spared_ = known.state_checks;
   resumed_ = nodes_.size();
 }
 
-std::shared_ptr<const PoseTree::Reached> PoseTree::reached() const {
-  auto reached = std::make_shared<Reached>();
-  reached->nodes = nodes_;
-  reached->lessons = lessons_;
-  reached->touched = touched_;
-  reached->stuck_at = stuck_at_;
-  reached->looks = spared_ + looks_;
-  return reached;
+std::shared_ptr<const PoseTree::SearchTreeState> PoseTree::search_state() const {
+  auto state = std::make_shared<SearchTreeState>();
+  state->nodes = nodes_;
+  state->refused_places = refused_places_;
+  state->touched = touched_;
+  state->blocked_since_progress = blocked_since_progress_;
+  state->state_checks = spared_ + state_checks_;
+  return state;
 }
 
 bool PoseTree::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
@@ -102,26 +93,27 @@ State PoseTree::state(const Pose& displacement) const {
   return s;
 }
 
-bool PoseTree::allowed(const Pose& displacement) {
-  ++looks_;
-  if (tolerance_.allows(displacement)) return true;
-  ++touched_[*tolerance_.in_way()];
-  ++stuck_at_[*tolerance_.in_way()];
+bool PoseTree::state_valid(const Pose& displacement) {
+  ++state_checks_;
+  if (validity_.is_valid(displacement)) return true;
+  ++touched_[*validity_.obstacle()];
+  ++blocked_since_progress_[*validity_.obstacle()];
   return false;
 }
 
-/// Bound of the way of each point of the moving parts.
+/// Bound of the displacement of each point of the moving parts.
 double PoseTree::distance(const Pose& a, const Pose& b) const {
   return (a * center_ - b * center_).norm() + radius_ * angle_between(a.q, b.q);
 }
 
-Pose PoseTree::after(std::uint32_t node, const Step& step, double scale) const {
-  const Eigen::Vector3d turn = scale * step.turn;
-  const Eigen::Quaterniond q = turn.isZero() ? Eigen::Quaterniond::Identity()
-                                             : Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+Pose PoseTree::extended(std::uint32_t node, const Step& step, double scale) const {
+  const Eigen::Vector3d rotation = scale * step.rotation;
+  const Eigen::Quaterniond q = rotation.isZero()
+                                   ? Eigen::Quaterniond::Identity()
+                                   : Eigen::Quaterniond(Eigen::AngleAxisd(rotation.norm(), rotation.normalized()));
   Pose next;
   next.q = (q * nodes_[node].pose.q).normalized();
-  next.t = nodes_[node].center + scale * step.way - next.q * center_;
+  next.t = nodes_[node].center + scale * step.translation - next.q * center_;
   return next;
 }
 
@@ -132,57 +124,56 @@ std::uint32_t PoseTree::add(const Pose& pose, std::uint32_t parent) {
 
 bool PoseTree::separated(const Pose& displacement) const { return world_->separated(state(displacement)); }
 
-std::vector<std::uint32_t> PoseTree::chain_to(std::uint32_t node) const {
-  std::vector<std::uint32_t> chain{node};
-  while (chain.back() != 0) chain.push_back(nodes_[chain.back()].parent);
-  std::reverse(chain.begin(), chain.end());
-  return chain;
+std::vector<std::uint32_t> PoseTree::branch_to(std::uint32_t node) const {
+  std::vector<std::uint32_t> branch{node};
+  while (branch.back() != 0) branch.push_back(nodes_[branch.back()].parent);
+  std::reverse(branch.begin(), branch.end());
+  return branch;
 }
 
-/// Coarse looks first: most motions that are not allowed show it in the middle.
-bool PoseTree::straight(const Pose& a, const Pose& b) {
+/// Checks the middle first, then the quarters, and so on: most invalid motions are invalid in the middle.
+bool PoseTree::motion_valid(const Pose& a, const Pose& b) {
   int pieces = 2;
-  while (pieces * kLookEvery < distance(a, b)) pieces *= 2;
+  while (pieces * parameters_.check_spacing * query_.tolerance < distance(a, b)) pieces *= 2;
   for (int apart = pieces / 2; apart > 0; apart /= 2)
     for (int i = apart; i < pieces; i += 2 * apart)
-      if (halted() || !allowed(screw_interpolate(a, b, static_cast<double>(i) / pieces))) return false;
+      if (halted() || !state_valid(screw_interpolate(a, b, static_cast<double>(i) / pieces))) return false;
   return true;
 }
 
-/// Piece by piece, the longest first; then between any two.
-std::vector<Pose> PoseTree::shortened(std::vector<Pose> way) {
+/// Shortcuts whole pieces, the longest first, and then between random waypoints.
+std::vector<Pose> PoseTree::shortened(std::vector<Pose> waypoints) {
   const auto stop = [this] { return halted(); };
   path::shortcut_pieces(
-      way, [this](const Pose& a, const Pose& b) { return straight(a, b); }, stop);
+      waypoints, [this](const Pose& a, const Pose& b) { return motion_valid(a, b); }, stop);
   path::shortcut_at_random(
-      way, parameters_.shortcuts, rng_,
-      [&](std::size_t a, std::size_t b, std::vector<Pose>&) { return straight(way[a], way[b]); }, stop);
-  return way;
+      waypoints, parameters_.shortcuts, rng_,
+      [&](std::size_t a, std::size_t b, std::vector<Pose>&) { return motion_valid(waypoints[a], waypoints[b]); }, stop);
+  return waypoints;
 }
 
-Path PoseTree::path_of(const std::vector<Pose>& way) const {
-  Path path{poses(way.front())};
-  for (std::size_t k = 1; k < way.size(); ++k) {
-    const double pieces_of_turn = angle_between(way[k - 1].q, way[k].q) / kTurn,
-                 pieces_of_way = distance(way[k - 1], way[k]) / kInstants;
-    const int pieces = std::max(1, static_cast<int>(std::ceil(std::max(pieces_of_turn, pieces_of_way))));
+Path PoseTree::path_of(const std::vector<Pose>& waypoints) const {
+  Path path{poses(waypoints.front())};
+  for (std::size_t k = 1; k < waypoints.size(); ++k) {
+    const double angle = angle_between(waypoints[k - 1].q, waypoints[k].q);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(angle / path::kMostTurn)));
     for (int i = 1; i <= pieces; ++i)
-      path.push_back(poses(screw_interpolate(way[k - 1], way[k], static_cast<double>(i) / pieces)));
+      path.push_back(poses(screw_interpolate(waypoints[k - 1], waypoints[k], static_cast<double>(i) / pieces)));
   }
   return path::thin(path, bodies_, parameters_.thinning);
 }
 
-bool PoseTree::verified(std::uint32_t node, PathResult& result) {
-  const std::vector<std::uint32_t> chain = chain_to(node);
-  std::vector<Pose> way, shorter;
-  for (const std::uint32_t n : chain) way.push_back(nodes_[n].pose);
-  Pose at_fault = way.back();
+bool PoseTree::find_verified_path(std::uint32_t node, PathResult& result) {
+  const std::vector<std::uint32_t> branch = branch_to(node);
+  std::vector<Pose> waypoints, shortened_waypoints;
+  for (const std::uint32_t n : branch) waypoints.push_back(nodes_[n].pose);
+  Pose at_fault = waypoints.back();
   std::optional<PartId> by;
   bool tightened = false;
   const auto form = [&](std::size_t round) -> std::optional<Path> {
-    if (round > kRepairs || halted() || given_up()) return std::nullopt;
-    shorter = shortened(way);
-    return path_of(shorter);
+    if (round > static_cast<std::size_t>(parameters_.repairs) || halted() || given_up()) return std::nullopt;
+    shortened_waypoints = shortened(waypoints);
+    return path_of(shortened_waypoints);
   };
   const auto learn = [&](const PathCheck& check, const Path& path) {
     result.message = check.reason;
@@ -190,19 +181,20 @@ bool PoseTree::verified(std::uint32_t node, PathResult& result) {
     const auto& instant = check.poses.empty() ? path[std::min(check.instant, path.size() - 1)] : check.poses;
     by = path::contains(query_.scene.fixed, check.other) ? check.other : check.part;
     at_fault = instant[0] * query_.scene.moving[0].pose.inverse();
-    lessons_.push_back({check.part, check.other, check.point, at_fault});
-    tightened = tolerance_.learn(check.part, check.other, check.point, at_fault);
-    // What was learned may rule out some of the way itself.
-    return !tightened && std::all_of(way.begin() + 1, way.end(), [&](const Pose& p) { return halted() || allowed(p); });
+    refused_places_.push_back({check.part, check.other, check.point, at_fault});
+    tightened = validity_.add_contact_sample(check.part, check.other, check.point, at_fault);
+    // The new samples may invalidate waypoints of the branch itself.
+    return !tightened && std::all_of(waypoints.begin() + 1, waypoints.end(),
+                                     [&](const Pose& p) { return halted() || state_valid(p); });
   };
   const auto accept = [&](VerifiedPath path) {
-    result.solve(std::move(path), static_cast<unsigned>(shorter.size() - 1));
+    result.solve(std::move(path), static_cast<unsigned>(shortened_waypoints.size() - 1));
   };
   if (path::show_forms(query_.checker, refused_, form, learn, accept).accepted) return true;
   if (tightened)
-    cut_disallowed();
+    cut_invalid();
   else if (!halted())
-    cut(chain, at_fault, by);
+    cut(branch, at_fault, by);
   return false;
 }
 
@@ -211,55 +203,55 @@ void PoseTree::cut_off(std::uint32_t node, std::optional<PartId> by) {
   nodes_[node].cut_by = by;
 }
 
-/// Gives up the first node of the way that is not allowed any more, or the one nearest to where the verifier saw a
-/// fault, and what grew from it.
-void PoseTree::cut(const std::vector<std::uint32_t>& chain, const Pose& near, std::optional<PartId> by) {
-  std::uint32_t first = kNone;
+/// Cuts the first node of the branch that is not valid any more, or else the one nearest to the refused pose, with its
+/// subtree.
+void PoseTree::cut(const std::vector<std::uint32_t>& branch, const Pose& near, std::optional<PartId> by) {
+  std::optional<std::uint32_t> first;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 1; k < chain.size(); ++k) {
-    if (!allowed(nodes_[chain[k]].pose)) {
-      first = chain[k];
-      by = tolerance_.in_way();
+  for (std::size_t k = 1; k < branch.size(); ++k) {
+    if (!state_valid(nodes_[branch[k]].pose)) {
+      first = branch[k];
+      by = validity_.obstacle();
       break;
     }
-    if (const double d = distance(nodes_[chain[k]].pose, near); d < least) least = d, first = chain[k];
+    if (const double d = distance(nodes_[branch[k]].pose, near); d < least) least = d, first = branch[k];
   }
-  if (first == kNone) return;
-  cut_off(first, by);
+  if (!first) return;
+  cut_off(*first, by);
   for (std::uint32_t n = 1; n < nodes_.size(); ++n)  // children come after their parents
     if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut && !nodes_[n].cut) cut_off(n, parent.cut_by);
 }
 
-/// What is allowed has changed for good.
-void PoseTree::cut_disallowed() {
+/// Cuts all nodes that are invalid now that the tolerance of a pair is smaller.
+void PoseTree::cut_invalid() {
   for (std::uint32_t n = 1; n < nodes_.size() && !halted(); ++n) {
     if (nodes_[n].cut) continue;
     if (const Node& parent = nodes_[nodes_[n].parent]; parent.cut)
       cut_off(n, parent.cut_by);
-    else if (!allowed(nodes_[n].pose))
-      cut_off(n, tolerance_.in_way());
+    else if (!state_valid(nodes_[n].pose))
+      cut_off(n, validity_.obstacle());
   }
 }
 
-void PoseTree::explain(PathResult& result) const {
-  result.fail(context_.cancel.cancelled()                                        ? Outcome::cancelled
-              : deadline_.passed()                                               ? Outcome::timeout
-              : given_up()                                                       ? Outcome::exhausted
-              : query_.budget.max_steps > 0 && looks_ >= query_.budget.max_steps ? Outcome::timeout
-                                                                                 : Outcome::depth_limit);
+void PoseTree::set_failure(PathResult& result) const {
+  result.fail(context_.cancel.cancelled()                                               ? Outcome::cancelled
+              : deadline_.passed()                                                      ? Outcome::timeout
+              : given_up()                                                              ? Outcome::exhausted
+              : query_.budget.max_steps > 0 && state_checks_ >= query_.budget.max_steps ? Outcome::timeout
+                                                                                        : Outcome::depth_limit);
 }
 
-void PoseTree::finish(std::uint32_t best, PathResult& result) const {
+void PoseTree::fill(std::uint32_t best, PathResult& result) const {
   if (!is_success(result.outcome())) {
     result.best_pose = poses(nodes_[best].pose);
-    result.state = reached();
+    result.state = search_state();
   }
-  result.stats = {.state_checks = looks_,
+  result.stats = {.state_checks = state_checks_,
                   .nodes = nodes_.size(),
                   .refused = refused_,
                   .resumed_nodes = resumed_,
                   .spared = spared_,
-                  .cost = static_cast<double>(looks_)};
+                  .cost = static_cast<double>(state_checks_)};
   result.blocked_by = path::most_touched(touched_, query_.scene.moving);
 }
 

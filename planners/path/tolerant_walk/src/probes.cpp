@@ -15,35 +15,30 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr std::uint32_t kLeaf = 4;                    // probes
-constexpr double kOfThickness = 0.25;                 // what the verifier lets a wall be penetrated
-constexpr double kLeastStep = 2e-3, kSurface = 5e-4;  // assembly units
-constexpr double kThin = 0.08;                        // assembly units: radius of a ball, at most
-constexpr int kFinest = 300;                          // samples along the edge of a triangle, at most
-constexpr double kFlat = 0.9986;                      // cosine between neighbouring faces (3 degrees): more is no edge
-constexpr double kAcute = -0.03;                      // likewise: more than 90 degrees between them
-constexpr std::uint64_t kExact = 20;                  // distances from fields that one that is measured costs
-constexpr int kTries = 4;              // samples that are measured for the one that is kept: fine meshes have many more
-constexpr double kMoreAtStart = 2e-3;  // assembly units: fields are not exact
-constexpr double kCells = 0.7;         // of the spacing of samples: edge of the cells that hold one ball each
+/// Share of a wall's thickness that the verifier allows to be penetrated.
+constexpr double kWallShare = 0.25;
+/// Most samples along an edge of a triangle, a bound of time and memory.
+constexpr int kMaxPerEdge = 300;
+/// Samples that are measured for each one that is kept. Fine meshes have many more.
+constexpr int kTriesPerCell = 4;
 
-/// How far it is from a point of the surface to the opposite side, by steps of what the field says is free; `most` if
-/// that is further.
-double thickness_at(SolidField& part, const Vec3& p, const Vec3& inward, double most) {
-  for (double way = kLeastStep; way < most;) {
-    const double depth = -part.at(p + way * inward);
-    if (depth < kSurface && way > 2 * kLeastStep) {
-      // The opposite side, or one beside the way?
-      const auto& c = part.bvh().corners(part.bvh().closest(p + way * inward).triangle);
+/// Distance from a point of the surface to the opposite side, by sphere tracing in the field; at most `limit`.
+double thickness_at(DistanceField& part, const Vec3& p, const Vec3& inward, double limit) {
+  const double step = part.resolution().ray_step();
+  for (double s = step; s < limit;) {
+    const double depth = -part.at(p + s * inward);
+    if (depth < part.resolution().on_surface() && s > 2 * step) {
+      // The surface counts when it faces the ray, not when the ray passes beside it.
+      const auto& c = part.bvh().corners(part.bvh().closest(p + s * inward).triangle);
       const Vec3 out = geometry::area_vector(c);
-      if (out.dot(inward) > 0.5 * out.norm()) return way;
+      if (out.dot(inward) > 0.5 * out.norm()) return s;
     }
-    way += std::max(depth, kLeastStep);
+    s += std::max(depth, step);
   }
-  return most;
+  return limit;
 }
 
-/// Share of a triangle's box that is in the region.
+/// Share of a triangle's bounding box that is within the region.
 double share_within(const std::array<Vec3, 3>& corners, const Aabb& region) {
   Aabb box;
   for (const auto& v : corners) box.extend(v);
@@ -58,52 +53,55 @@ double share_within(const std::array<Vec3, 3>& corners, const Aabb& region) {
 
 }  // namespace
 
-Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region, std::size_t most, double least_spacing,
+Probes::Probes(DistanceField& part, const Allowance& allowance, const Aabb& region, std::size_t max_count,
                const std::function<bool(const Vec3&)>& wanted) {
-  exactly_ = allowance.exactly;
-  const double allowed = allowance.overlap + allowance.beyond;
+  exact_ = allowance.exact;
+  const double allowed = allowance.overlap + allowance.tolerance;
   const TriangleBvh& bvh = part.bvh();
   double area = 0;
   bvh.overlapping(region, [&](std::uint32_t t) {
     area += 0.5 * geometry::area_vector(bvh.corners(t)).norm() * share_within(bvh.corners(t), region);
   });
   if (!(area > 0)) return;
-  const double spacing = std::max(least_spacing, std::sqrt(area / static_cast<double>(most))), cell = kCells * spacing;
+  const Resolution& resolution = part.resolution();
+  const double spacing = std::max(resolution.sample_spacing(), std::sqrt(area / static_cast<double>(max_count)));
+  const double cell = 0.7 * spacing;  // holds one sample, the strictest
   using Key = std::tuple<long, long, long>;
   const auto key_of = [cell](const Vec3& p) {
     return Key(std::lround(p.x() / cell), std::lround(p.y() / cell), std::lround(p.z() / cell));
   };
   std::map<Key, Probe> balls, points;
-  std::map<Key, int> ball_tries, point_tries;  // by where on the surface
+  std::map<Key, int> ball_tries, point_tries;  // by cell of the point on the surface
   const auto normal_of = [&](std::uint32_t t) {
     const Vec3 n = geometry::area_vector(bvh.corners(t));
     return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
   };
-  // What is deepest in another part lies on an edge: of this one, or of the other.
+  // The deepest point of a pair lies on an edge of one of the two.
   const auto sample_edge = [&](const Vec3& a, const Vec3& b, const Vec3& normal, const Vec3& beside) {
-    const int n = std::clamp(static_cast<int>(std::ceil((b - a).norm() / spacing)), 1, kFinest);
+    const int n = std::clamp(static_cast<int>(std::ceil((b - a).norm() / spacing)), 1, kMaxPerEdge);
     for (int i = 0; i <= n; ++i) {
       const Vec3 p = a + static_cast<double>(i) / n * (b - a);
-      if (!region.contains(p) || !wanted(p) || ++point_tries[key_of(p)] > kTries) continue;
-      const double thick = allowance.beyond / kOfThickness;
-      const double thin = std::min(thickness_at(part, p - kLeastStep * beside, -normal, thick),
-                                   thickness_at(part, p - kLeastStep * normal, -beside, thick));
-      // An acute edge is thin close to it: there is no telling how deep the verifier lets it go.
-      const bool acute = allowance.exactly && normal.dot(beside) < kAcute;
-      const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.beyond, kOfThickness * thin))};
+      if (!region.contains(p) || !wanted(p) || ++point_tries[key_of(p)] > kTriesPerCell) continue;
+      const double thick = allowance.tolerance / kWallShare;
+      const double thin = std::min(thickness_at(part, p - resolution.ray_step() * beside, -normal, thick),
+                                   thickness_at(part, p - resolution.ray_step() * normal, -beside, thick));
+      // The wall at an acute edge (more than 92 degrees between the normals) becomes arbitrarily thin, so nothing
+      // beyond the overlap is sure to be accepted.
+      const bool acute = allowance.exact && normal.dot(beside) < -0.03;
+      const Probe probe{p, -allowance.overlap - (acute ? 0 : std::min(allowance.tolerance, kWallShare * thin))};
       const auto [entry, is_new] = points.try_emplace(key_of(p), probe);
       if (!is_new && probe.keep > entry->second.keep) entry->second = probe;
     }
   };
   const auto sample_ball = [&](const Vec3& p, const Vec3& inward) {
-    if (!region.contains(p) || !wanted(p) || ++ball_tries[key_of(p)] > kTries) return;
-    const double radius = inner_ball_radius(bvh, p, inward, kThin);
-    if (!(radius > allowed) || !(radius < kThin)) return;  // what is thicker is seen by the edges of the other
+    if (!region.contains(p) || !wanted(p) || ++ball_tries[key_of(p)] > kTriesPerCell) return;
+    const double radius = inner_ball_radius(bvh, p, inward, resolution.thin_radius());
+    if (!(radius > allowed) || !(radius < resolution.thin_radius())) return;
     const Probe ball{p + radius * inward, radius - allowed};
     Probe& best = balls[key_of(ball.center)];
     if (ball.keep > best.keep) best = ball;
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;  // edges of which one triangle was met
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> open;  // edges of which one triangle was visited
   bvh.overlapping(region, [&](std::uint32_t t) {
     const auto& c = bvh.corners(t);
     const Vec3 normal = normal_of(t);
@@ -116,14 +114,15 @@ Probes::Probes(SolidField& part, const Allowance& allowance, const Aabb& region,
         continue;
       }
       const Vec3 beside = normal_of(met->second);
-      if (normal.dot(beside) < kFlat) sample_edge(c[k], c[(k + 1) % 3], normal, beside);
+      // Faces that are parallel to within 3 degrees have no edge between them.
+      if (normal.dot(beside) < 0.9986) sample_edge(c[k], c[(k + 1) % 3], normal, beside);
       open.erase(met);
     }
     const double edge = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
-    const int n = std::clamp(static_cast<int>(std::ceil(edge / spacing)), 1, kFinest);
+    const int n = std::clamp(static_cast<int>(std::ceil(edge / spacing)), 1, kMaxPerEdge);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n - i; ++j)
-        for (int half = 0; half < (i + j < n - 1 ? 2 : 1); ++half)  // middles of the small triangles
+        for (int half = 0; half < (i + j < n - 1 ? 2 : 1); ++half)  // centres of the small triangles
           sample_ball(c[0] + (i + (half + 1) / 3.0) / n * (c[1] - c[0]) + (j + (half + 1) / 3.0) / n * (c[2] - c[0]),
                       -normal);
   });
@@ -147,7 +146,7 @@ void Probes::build(std::uint32_t first, std::uint32_t count) {
     node.radius = std::max(node.radius, (probes_[k].center - node.center).norm());
   node.first = first;
   node.count = count;
-  if (count > kLeaf) {
+  if (count > 4) {
     int axis = 0;
     box.size().maxCoeff(&axis);
     const auto begin = probes_.begin() + first;
@@ -161,25 +160,25 @@ void Probes::build(std::uint32_t first, std::uint32_t count) {
   nodes_[id] = node;
 }
 
-void Probes::excuse(const Pose& place, SolidField& other, double reach) {
+void Probes::allow_near(const Pose& place, DistanceField& other, double reach) {
   for (auto* kind : {&probes_, &added_})
     for (Probe& p : *kind) {
       const Vec3 at = place * p.center;
       const double depth = other.at(at);
       if (p.start != Probe::kNoStart || !(depth < p.keep)) continue;
       p.start = static_cast<std::uint32_t>(starts_.size());
-      starts_.push_back({at, depth - kMoreAtStart, reach});
+      starts_.push_back({at, depth - other.resolution().ray_step(), reach});
     }
 }
 
-void Probes::take(Probes other) {
+void Probes::merge(Probes other) {
   probes_.insert(probes_.end(), other.probes_.begin(), other.probes_.end());
   added_.insert(added_.end(), other.added_.begin(), other.added_.end());
   nodes_.clear();
   if (!probes_.empty()) build(0, static_cast<std::uint32_t>(probes_.size()));
 }
 
-void Probes::learn_from(const Probes& other) {
+void Probes::copy_added(const Probes& other) {
   for (Probe p : other.added_) {
     if (p.start != Probe::kNoStart) {
       starts_.push_back(other.starts_[p.start]);
@@ -193,15 +192,15 @@ std::size_t Probes::bytes() const {
   return size() * sizeof(Probe) + nodes_.size() * sizeof(Node) + starts_.size() * sizeof(Probe::Start);
 }
 
-bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& asked) {
+bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t& distance_queries) {
   const Eigen::Matrix3d r = place.q.toRotationMatrix();
   const auto violated = [&](const Probe& p) {
-    ++asked;
+    ++distance_queries;
     const Vec3 at = r * p.center + place.t;
     double distance = other.at(at);
-    if (exactly_ && std::abs(distance - p.keep) < other.error()) {
-      distance = other.exactly(at);
-      asked += kExact;
+    if (exact_ && std::abs(distance - p.keep) < other.error()) {
+      distance = other.measured(at);
+      distance_queries += 20;  // a measured distance takes about as long as that many from the field
     }
     if (!(distance < p.keep)) return false;
     if (p.start == Probe::kNoStart) return true;
@@ -210,21 +209,21 @@ bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& a
   };
   if (std::any_of(added_.begin(), added_.end(), violated)) return true;
   if (nodes_.empty()) return false;
-  if (violated(probes_[last_])) return true;  // it often is the same
-  struct Waiting {
+  if (violated(probes_[last_])) return true;  // it is often the same one again
+  struct OpenNode {
     std::uint32_t node;
-    double bound;  // no probe of it is violated more
+    double bound;  // of the violation of its probes
   };
-  const auto look = [&](std::uint32_t id) {
+  const auto visit = [&](std::uint32_t id) {
     const Node& node = nodes_[id];
-    ++asked;
-    return Waiting{id, node.keep + node.radius - other.at(r * node.center + place.t)};
+    ++distance_queries;
+    return OpenNode{id, node.keep + node.radius - other.at(r * node.center + place.t)};
   };
-  std::array<Waiting, 64> open;
+  std::array<OpenNode, 64> open;
   std::size_t waiting = 0;
-  open[waiting++] = look(0);
+  open[waiting++] = visit(0);
   while (waiting > 0) {
-    const Waiting next = open[--waiting];
+    const OpenNode next = open[--waiting];
     if (!(next.bound > 0)) continue;
     const Node& node = nodes_[next.node];
     if (node.count > 0) {
@@ -235,8 +234,8 @@ bool Probes::any_violated(const Pose& place, SolidField& other, std::uint64_t& a
         }
       continue;
     }
-    const Waiting left = look(next.node + 1), right = look(node.first);
-    const bool right_first = right.bound > left.bound;  // the likelier one first
+    const OpenNode left = visit(next.node + 1), right = visit(node.first);
+    const bool right_first = right.bound > left.bound;  // the one more likely to be violated comes first
     open[waiting++] = right_first ? left : right;
     open[waiting++] = right_first ? right : left;
   }

@@ -1,10 +1,10 @@
-// The fields and samples that the walk decides by, against the original triangles.
+// Distance fields and state validity, compared with the original triangles.
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "dismantle/tolerant_walk/solid_field.h"
-#include "dismantle/tolerant_walk/tolerance.h"
+#include "dismantle/tolerant_walk/distance_field.h"
+#include "dismantle/tolerant_walk/validity_checker.h"
 #include "dismantle/verification/verifier.h"
 #include "solids.h"
 
@@ -18,14 +18,14 @@ using path::test::boxes;
 using path::test::moved;
 using path::test::random_pose;
 
-TEST(SolidField, IsWithinACellOfTheDistance) {
+TEST(DistanceField, IsWithinACellOfTheDistance) {
   Rng rng(3);
   for (int k = 0; k < 10; ++k) {
     const Vector3d half(rng.uniform(0.05, 1), rng.uniform(0.05, 1), rng.uniform(0.05, 1));
     const auto mesh = std::make_shared<const Mesh>(
         moved(boxes({block(-half.x(), -half.y(), -half.z(), half.x(), half.y(), half.z())}), random_pose(rng, 1)));
     const double cell = rng.uniform(0.01, 0.03);
-    SolidField field(mesh, cell);
+    DistanceField field(mesh, {cell});
     const TriangleBvh exact(*mesh);
     for (int i = 0; i < 500; ++i) {
       const Vector3d p = mesh->box().center() +
@@ -42,8 +42,8 @@ TEST(SolidField, IsWithinACellOfTheDistance) {
   }
 }
 
-/// Whoever asked before, and whoever asks at the same time.
-TEST(SolidField, SaysTheSameToSeveralThreads) {
+/// Values do not depend on earlier queries, nor on those of other threads.
+TEST(DistanceField, IsTheSameForSeveralThreads) {
   Rng rng(4);
   for (int k = 0; k < 5; ++k) {
     const auto mesh = std::make_shared<const Mesh>(moved(
@@ -51,7 +51,7 @@ TEST(SolidField, SaysTheSameToSeveralThreads) {
     std::vector<Vector3d> points;
     for (int i = 0; i < 3000; ++i)
       points.push_back(mesh->box().center() + Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
-    SolidField alone(mesh, 0.02), shared(mesh, 0.02);
+    DistanceField alone(mesh, {0.02}), shared(mesh, {0.02});
     std::vector<double> expected;
     for (const auto& p : points) expected.push_back(alone.at(p));
     std::vector<std::vector<double>> said(3);
@@ -71,9 +71,9 @@ TEST(SolidField, SaysTheSameToSeveralThreads) {
   }
 }
 
-/// A plate on a block, moved down into it or turned: what is clearly within the tolerance is allowed, what is clearly
-/// beyond is not, however the two lie in space and however far they overlap when assembled.
-TEST(Tolerance, AgreesWithTheDepthOfThePair) {
+/// A plate on a block, moved down into it or turned. Poses clearly within the tolerance are valid, poses clearly beyond
+/// it are not; for any orientation of the two and any initial overlap.
+TEST(ValidityChecker, AgreesWithTheDepthOfThePair) {
   Rng rng(5);
   int in = 0, beyond = 0;
   for (int k = 0; k < 6; ++k) {
@@ -86,21 +86,21 @@ TEST(Tolerance, AgreesWithTheDepthOfThePair) {
     if (overlap > 0) assembly.overlaps.push_back({0, 1, overlap});
     const double most = 0.01;
     GeometryCache cache;
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most, Overlap::everywhere, cache);
+    ValidityChecker checker(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, most, Overlap::everywhere, cache);
     for (int i = 0; i < 60; ++i) {
       const Eigen::Quaterniond q(Eigen::AngleAxisd(
           rng.uniform(-0.02, 0.02), turned.q * Vector3d(rng.normal(), rng.normal(), rng.normal()).normalized()));
       Pose at{turned.q * Vector3d(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-0.03, 0.03)), q};
       at.t += turned.t - q * turned.t;
       const double depth = penetration_depth(plate, at, ground, Pose{}, 1e-4);
-      const bool allowed = tolerance.allows(at);
+      const bool allowed = checker.is_valid(at);
       if (depth < overlap + 0.5 * most) {
         EXPECT_TRUE(allowed) << depth << ' ' << overlap;
         ++in;
       }
       if (depth > overlap + 1.5 * most) {
         EXPECT_FALSE(allowed) << depth << ' ' << overlap;
-        EXPECT_EQ(tolerance.in_way(), PartId{1});
+        EXPECT_EQ(checker.obstacle(), PartId{1});
         ++beyond;
       }
     }
@@ -109,7 +109,7 @@ TEST(Tolerance, AgreesWithTheDepthOfThePair) {
   EXPECT_GT(beyond, 50);
 }
 
-TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
+TEST(ValidityChecker, SeesAWallBetweenTheSamplesOfTheOther) {
   // A wall of 0.06 in the middle of a block of which only corners and faces are sampled: no point of either is deep.
   Rng rng(7);
   for (int k = 0; k < 5; ++k) {
@@ -117,15 +117,15 @@ TEST(Tolerance, SeesAWallThatLiesBetweenThePointsOfTheOther) {
     const Assembly assembly =
         assembly_of({boxes({block(1, -1, -1, 3, 1, 1)}), boxes({block(0, -2, -2, 0.06, 2, 2)})}, turned);
     GeometryCache cache;
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
+    ValidityChecker checker(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
     for (double x = -0.2; x > -2.9; x -= 0.1) {
       const bool through = x < -0.95 && x > -2.98;
-      EXPECT_EQ(tolerance.allows({turned.q * Vector3d(x, 0, 0), Eigen::Quaterniond::Identity()}), !through) << x;
+      EXPECT_EQ(checker.is_valid({turned.q * Vector3d(x, 0, 0), Eigen::Quaterniond::Identity()}), !through) << x;
     }
   }
 }
 
-TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
+TEST(ValidityChecker, AllowsAnOverlapNearTheStartOnly) {
   // A rod of 0.04 sunk by 0.03 into a block; beside it a wall of 0.05, which it must not pass.
   Rng rng(9);
   for (int k = 0; k < 5; ++k) {
@@ -136,42 +136,44 @@ TEST(Tolerance, AllowsAnOverlapNearTheStartOnly) {
     assembly.overlaps.push_back({0, 1, penetration_depth(rod, Pose{}, fixed, Pose{}, 1e-4)});
     const Scene scene{{{0, Pose{}}}, {{1, Pose{}}}};
     GeometryCache cache;
-    Tolerance near_start(assembly, scene, 0.01, Overlap::near_start, cache),
+    ValidityChecker near_start(assembly, scene, 0.01, Overlap::near_start, cache),
         everywhere(assembly, scene, 0.01, Overlap::everywhere, cache);
     const auto at = [&](double y, double z) {
       return Pose{turned.q * Vector3d(0, y, z), Eigen::Quaterniond::Identity()};
     };
-    for (auto* tolerance : {&near_start, &everywhere}) {
-      EXPECT_TRUE(tolerance->allows(Pose{}));
-      EXPECT_FALSE(tolerance->allows(at(0, -0.03)));
-      for (const double z : {0.01, 0.03, 0.1}) EXPECT_TRUE(tolerance->allows(at(0, z))) << z;
-      EXPECT_TRUE(tolerance->allows(at(0.9, 0.3)));
-      EXPECT_TRUE(tolerance->allows(at(1.1, 0.3)));
+    for (auto* checker : {&near_start, &everywhere}) {
+      EXPECT_TRUE(checker->is_valid(Pose{}));
+      EXPECT_FALSE(checker->is_valid(at(0, -0.03)));
+      for (const double z : {0.01, 0.03, 0.1}) EXPECT_TRUE(checker->is_valid(at(0, z))) << z;
+      EXPECT_TRUE(checker->is_valid(at(0.9, 0.3)));
+      EXPECT_TRUE(checker->is_valid(at(1.1, 0.3)));
     }
     for (const double y : {0.98, 1.0, 1.02, 1.04}) {
-      EXPECT_FALSE(near_start.allows(at(y, 0.3))) << y;
-      EXPECT_TRUE(everywhere.allows(at(y, 0.3))) << y << ": or it is no test";
+      EXPECT_FALSE(near_start.is_valid(at(y, 0.3))) << y;
+      EXPECT_TRUE(everywhere.is_valid(at(y, 0.3))) << y << ": the wall must be passable where the overlap is allowed";
     }
-    EXPECT_FALSE(near_start.allows(at(0.3, 0)));  // as deep as when assembled, but elsewhere
+    EXPECT_FALSE(near_start.is_valid(at(0.3, 0)));  // as deep as when assembled, but elsewhere
   }
 }
 
-TEST(Tolerance, AimsAtLessWhereTheJudgeRefusesAgain) {
+TEST(ValidityChecker, HalvesTheToleranceAfterRepeatedRefusals) {
   Assembly assembly = assembly_of({boxes({block(-1, -1, -0.02, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
   assembly.overlaps.push_back({0, 1, 0.02});
   GeometryCache cache;
-  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::near_start, cache);
+  ValidityChecker checker(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::near_start, cache);
   const Pose at{Vector3d(0.5, 0, 0.014), Eigen::Quaterniond::Identity()};  // 0.006 deep
-  EXPECT_TRUE(tolerance.allows(at));
-  EXPECT_FALSE(tolerance.learn(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
-  EXPECT_TRUE(tolerance.learn(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
-  EXPECT_FALSE(tolerance.allows(at));
-  EXPECT_TRUE(tolerance.allows({Vector3d(0.5, 0, 0.018), Eigen::Quaterniond::Identity()}));
-  EXPECT_TRUE(tolerance.allows(Pose{}));
+  EXPECT_TRUE(checker.is_valid(at));
+  EXPECT_FALSE(
+      checker.add_contact_sample(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(
+      checker.add_contact_sample(0, 1, Vector3d(1, 1, -0.02), {Vector3d(3, 0, 0), Eigen::Quaterniond::Identity()}));
+  EXPECT_FALSE(checker.is_valid(at));
+  EXPECT_TRUE(checker.is_valid({Vector3d(0.5, 0, 0.018), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(checker.is_valid(Pose{}));
 }
 
-/// What is kept tells the same as what is computed anew, whatever was asked, and learned, before; with room for
-/// nothing, too. Parts with one mesh have one field.
+/// Cached objects give the same results as new ones, whatever was computed before, and also if the cache has no room.
+/// Parts with the same mesh share a field.
 TEST(GeometryCache, ChangesNoAnswer) {
   Rng rng(12);
   const auto plate = std::make_shared<Mesh>(boxes({block(-0.5, -0.4, -0.02, 0.5, 0.4, 0.2)})),
@@ -188,24 +190,25 @@ TEST(GeometryCache, ChangesNoAnswer) {
     const Scene scene{{{moving, start}}, {{1, Pose{}}}};
     const Overlap overlap = search % 3 == 0 ? Overlap::near_start : Overlap::everywhere;
     GeometryCache fresh;
-    Tolerance anew(assembly, scene, 0.01, overlap, fresh);
-    Tolerance known(assembly, scene, 0.01, overlap, kept), poor(assembly, scene, 0.01, overlap, no_room);
+    ValidityChecker uncached(assembly, scene, 0.01, overlap, fresh);
+    ValidityChecker known(assembly, scene, 0.01, overlap, kept), poor(assembly, scene, 0.01, overlap, no_room);
     for (int i = 0; i < 300; ++i) {
       if (i == 200)
-        for (auto* tolerance : {&anew, &known, &poor}) tolerance->learn(moving, 1, Vector3d(0.5, 0.4, -0.02), Pose{});
+        for (auto* checker : {&uncached, &known, &poor})
+          checker->add_contact_sample(moving, 1, Vector3d(0.5, 0.4, -0.02), Pose{});
       const Pose at{Vector3d(rng.uniform(-0.2, 0.2), rng.uniform(-0.2, 0.2), rng.uniform(-0.03, 0.05)),
                     Eigen::Quaterniond(Eigen::AngleAxisd(rng.uniform(-0.05, 0.05), Vector3d::UnitX()))};
-      const bool is = anew.allows(at);
-      EXPECT_EQ(known.allows(at), is);
-      EXPECT_EQ(poor.allows(at), is);
+      const bool is = uncached.is_valid(at);
+      EXPECT_EQ(known.is_valid(at), is);
+      EXPECT_EQ(poor.is_valid(at), is);
       allowed += is;
       ++all;
     }
-    EXPECT_EQ(anew.asked(), known.asked());
+    EXPECT_EQ(uncached.distance_queries(), known.distance_queries());
   }
   EXPECT_GT(allowed, all / 20);
   EXPECT_LT(allowed, all - all / 20);
-  EXPECT_EQ(kept.field(plate), kept.field(assembly.parts[2].mesh));
+  EXPECT_EQ(kept.field(plate, {}), kept.field(assembly.parts[2].mesh, {}));
   const std::size_t before = kept.bytes();
   kept.make_room();
   EXPECT_EQ(kept.bytes(), before);
@@ -213,7 +216,7 @@ TEST(GeometryCache, ChangesNoAnswer) {
   EXPECT_EQ(no_room.bytes(), 0U);
 }
 
-/// Searches that go on at the same time, with room for everything or for nothing.
+/// Concurrent searches, with room for everything or for nothing.
 TEST(GeometryCache, ChangesNoAnswerOfSeveralThreads) {
   Rng rng(13);
   Assembly assembly = assembly_of({boxes({block(-0.5, -0.4, -0.02, 0.5, 0.4, 0.2)}),
@@ -233,33 +236,34 @@ TEST(GeometryCache, ChangesNoAnswerOfSeveralThreads) {
           for (int search = 0; search < 3; ++search) {
             const PartId moving = t % 2 == 0 ? 0 : 1;
             const Scene scene{{{moving, Pose{}}}, {{1 - moving, Pose{}}}};
-            Tolerance tolerance(assembly, scene, 0.01, search == 1 ? Overlap::near_start : Overlap::everywhere, cache);
-            for (const Pose& at : poses) said[t].push_back(tolerance.allows(at));
+            ValidityChecker checker(assembly, scene, 0.01, search == 1 ? Overlap::near_start : Overlap::everywhere,
+                                    cache);
+            for (const Pose& at : poses) said[t].push_back(checker.is_valid(at));
           }
         });
     }
     EXPECT_EQ(said[0], said[2]);
     EXPECT_EQ(said[1], said[3]);
     GeometryCache fresh;
-    Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, fresh);
-    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(said[0][i], tolerance.allows(poses[i]));
+    ValidityChecker checker(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, fresh);
+    for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(said[0][i], checker.is_valid(poses[i]));
   }
 }
 
-TEST(Tolerance, LearnsAPlace) {
+TEST(ValidityChecker, AddsARefusedPlace) {
   const Assembly assembly = assembly_of({boxes({block(-1, -1, 0, 1, 1, 1)}), boxes({block(-2, -2, -1, 2, 2, 0)})});
   GeometryCache cache;
-  Tolerance tolerance(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
+  ValidityChecker checker(assembly, {{{0, Pose{}}}, {{1, Pose{}}}}, 0.01, Overlap::everywhere, cache);
   const Pose sunk{Vector3d(0, 0, -0.007), Eigen::Quaterniond::Identity()};
-  EXPECT_TRUE(tolerance.allows(sunk));
-  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), sunk);
-  EXPECT_FALSE(tolerance.allows(sunk));
-  EXPECT_TRUE(tolerance.allows({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
-  // By how deep it was: half of that.
-  tolerance.learn(0, 1, Vector3d(0.3, 0.4, 0), {Vector3d(0, 0, -0.004), Eigen::Quaterniond::Identity()});
-  EXPECT_FALSE(tolerance.allows({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
-  EXPECT_TRUE(tolerance.allows({Vector3d(0, 0, -0.001), Eigen::Quaterniond::Identity()}));
-  EXPECT_TRUE(tolerance.allows(Pose{}));
+  EXPECT_TRUE(checker.is_valid(sunk));
+  checker.add_contact_sample(0, 1, Vector3d(0.3, 0.4, 0), sunk);
+  EXPECT_FALSE(checker.is_valid(sunk));
+  EXPECT_TRUE(checker.is_valid({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
+  // From now on half of the refused depth is allowed.
+  checker.add_contact_sample(0, 1, Vector3d(0.3, 0.4, 0), {Vector3d(0, 0, -0.004), Eigen::Quaterniond::Identity()});
+  EXPECT_FALSE(checker.is_valid({Vector3d(0, 0, -0.003), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(checker.is_valid({Vector3d(0, 0, -0.001), Eigen::Quaterniond::Identity()}));
+  EXPECT_TRUE(checker.is_valid(Pose{}));
 }
 
 }  // namespace

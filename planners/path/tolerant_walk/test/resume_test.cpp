@@ -1,4 +1,4 @@
-// A tree of poses that is taken over when parts have left.
+// A tree of poses is resumed when parts have left.
 #include <gtest/gtest.h>
 
 #include "dismantle/tolerant_walk/pose_tree.h"
@@ -21,9 +21,9 @@ struct TestScene {
   RunContext context;
   Rng rng{1};
   PartId blamed = 2;
-  std::size_t judged = 0;
+  std::size_t checked = 0;
   fake::RuleChecker checker{[this](const Path& path) {
-    ++judged;
+    ++checked;
     fake::Ruling ruling;
     ruling.has_witness = true;
     ruling.part = 0, ruling.other = blamed;
@@ -43,10 +43,10 @@ struct TestScene {
   }
 };
 
-Pose up(double way) { return {Eigen::Vector3d(0, 0, way), Eigen::Quaterniond::Identity()}; }
+Pose up(double z) { return {Eigen::Vector3d(0, 0, z), Eigen::Quaterniond::Identity()}; }
 
-/// What the verifier has cut off stays so, unless it was because of what has left.
-TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
+/// Branches that were cut stay so, unless the part because of which they were cut has left.
+TEST(PoseTreeResume, BranchesCutBecauseOfAPartGrowAgainWithoutIt) {
   for (const PartId blamed : {PartId{2}, PartId{3}}) {
     TestScene s;
     s.blamed = blamed;
@@ -54,44 +54,43 @@ TEST(PoseTreeResume, BranchesCutBecauseOfWhatHasLeftGrowAgain) {
     PoseTree tree = s.tree(all);
     const std::uint32_t a = tree.add(up(0.5), 0), b = tree.add(up(1.0), a), c = tree.add(up(0.7), 0);
     PathResult result;
-    EXPECT_FALSE(tree.verified(b, result));
-    EXPECT_GT(s.judged, 0U);
+    EXPECT_FALSE(tree.find_verified_path(b, result));
+    EXPECT_GT(s.checked, 0U);
     ASSERT_TRUE(tree[b].cut);
     ASSERT_FALSE(tree[c].cut);
     PoseTree same = s.tree(all);
-    same.resume(*tree.reached());
+    same.resume(*tree.search_state());
     ASSERT_EQ(same.size(), tree.size());
-    for (const std::uint32_t n : {a, b, c}) EXPECT_EQ(same[n].cut, tree[n].cut) << "nobody has left";
+    for (const std::uint32_t n : {a, b, c}) EXPECT_EQ(same[n].cut, tree[n].cut) << "no part has left";
     PoseTree freed = s.tree(fewer);
-    freed.resume(*tree.reached());
+    freed.resume(*tree.search_state());
     ASSERT_EQ(freed.size(), tree.size());
     EXPECT_EQ(freed[b].cut, blamed == 3);
     EXPECT_FALSE(freed[c].cut);
     EXPECT_EQ(freed[b].parent, a);
     EXPECT_EQ(freed[b].pose.t, up(1.0).t);
-    EXPECT_EQ(freed.spared(), tree.looks());
+    EXPECT_EQ(freed.spared(), tree.state_checks());
   }
 }
 
-/// It has room now where what it was stuck at since it last came further has left: not what was in its way before, nor
-/// what was hardly ever.
-TEST(PoseTreeResume, HasRoomWhereWhatItWasStuckAtHasLeft) {
+/// Only obstacles since the last progress count, and only those that were hit often enough.
+TEST(PoseTreeResume, ResumesWhereItsObstaclesHaveLeft) {
   TestScene s;
   const PathQuery all = s.query({1, 2, 3});
   PoseTree tree = s.tree(all);
-  const auto bump = [&](double way, int times) {
-    for (int k = 0; k < times; ++k) EXPECT_FALSE(tree.allowed({{way, 0, 0}, Eigen::Quaterniond::Identity()}));
+  const auto bump = [&](double x, int times) {
+    for (int k = 0; k < times; ++k) EXPECT_FALSE(tree.state_valid({{x, 0, 0}, Eigen::Quaterniond::Identity()}));
   };
   bump(-1.5, 100);  // into part 2
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 3}).scene));
-  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 2}).scene));
-  EXPECT_FALSE(tree.reached()->has_room_now(all.scene));
+  EXPECT_TRUE(tree.search_state()->obstacles_removed(s.query({1, 3}).scene, 0.1));
+  EXPECT_FALSE(tree.search_state()->obstacles_removed(s.query({1, 2}).scene, 0.1));
+  EXPECT_FALSE(tree.search_state()->obstacles_removed(all.scene, 0.1));
   tree.note_progress();
   bump(1.5, 100);  // into part 3
   bump(-1.5, 5);
-  EXPECT_FALSE(tree.reached()->has_room_now(s.query({1, 3}).scene));
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1, 2}).scene));
-  EXPECT_TRUE(tree.reached()->has_room_now(s.query({1}).scene));
+  EXPECT_FALSE(tree.search_state()->obstacles_removed(s.query({1, 3}).scene, 0.1));
+  EXPECT_TRUE(tree.search_state()->obstacles_removed(s.query({1, 2}).scene, 0.1));
+  EXPECT_TRUE(tree.search_state()->obstacles_removed(s.query({1}).scene, 0.1));
 }
 
 }  // namespace

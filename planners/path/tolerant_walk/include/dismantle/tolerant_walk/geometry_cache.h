@@ -1,4 +1,4 @@
-/// What searches have computed of parts, for the next ones.
+/// Fields and probes that searches have computed, kept for later searches.
 #pragma once
 
 #include <array>
@@ -8,50 +8,59 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "dismantle/mesh.h"
 #include "dismantle/pose.h"
+#include "dismantle/tolerant_walk/distance_field.h"
 #include "dismantle/tolerant_walk/probes.h"
-#include "dismantle/tolerant_walk/solid_field.h"
 
 namespace dismantle::tolerant_walk {
 
-/// Fields of parts, and probes of pairs as they stand. They follow from the meshes alone, so no answer depends on what
-/// is kept. Parts with one mesh share its field. Safe to use from several threads.
+/// How densely surfaces are sampled.
+struct Sampling {
+  Resolution resolution;
+  std::size_t max_samples = 5'000;  ///< of one part around another; a fifth of that all over it
+};
+
+/// Fields of parts, and probes of pairs at their poses. They follow from the keys alone, so results do not depend on
+/// what is cached. Parts with the same mesh share its field. Safe to use from several threads.
 class GeometryCache {
  public:
-  /// About so many bytes are kept; when it is more, everything is computed anew.
+  /// When more than about `most_bytes` are cached, make_room() drops everything.
   explicit GeometryCache(std::size_t most_bytes = std::size_t{512} << 20) : most_bytes_(most_bytes) {}
 
-  /// The one that all planners of this process share, plugins of different files too; it lives as long as one of them
-  /// holds it.
+  /// The cache that all planners of this process share, also plugins of different files. It lives as long as one of
+  /// them holds it.
   static std::shared_ptr<GeometryCache> shared();
 
-  /// What probes of one mesh against another depend on; or those against whatever comes.
+  /// Everything that the probes of one mesh against another, or against any other, depend on.
   struct Pair {
-    Pair(const Mesh& of, const Allowance& allowance);
-    Pair(const Mesh& of, const Mesh& other, const Pose& place, const Allowance& allowance, double excused_within);
+    Pair(const Mesh& of, const Sampling& sampling, const Allowance& allowance);
+    Pair(const Mesh& of, const Mesh& other, const Pose& place, const Sampling& sampling, const Allowance& allowance,
+         double reach);
     auto operator<=>(const Pair&) const = default;
 
    private:
     std::array<const Mesh*, 2> meshes_;
-    std::array<double, 10> numbers_;
-    bool exactly_;
+    std::array<double, 12> numbers_;
+    bool exact_;
   };
 
-  /// Between searches: makes room where too much is kept. What is in use stays with those who use it.
+  /// To be called between searches. Objects in use stay alive with their owners.
   void make_room();
-  std::shared_ptr<SolidField> field(const std::shared_ptr<const Mesh>& mesh);
-  /// `make` is called where they are not known, from this thread, and may use the cache. Both meshes have fields here.
+  std::shared_ptr<DistanceField> field(const std::shared_ptr<const Mesh>& mesh, const Resolution& resolution);
+  /// `make` is called in this thread if they are not cached, and may use the cache. Both meshes need a field here,
+  /// which keeps them alive.
   std::shared_ptr<const Probes> probes(const Pair& pair, const std::function<Probes()>& make);
-  std::size_t bytes() const;  ///< about so many are kept
+  std::size_t bytes() const;  ///< approximate memory of what is cached
 
  private:
   std::size_t bytes_under_lock() const;
 
   const std::size_t most_bytes_;
   mutable std::mutex mutex_;
-  std::map<const Mesh*, std::shared_ptr<SolidField>> fields_;  // which keep the meshes
+  std::map<std::pair<const Mesh*, double>, std::shared_ptr<DistanceField>> fields_;  // by mesh and cell
   std::map<Pair, std::shared_ptr<const Probes>> probes_;
 };
 

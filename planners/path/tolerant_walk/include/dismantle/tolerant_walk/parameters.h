@@ -10,22 +10,104 @@ namespace dismantle::tolerant_walk {
 struct TreeParameters {
   double tolerance_share = 0.8;
   double step = 0.006;
+  double first_step_min = 0.25;
+  double first_step_max = 1;
+  double step_growth = 1.15;
+  double longest_step = 10;
+  std::int64_t extension_steps = 400;
+  double field_cell = 1;
+  std::int64_t max_samples = 5'000;
+  double overlap_reach = 3;
   std::int64_t shortcuts = 60;
+  double check_spacing = 2;
+  std::int64_t repairs = 4;
+  double resume_share = 0.1;
   double thinning = 1e-4;
   std::int64_t max_refusals = 12;
 };
 
-/// Declares `tolerance_share` and `step` for a struct that derives from TreeParameters.
+/// Declares which poses are valid, and the scale of steps.
 template <class P>
-void describe_poses(Schema<P>& s, const std::string& step_doc) {
+void describe_poses(Schema<P>& s) {
   using path::inherited;
-  s.add("tolerance_share", inherited<P>(&TreeParameters::tolerance_share),
+  s.add(
+      "tolerance_share", inherited<P>(&TreeParameters::tolerance_share),
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .doc = "Share of verify.max_penetration up to which poses may be deeper than when assembled. Depth is measured "
+              "at samples, so with a larger share the verifier refuses more paths; with a smaller one tight fits stay "
+              "closed."});
+  s.add("step", inherited<P>(&TreeParameters::step),
+        {.unit = "unit",
+         .min = 1e-5,
+         .max = 1,
+         .doc = "Scale of the steps of an extension: how far a point of the part moves in one of them. Smaller: "
+                "narrower passages are found, at more state checks."});
+}
+
+/// Declares how poses are checked.
+template <class P>
+void describe_samples(Schema<P>& s) {
+  using path::inherited;
+  s.add("field_cell", inherited<P>(&TreeParameters::field_cell),
+        {.unit = "max_penetration",
+         .min = 0.1,
+         .max = 100,
+         .doc =
+             "Advanced. Edge of the cells of the distance fields, as a multiple of verify.max_penetration; samples are "
+             "three cells apart at least. Smaller: fewer paths are refused; time and memory of the fields grow with "
+             "the square."});
+  s.add("max_samples", inherited<P>(&TreeParameters::max_samples),
         {.unit = "1",
+         .min = 100,
+         .max = 1e7,
+         .doc = "Advanced. Samples of a part around another one; a fifth of that all over it. More: fewer paths are "
+                "refused, each state check costs more."});
+  s.add(
+      "overlap_reach", inherited<P>(&TreeParameters::overlap_reach),
+      {.unit = "overlap",
+       .min = 0,
+       .max = 1000,
+       .doc = "Advanced. For a group thinner than its initial overlap: how far from the start that overlap is allowed, "
+              "as a multiple of it, plus two cells."});
+}
+
+/// Declares how the steps of an extension vary.
+template <class P>
+void describe_extensions(Schema<P>& s) {
+  using path::inherited;
+  s.add("first_step_min", inherited<P>(&TreeParameters::first_step_min),
+        {.unit = "step",
          .min = 0,
          .max = 1,
-         .doc = "Share of verify.max_penetration up to which poses may be deeper than when assembled. Less than all "
-                "of it: depth is measured at samples."});
-  s.add("step", inherited<P>(&TreeParameters::step), {.unit = "unit", .min = 1e-5, .max = 1, .doc = step_doc});
+         .min_open = true,
+         .doc = "Advanced. Shortest first step of an extension, as a multiple of `step`. The length is drawn between "
+                "this and `first_step_max`, uniformly in its logarithm."});
+  s.add("first_step_max", inherited<P>(&TreeParameters::first_step_max),
+        {.unit = "step",
+         .min = 1,
+         .max = 100,
+         .doc = "Advanced. Longest first step of an extension, as a multiple of `step`."});
+  s.add(
+      "step_growth", inherited<P>(&TreeParameters::step_growth),
+      {.unit = "1",
+       .min = 1,
+       .max = 10,
+       .doc = "Advanced. Each step of an extension is this many times as long as the one before, as long as poses are "
+              "valid. Larger: free space is crossed in fewer state checks, with more of them wasted at obstacles."});
+  s.add(
+      "longest_step", inherited<P>(&TreeParameters::longest_step),
+      {.unit = "step",
+       .min = 1,
+       .max = 1000,
+       .doc = "Advanced. Bound of the steps of an extension, as a multiple of `step`. Poses between two steps are not "
+              "checked, so longer steps may pass through thin obstacles, which the verifier refuses."});
+  s.add("extension_steps", inherited<P>(&TreeParameters::extension_steps),
+        {.unit = "1",
+         .min = 1,
+         .max = 1e6,
+         .doc = "Advanced. Most steps of one extension. Larger: a part that moves freely gets further at a time."});
 }
 
 /// Declares the others.
@@ -33,36 +115,83 @@ template <class P>
 void describe_paths(Schema<P>& s) {
   using path::inherited;
   s.add("shortcuts", inherited<P>(&TreeParameters::shortcuts),
-        {.unit = "1", .min = 0, .max = 1e6, .doc = "Attempts to replace pieces of a path by straight ones."});
+        {.unit = "1",
+         .min = 0,
+         .max = 1e6,
+         .doc = "Attempts to replace pieces of a path by direct motions. More: shorter paths."});
+  s.add(
+      "check_spacing", inherited<P>(&TreeParameters::check_spacing),
+      {.unit = "max_penetration",
+       .min = 0.01,
+       .max = 1000,
+       .doc =
+           "Advanced. Distance of the state checks along a shortcut, as a multiple of verify.max_penetration. Larger: "
+           "faster, with more paths refused."});
   path::add_thinning(s, inherited<P>(&TreeParameters::thinning));
   s.add("max_refusals", inherited<P>(&TreeParameters::max_refusals),
-        {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before it gives up."});
+        {.unit = "1", .min = 1, .max = 1e6, .doc = "Paths that the verifier may refuse before the search gives up."});
+  s.add(
+      "repairs", inherited<P>(&TreeParameters::repairs),
+      {.unit = "1",
+       .min = 0,
+       .max = 1000,
+       .doc = "Advanced. Number of times that a refused path is shortened again, after the refused place has become a "
+              "sample. After that its branch is cut."});
+  s.add(
+      "resume_share", inherited<P>(&TreeParameters::resume_share),
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .doc = "Advanced. A search resumes an earlier tree only if the obstacles of at least this share of its invalid "
+              "poses since its last progress have left. Smaller: trees are resumed more often, also in dead ends."});
 }
 
 struct Parameters : TreeParameters {
   double outward = 0.6;
   std::int64_t state_checks = 25'000;
-  double level_looks = 500;
+  double level_state_checks = 500;
+  double outward_step = 0.7;
+  double direct = 0.15;
+  double recent = 0.2;
+  std::int64_t newest = 200;
 
   static void describe(Schema<Parameters>& s) {
-    describe_poses(s,
-                   "How far a point of the part moves in a first step, about; as long as nothing is in the way, steps "
-                   "grow to ten times that.");
+    describe_poses(s);
     s.add("outward", &Parameters::outward,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Share of the steps from poses that are furthest out in some direction."});
+           .doc = "Share of the extensions from poses that are furthest out in some direction. Smaller: the tree fills "
+                  "more of the space around the start."});
+    s.add("outward_step", &Parameters::outward_step,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Advanced. Share of these extensions that lead further in that direction; the others are random."});
+    s.add("direct", &Parameters::direct,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Advanced. Share of the extensions that lead further without any random motion."});
+    s.add("recent", &Parameters::recent,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Advanced. Share of the other extensions that start from one of the `newest` nodes instead of any."});
+    s.add("newest", &Parameters::newest,
+          {.unit = "1", .min = 1, .max = 1e9, .doc = "Advanced. Number of nodes that count as new."});
     s.add("state_checks", &Parameters::state_checks,
-          {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before it gives up."});
-    s.add(
-        "level_state_checks", &Parameters::level_looks,
-        {.unit = "1",
-         .min = 0,
-         .max = 1e12,
-         .min_open = true,
-         .doc = "The same for a search of depth 1 where the sequence planner limits depth; each further level doubles "
-                "them, up to `state_checks`."});
+          {.unit = "1", .min = 1, .max = 1e12, .doc = "State checks before the search gives up."});
+    s.add("level_state_checks", &Parameters::level_state_checks,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .min_open = true,
+           .doc =
+               "`state_checks` of a search of depth 1, where the sequence planner limits the depth. Each further level "
+               "doubles them, up to `state_checks`."});
+    describe_extensions(s);
+    describe_samples(s);
     describe_paths(s);
   }
 };

@@ -1,5 +1,5 @@
-// Ways out of free space: they get shorter, never lead through a wall, and there is none where all is closed.
-#include "dismantle/free_space/ways_out.h"
+// Routes through free space get shorter, never lead through a wall, and do not exist where everything is closed.
+#include "dismantle/free_space/navigation_function.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using path::test::assembly_of;
 using path::test::block;
 using path::test::boxes;
 
-constexpr std::size_t kCells = 60'000;
+const GridParameters kGrid{.cells = 60'000};
 
 std::vector<PlacedPart> all_of(const Assembly& assembly) {
   std::vector<PlacedPart> fixed;
@@ -41,9 +41,9 @@ Pose random_turn(Rng& rng) {
   return {Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()), q.normalized()};
 }
 
-TEST(WaysOut, NeverLeadThroughAWall) {
+TEST(NavigationFunction, NoRouteLeadsThroughAWall) {
   Rng rng(11);
-  int ways = 0;
+  int routes = 0;
   for (int k = 0; k < 6; ++k) {
     std::vector<Aabb> list;
     for (int n = 0; n < 25; ++n) {
@@ -54,62 +54,62 @@ TEST(WaysOut, NeverLeadThroughAWall) {
     const Assembly assembly = assembly_of({boxes(list)}, random_turn(rng));
     const Mesh& mesh = *assembly.parts[0].mesh;
     const TriangleBvh solid(mesh);
-    const WaysOut ways_out(assembly, all_of(assembly), 0, kCells);
+    const NavigationFunction navigation(assembly, all_of(assembly), 0, kGrid);
     for (int n = 0; n < 200; ++n) {
       Eigen::Vector3d p;
       for (int a = 0; a < 3; ++a) p[a] = rng.uniform(mesh.box().lo[a], mesh.box().hi[a]);
-      if (ways_out.depth(p) > 0) continue;
-      ++ways;
-      const std::vector<Eigen::Vector3d> way = ways_out.way(p);
-      ASSERT_FALSE(way.empty());
-      EXPECT_FALSE(solid.inside(way.front()));
-      for (std::size_t i = 1; i < way.size(); ++i) {
-        EXPECT_LT(ways_out.length(way[i]), ways_out.length(way[i - 1]));
+      if (navigation.cells_to_route(p) > 0) continue;
+      ++routes;
+      const std::vector<Eigen::Vector3d> route = navigation.route(p);
+      ASSERT_FALSE(route.empty());
+      EXPECT_FALSE(solid.inside(route.front()));
+      for (std::size_t i = 1; i < route.size(); ++i) {
+        EXPECT_LT(navigation.remaining(route[i]), navigation.remaining(route[i - 1]));
         for (const double t : {0.25, 0.5, 0.75, 1.0})
-          EXPECT_FALSE(solid.inside(way[i - 1] + t * (way[i] - way[i - 1])));
+          EXPECT_FALSE(solid.inside(route[i - 1] + t * (route[i] - route[i - 1])));
       }
-      Aabb rim = mesh.box();
-      rim.inflate(ways_out.cell());
-      EXPECT_FALSE(rim.contains(way.back()));
+      Aabb boundary = mesh.box();
+      boundary.inflate(navigation.cell());
+      EXPECT_FALSE(boundary.contains(route.back()));
     }
   }
-  EXPECT_GT(ways, 300);
+  EXPECT_GT(routes, 300);
 }
 
-TEST(WaysOut, ThereIsNoneOutOfWhatIsClosed) {
+TEST(NavigationFunction, AClosedBoxHasNoRoute) {
   Rng rng(12);
   for (int k = 0; k < 4; ++k) {
     const Pose turned = random_turn(rng);
     const Assembly closed = assembly_of({hollow(0)}, turned), open = assembly_of({hollow(1)}, turned);
-    const WaysOut none(closed, all_of(closed), 0, kCells), some(open, all_of(open), 0, kCells);
-    const WaysOut too_large(open, all_of(open), 0.5 + 2 * some.cell(), kCells);
+    const NavigationFunction none(closed, all_of(closed), 0, kGrid), some(open, all_of(open), 0, kGrid);
+    const NavigationFunction too_large(open, all_of(open), 0.5 + 2 * some.cell(), kGrid);
     for (int n = 0; n < 50; ++n) {
       const Eigen::Vector3d p =
           turned * (1.1 * Eigen::Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)));
-      EXPECT_GT(none.depth(p), 0U);
-      EXPECT_EQ(some.depth(p), 0U);
-      EXPECT_GT(too_large.depth(p), 0U) << "a ball that is larger than the hole";
+      EXPECT_GT(none.cells_to_route(p), 0U);
+      EXPECT_EQ(some.cells_to_route(p), 0U);
+      EXPECT_GT(too_large.cells_to_route(p), 0U) << "a ball that is larger than the hole";
     }
   }
 }
 
-TEST(WaysOut, ANarrowPlaceCanBeClosed) {
+TEST(NavigationFunction, ANarrowPlaceCanBeBlocked) {
   const Assembly assembly = assembly_of({hollow(0.8)});
-  WaysOut ways(assembly, all_of(assembly), 0, kCells);
+  NavigationFunction navigation(assembly, all_of(assembly), 0, kGrid);
   const Eigen::Vector3d p(0.3, -0.2, 0.1);
-  ASSERT_EQ(ways.depth(p), 0U);
-  EXPECT_FALSE(ways.close_narrowest(p, 0));
-  EXPECT_EQ(ways.depth(p), 0U);
-  ASSERT_TRUE(ways.close_narrowest(p, 100));
-  EXPECT_GT(ways.depth(p), 0U) << "there was no other";
+  ASSERT_EQ(navigation.cells_to_route(p), 0U);
+  EXPECT_FALSE(navigation.close_narrowest(p, 0));
+  EXPECT_EQ(navigation.cells_to_route(p), 0U);
+  ASSERT_TRUE(navigation.close_narrowest(p, 100));
+  EXPECT_GT(navigation.cells_to_route(p), 0U) << "there was no other route";
 }
 
-TEST(WaysOut, OutsideItIsStraight) {
+TEST(NavigationFunction, RoutesFromOutsideAreStraight) {
   const Assembly assembly = assembly_of({hollow(0)});
-  const WaysOut ways(assembly, all_of(assembly), 0, kCells);
+  const NavigationFunction navigation(assembly, all_of(assembly), 0, kGrid);
   const Eigen::Vector3d p(0, 0, 5);
   EXPECT_LT(ways.length(p), 0);
-  EXPECT_LT(ways.length(ways.ahead(p)), ways.length(p));
+  EXPECT_LT(navigation.remaining(navigation.lookahead(p)), navigation.remaining(p));
 }
 
 }  // namespace

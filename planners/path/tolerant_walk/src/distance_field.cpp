@@ -1,29 +1,27 @@
-#include "dismantle/tolerant_walk/solid_field.h"
+#include "dismantle/tolerant_walk/distance_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dismantle/geometry/mesh_measure.h"
 
 namespace dismantle::tolerant_walk {
 namespace {
 
-constexpr double kAround = 0.1;  // assembly units: so far around the part distances are known; more than probes keep
-constexpr double kCoarse = 8;    // fine cells
-constexpr double kFar = 0.12;    // assembly units: further from the surface the coarse grid will do
-constexpr double kMostError = 0.8661;  // of a cell: what interpolation of distances is wrong by, at most
-constexpr double kMostBlocks = 4e6;    // of which only those that are used take memory
+constexpr double kMostBlocks =
+    4e6;  // pointers to blocks of a grid: a bound of memory, so cells are larger for huge parts
 
-Aabb grown(Aabb box) {
-  box.inflate(kAround);
+Aabb inflated(Aabb box, double by) {
+  box.inflate(by);
   return box;
 }
 
 }  // namespace
 
-SolidField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
-  constexpr double kCells = kBlock - 1;
+DistanceField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
+  constexpr double kCells = kBlock - 1;  // along the edge of a block
   const double blocks = (box_.size() / (kCells * cell_)).array().ceil().prod();
   if (blocks > kMostBlocks) cell_ *= std::cbrt(blocks / kMostBlocks);
   inverse_cell_ = 1 / cell_;
@@ -34,21 +32,23 @@ SolidField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
   known_ = std::make_unique<std::atomic<Block*>[]>(count_);
 }
 
-SolidField::Grid::~Grid() {
+DistanceField::Grid::~Grid() {
   for (std::size_t k = 0; k < count_; ++k) delete known_[k].load(std::memory_order_relaxed);
 }
 
-SolidField::Grid::Block& SolidField::Grid::make(std::atomic<Block*>& place) {
+DistanceField::Grid::Block& DistanceField::Grid::make(std::atomic<Block*>& place) {
   auto made = std::make_unique<Block>();
   for (auto& value : *made) value.store(std::numeric_limits<float>::quiet_NaN(), std::memory_order_relaxed);
   Block* known = nullptr;
-  if (!place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)) return *known;  // another thread's
+  if (!place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel))
+    return *known;  // another thread was first
   ++blocks_known_;
   return *made.release();
 }
 
-/// From one place to the next the distance changes by a cell at most; and the sign only where the surface is closer.
-SolidField::Grid::Known SolidField::Grid::from_neighbours(const Block& block, std::ptrdiff_t place) const {
+/// From one grid point to the next the distance changes by one cell at most, and the sign only where the surface is
+/// nearer than that.
+DistanceField::Grid::Known DistanceField::Grid::from_neighbours(const Block& block, std::ptrdiff_t place) const {
   constexpr auto kEdge = static_cast<std::ptrdiff_t>(kBlock);
   const auto reach = static_cast<float>(1.01 * cell_);
   Known known{0, std::numeric_limits<double>::infinity()};
@@ -59,15 +59,16 @@ SolidField::Grid::Known SolidField::Grid::from_neighbours(const Block& block, st
       if (along + step < 0 || along + step >= kEdge) continue;
       const float value = block[static_cast<std::size_t>(place + step * stride)].load(std::memory_order_relaxed);
       if (std::isnan(value)) continue;
-      known.most = std::min(known.most, static_cast<double>(std::abs(value) + reach));
+      known.bound = std::min(known.bound, static_cast<double>(std::abs(value) + reach));
       if (std::abs(value) > reach) known.sign = value < 0 ? -1 : 1;
     }
   }
   return known;
 }
 
-double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
-  constexpr auto kCells = static_cast<std::int32_t>(kBlock - 1);  // a power of two: this is asked very often
+double DistanceField::Grid::at(const Eigen::Vector3d& p, const DistanceField* field) {
+  constexpr auto kCells =
+      static_cast<std::int32_t>(kBlock - 1);  // a power of two, so that the divisions below are fast
   const Eigen::Vector3d u = (p - box_.lo) * inverse_cell_;
   std::array<std::int64_t, 3> b;
   std::array<std::size_t, 3> i;
@@ -108,46 +109,48 @@ double SolidField::Grid::at(const Eigen::Vector3d& p, const SolidField* field) {
       place[static_cast<Eigen::Index>(axis)] = static_cast<double>(b[axis] * static_cast<std::int64_t>(kBlock - 1) +
                                                                    static_cast<std::int64_t>(i[axis] + d[axis]));
     Known about = from_neighbours(*block, &known - block->data());
-    if (!field->closed_) about.sign = 0;  // it changes in free space, too
-    known.store(static_cast<float>(field->exact(box_.lo + cell_ * place, about.sign, about.most)),
+    if (!field->closed_) about.sign = 0;  // for an open mesh it also changes in free space
+    known.store(static_cast<float>(field->measured(box_.lo + cell_ * place, about.sign, about.bound)),
                 std::memory_order_relaxed);
   }
   return interpolated();
 }
 
-SolidField::SolidField(std::shared_ptr<const Mesh> mesh, double cell)
-    : mesh_(std::move(mesh)),
+// Interpolation is wrong by half the diagonal of a cell at most.
+DistanceField::DistanceField(std::shared_ptr<const Mesh> mesh, const Resolution& resolution)
+    : resolution_(resolution),
+      mesh_(std::move(mesh)),
       bvh_(*mesh_),
       box_(mesh_->box()),
-      around_(grown(box_)),
+      around_(inflated(box_, resolution.band())),
       closed_(edge_use(*mesh_).closed()),
-      coarse_(around_, kCoarse * cell),
-      fine_(around_, cell),
-      surely_near_(kFar - kMostError * (coarse_.cell() + fine_.cell())) {}
+      coarse_(around_, 8 * resolution.cell),
+      fine_(around_, resolution.cell),
+      surely_fine_(resolution.coarse_distance() - std::numbers::sqrt3 / 2 * (coarse_.cell() + fine_.cell())) {}
 
-double SolidField::exact(const Eigen::Vector3d& p, int sign, double most) const {
-  double d = bvh_.closest(p, most).distance;
-  if (!(d < most)) d = bvh_.closest(p).distance;
+double DistanceField::measured(const Eigen::Vector3d& p, int sign, double bound) const {
+  double d = bvh_.closest(p, bound).distance;
+  if (!(d < bound)) d = bvh_.closest(p).distance;
   const bool inside = sign != 0 ? sign < 0 : box_.contains(p) && bvh_.inside(p);
   return inside ? -d : d;
 }
 
-std::size_t SolidField::bytes() const {
-  // The hierarchy has about two nodes for each triangle.
+std::size_t DistanceField::bytes() const {
+  // The bounding volume hierarchy stores its nodes and copies of the triangles.
   return coarse_.bytes() + fine_.bytes() + bvh_.nodes().size() * (sizeof(TriangleBvh::Node) + sizeof(Triangle));
 }
 
-double SolidField::exactly(const Eigen::Vector3d& p) const {
-  return exact(p, 0, std::numeric_limits<double>::infinity());
+double DistanceField::measured(const Eigen::Vector3d& p) const {
+  return measured(p, 0, std::numeric_limits<double>::infinity());
 }
 
-double SolidField::at(const Eigen::Vector3d& p) {
+double DistanceField::at(const Eigen::Vector3d& p) {
   const double outside = around_.squared_distance(p);
-  if (outside > 0) return kAround + std::sqrt(outside);
+  if (outside > 0) return resolution_.band() + std::sqrt(outside);
   const double known = fine_.at(p, nullptr);
-  if (std::abs(known) < surely_near_) return known;  // false for what is not known
+  if (std::abs(known) < surely_fine_) return known;  // false for not a number
   const double about = coarse_.at(p, this);
-  if (std::abs(about) > kFar) return about;
+  if (std::abs(about) > resolution_.coarse_distance()) return about;
   return std::isnan(known) ? fine_.at(p, this) : known;
 }
 

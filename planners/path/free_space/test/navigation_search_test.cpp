@@ -1,5 +1,5 @@
-// A small plate in a box with walls across it: led along the way out it leaves, where pushes alone do not find it.
-#include "dismantle/free_space/led_walk.h"
+// A small plate in a box with walls across it leaves along the navigation function, where contact search fails.
+#include "dismantle/free_space/navigation_search.h"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ std::vector<Aabb> box_of(double length) {
           block(0, 0, kHeight, length, kWidth, kHeight + t)};
 }
 
-/// Walls with a gap at alternate corners; the plate lies in the corner that is furthest from outside. Others may stand
-/// there, too.
+/// Walls with a gap at alternate corners. The plate lies in the corner that is furthest from outside. `others` are more
+/// parts.
 Assembly maze(double gap, const std::vector<std::vector<Aabb>>& others = {}) {
   std::vector<Aabb> walls = box_of(6);
   const double t = 0.1;
@@ -43,17 +43,17 @@ Assembly maze(double gap, const std::vector<std::vector<Aabb>>& others = {}) {
   return assembly_of(parts, {Eigen::Vector3d(0.3, 0.2, 0.1), Eigen::Quaterniond(0.9, 0.3, -0.2, 0.25).normalized()});
 }
 
-ParamSet guided_with(std::int64_t patience, std::int64_t looks = 4000) {
+ParamSet guided_with(std::int64_t patience, std::int64_t state_checks = 4000) {
   return path::test::guided({{"navigation_tree.patience", patience},
-                             {"tolerant_rrt.state_checks", looks},
-                             {"tolerant_rrt.level_state_checks", static_cast<double>(looks) / 128}},
+                             {"tolerant_rrt.state_checks", state_checks},
+                             {"tolerant_rrt.level_state_checks", static_cast<double>(state_checks) / 128}},
                             {"tunnel_forest"});
 }
 
-TEST(LedWalk, TakesAPlateOutOfAMaze) {
+TEST(NavigationSearch, TakesAPlateOutOfAMaze) {
   Table table(maze(0.75));
   const PathResult without = table.plan("guided", guided_with(0), 1, 0, 2);
-  EXPECT_FALSE(is_success(without.outcome())) << "or it is no test";
+  EXPECT_FALSE(is_success(without.outcome())) << "the test needs an assembly that the other planners do not solve";
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const PathResult with = table.plan("guided", guided_with(4000), seed, 0, 2);
     ASSERT_EQ(with.outcome(), Outcome::solved) << with.message;
@@ -64,10 +64,10 @@ TEST(LedWalk, TakesAPlateOutOfAMaze) {
   }
 }
 
-/// Part 2 is a grate in the last gap but one, through which balls pass, but no plate; part 3 a block beside the box,
-/// which nobody touches. When the grate is out, the walk goes on from before it; when the block is, it is stuck as
-/// before, and begins anew.
-TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
+/// Part 2 is a grate in the last gap but one: balls pass through it, the plate does not. Part 3 is a block beside the
+/// box that nothing touches. When the grate is removed, the search resumes; when the block is removed, the plate is as
+/// blocked as before, and the search starts again.
+TEST(NavigationSearch, ResumesWhenItsObstacleHasLeft) {
   const double a = 0.75, play = 0.005, hole = 0.3;
   const double x0 = 3.6 + play, x1 = 3.7 - play, y0 = kWidth - a + play, y1 = kWidth - play, z0 = play, z1 = a - play;
   Table table(maze(a, {{block(x0, y0, z0, x1, y0 + 0.2, z1), block(x0, y0 + 0.2 + hole, z0, x1, y1, z1),
@@ -75,7 +75,7 @@ TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
                         block(x0, y0 + 0.2, z0 + 0.2 + hole, x1, y0 + 0.2 + hole, z1)},
                        {block(1, 5, 0, 2, 6, 1)}}));
   const ParamSet few = guided_with(1000, 1000);
-  double nodes = 0, nodes_anew = 0;
+  double nodes = 0, nodes_restarted = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const auto plan = [&](const std::vector<PartId>& left, const SearchState* reached) {
       return table.plan("guided", few, seed, {.max_depth = 3}, {0}, left, reached);
@@ -83,24 +83,24 @@ TEST(LedWalk, GoesOnWhenWhatItWasStuckAtHasLeft) {
     const PathResult shut = plan({}, nullptr);
     ASSERT_FALSE(is_success(shut.outcome()));
     ASSERT_NE(shut.state, nullptr);
-    const PathResult open = plan({2}, shut.state.get()), open_anew = plan({2}, nullptr);
+    const PathResult open = plan({2}, shut.state.get()), open_restarted = plan({2}, nullptr);
     ASSERT_EQ(open.outcome(), Outcome::solved) << open.message;
     EXPECT_TRUE(table.verifier.check_motion({0}, {{1, Pose{}}, {3, Pose{}}}, open.path()->poses()).valid);
     EXPECT_EQ(open.path()->poses().front()[0].t, Eigen::Vector3d::Zero());
     EXPECT_GT(open.stats.extra.at("navigation_tree_resumed_nodes"), 0);
     EXPECT_EQ(open.stats.extra.at("navigation_tree_spared"), shut.stats.extra.at("navigation_tree_state_checks"));
     nodes += open.stats.extra.at("navigation_tree_nodes") - open.stats.extra.at("navigation_tree_resumed_nodes");
-    nodes_anew += open_anew.stats.extra.at("navigation_tree_nodes");
+    nodes_restarted += open_restarted.stats.extra.at("navigation_tree_nodes");
     const PathResult stuck = plan({3}, shut.state.get());
     EXPECT_FALSE(is_success(stuck.outcome()));
     EXPECT_FALSE(stuck.stats.extra.contains("navigation_tree_resumed_nodes"));
     EXPECT_FALSE(stuck.stats.extra.contains("tolerant_rrt_resumed_nodes"));
   }
-  EXPECT_LT(nodes, nodes_anew);
+  EXPECT_LT(nodes, nodes_restarted);
 }
 
-/// An idle thread begins with what comes after the walk.
-TEST(LedWalk, TheSameWhereOthersHelp) {
+/// An idle thread may run the next member of the portfolio ahead of time.
+TEST(NavigationSearch, TheSameWhereOthersHelp) {
   const ParamSet few = guided_with(500, 1000);
   for (const double gap : {0.75, 0.0})
     for (const unsigned depth : {2U, 3U, 4U}) {
@@ -120,15 +120,15 @@ TEST(LedWalk, TheSameWhereOthersHelp) {
     }
 }
 
-TEST(LedWalk, GivesUpAtOnceWhereAllIsClosed) {
+TEST(NavigationSearch, GivesUpImmediatelyWithoutARoute) {
   Table table(maze(0));
   const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
   EXPECT_FALSE(r.stats.extra.contains("navigation_tree_state_checks"));
 }
 
-/// A ring on a spool, with a little play: held where it is, however free the room around it.
-TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
+/// A ring on a spool with a little play is held, however much free space is around it.
+TEST(NavigationSearch, GivesUpSoonWhereThereIsOnlyPlay) {
   const double play = 0.002, x = 2, y = 1.5, z = 0.4, in = 0.2, out = 0.6, high = 0.1;
   std::vector<Aabb> fixed = box_of(6);
   fixed.push_back(block(x - in, y - in, 0, x + in, y + in, 0.8));
@@ -144,36 +144,36 @@ TEST(LedWalk, GivesUpSoonWhereThereIsOnlyPlay) {
   EXPECT_LT(r.stats.extra.at("navigation_tree_state_checks"), 500);
 }
 
-TEST(LedWalk, GivesUpWhereTheBodyDoesNotFit) {
+TEST(NavigationSearch, GivesUpWhereTheBodyDoesNotFit) {
   Table table(maze(0.3));
   const PathResult r = table.plan("guided", guided_with(1000), 1, 0, 2);
   EXPECT_FALSE(is_success(r.outcome()));
   EXPECT_GT(r.stats.extra.at("navigation_tree_state_checks"), 0);
 }
 
-/// Two holes in one wall: the near one lets balls through, but no plate.
-TEST(LedWalk, GoesAnotherWayWhereItGetsStuck) {
+/// Two holes in one wall. A ball passes through the near one, the plate does not.
+TEST(NavigationSearch, TakesADetourWhereItIsStuck) {
   std::vector<Aabb> walls = box_of(4);
   const double x = 1.4, t = 0.1, s = 0.3;
   walls.push_back(block(x, 0, 0, x + t, 0.3, kHeight));
   walls.push_back(block(x, 0.3, s, x + t, 0.3 + s, kHeight));
   walls.push_back(block(x, 0.3 + s, 0, x + t, kWidth - 0.8, kHeight));
   walls.push_back(block(x, kWidth - 0.8, 0.8, x + t, kWidth, kHeight));
-  walls.push_back(block(0.8, 1.2, 0, 0.9, kWidth, 0.5));  // makes the way to the other one longer
+  walls.push_back(block(0.8, 1.2, 0, 0.9, kWidth, 0.5));  // makes the route to the other one longer
   Table table(assembly_of({boxes({block(0.1, 0.1, 0.01, 0.7, 0.7, 0.06)}), boxes(walls)}));
   const PathResult r = table.plan("guided", guided_with(4000), 1, 0, 2);
-  ASSERT_TRUE(r.stats.extra.contains("navigation_tree_detours")) << "pushes were enough: it is no test";
+  ASSERT_TRUE(r.stats.extra.contains("navigation_tree_detours")) << "contact search alone must not solve it";
   EXPECT_EQ(r.outcome(), Outcome::solved) << r.message;
   EXPECT_GE(r.stats.extra.at("navigation_tree_detours"), 1);
 }
 
-/// A wire wound wider than the hole in the wall before it: out by screwing, and by nothing else.
+/// A helical wire in front of a hole that is narrower than its coil: only a screw motion takes it out.
 struct SpringInABox {
   static constexpr double kWire = 0.03, kHole = 0.5, kWall = 0.06, kAt = 1.8;
   Mesh spring, fixed, wall;
   Assembly assembly;
 
-  /// So deep in the bottom of the box.
+  /// `sunk`: depth of the wire in the bottom of the box.
   explicit SpringInABox(double sunk) {
     const path::test::Helix wound{.radius = 0.4, .pitch = 0.7, .wire = kWire, .turns = 2};
     spring = path::test::helix(wound);
@@ -191,7 +191,7 @@ struct SpringInABox {
   }
 };
 
-TEST(LedWalk, ScrewsASpringThroughAHole) {
+TEST(NavigationSearch, ScrewsASpringThroughAHole) {
   Table table(SpringInABox(0).assembly);
   int solved = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -201,9 +201,9 @@ TEST(LedWalk, ScrewsASpringThroughAHole) {
   EXPECT_GE(solved, 2);
 }
 
-/// It is sunk into the bottom deeper than the wall is thick: by what is allowed for that it could leave through the
-/// wall, and does not.
-TEST(LedWalk, DoesNotTakeAnOverlapThroughAWall) {
+/// The spring is sunk into the bottom by more than the thickness of the wall. Where that overlap is allowed everywhere,
+/// it could leave through the wall; it does not.
+TEST(NavigationSearch, DoesNotTakeAnOverlapThroughAWall) {
   const SpringInABox scene(0.07);
   ASSERT_GT(scene.assembly.initial_overlap(0, 1), 0.5 * SpringInABox::kWall);
   Table table(scene.assembly);

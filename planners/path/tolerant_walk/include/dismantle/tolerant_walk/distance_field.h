@@ -1,0 +1,79 @@
+/// Signed distances to one part, computed on demand.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "dismantle/geometry/triangle_bvh.h"
+#include "dismantle/mesh.h"
+#include "dismantle/tolerant_walk/resolution.h"
+
+namespace dismantle::tolerant_walk {
+
+/// Two grids: a fine one near the surface, and a coarse one that tells where that is. Values are interpolated, so they
+/// are wrong by up to about a third of a cell at edges. A value does not depend on earlier queries. Memory grows with
+/// use. Safe to use from several threads.
+class DistanceField {
+ public:
+  DistanceField(std::shared_ptr<const Mesh> mesh, const Resolution& resolution);
+
+  /// Assembled frame of the part, assembly units; negative inside.
+  double at(const Eigen::Vector3d& p);
+  /// Measured on the triangles, not interpolated.
+  double measured(const Eigen::Vector3d& p) const;
+  double error() const {
+    return 0.35 * fine_.cell();
+  }  ///< bound of the error of at() near the surface, found by trials
+  const Resolution& resolution() const { return resolution_; }
+  const TriangleBvh& bvh() const { return bvh_; }
+  const Mesh& mesh() const { return *mesh_; }
+  const Aabb& box() const { return box_; }  ///< of the part
+  std::size_t bytes() const;                ///< approximate memory
+
+ private:
+  class Grid {
+   public:
+    Grid(const Aabb& box, double cell);
+    ~Grid();
+    Grid(const Grid&) = delete;
+    Grid& operator=(const Grid&) = delete;
+    /// With a field, missing values are computed; without one, the result is not a number where they are missing.
+    double at(const Eigen::Vector3d& p, const DistanceField* field);
+    double cell() const { return cell_; }
+    std::size_t bytes() const { return count_ * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
+
+   private:
+    static constexpr std::size_t kBlock = 9;  // grid points along the edge of a block; neighbouring blocks share a face
+    /// Not a number: not computed yet. All threads compute the same value, so the order of writes does not matter.
+    using Block = std::array<std::atomic<float>, kBlock * kBlock * kBlock>;
+    struct Known {
+      int sign = 0;  ///< 0: unknown
+      double bound;  ///< of the distance from the surface
+    };
+    Known from_neighbours(const Block& block, std::ptrdiff_t place) const;
+    Block& make(std::atomic<Block*>& place);
+
+    Aabb box_;
+    double cell_, inverse_cell_ = 0;
+    std::array<std::int64_t, 3> blocks_{};
+    std::size_t count_ = 1;
+    std::unique_ptr<std::atomic<Block*>[]> known_;
+    std::atomic<std::size_t> blocks_known_{0};
+  };
+  /// `sign`: 0 if unknown. `bound`: the distance is usually less; the query is faster then.
+  double measured(const Eigen::Vector3d& p, int sign, double bound) const;
+
+  Resolution resolution_;
+  std::shared_ptr<const Mesh> mesh_;
+  TriangleBvh bvh_;
+  Aabb box_, around_;
+  bool closed_;
+  Grid coarse_, fine_;
+  double surely_fine_;  ///< below this distance the coarse grid cannot report that the surface is far
+};
+
+}  // namespace dismantle::tolerant_walk
