@@ -9,29 +9,6 @@
 namespace dismantle::tunnel_forest {
 namespace {
 
-/// Where nodes are counted (Roadmap::crowd), and the least way that makes a state a new one; assembly units.
-constexpr double kCell = 0.3, kNew = 0.02;
-/// Share of extensions that begin in the tree at the start, while there are others.
-constexpr double kHome = 0.5;
-/// Shares of extensions: about a node that few others are near, towards any state, the rest towards another tree.
-constexpr double kLocal = 0.4, kAnywhere = 0.35;
-/// Of so many nodes drawn, the one is extended that has been least, among the least others.
-constexpr int kContest = 6;
-/// Extensions towards any state; those about a node draw theirs.
-constexpr double kRange = 2, kShortest = 0.05, kLongest = 5;
-/// A join may be so much longer than its nodes are apart.
-constexpr double kDetour = 2;
-/// Of the trees that a node could be joined to, so many (share) are tried; of pairs without the start, fewer.
-constexpr double kTryJoin = 0.5, kTryOther = 0.1;
-/// A pose in a tunnel keeps so much from contact if it can, and penetrates no deeper: share of the tolerance.
-constexpr double kClearanceShare = 0.2;
-/// A pose that is drawn costs about as much as so many simulated steps; tunnels get no more of the work than growth.
-constexpr std::uint64_t kStepsPerDraw = 60;
-/// One more tunnel after so many extensions.
-constexpr std::uint64_t kExtensionsPerTunnel = 100;
-/// Still parts count for tunnels when their boxes come so near to what moves (share of its size).
-constexpr double kNearby = 0.25;
-
 void append(Mesh& to, const Mesh& mesh, const Pose& pose) {
   const auto first = static_cast<std::uint32_t>(to.vertices.size());
   for (const auto& v : mesh.vertices) to.vertices.push_back(pose * v);
@@ -49,16 +26,16 @@ Forest::Forest(const PathQuery& query, MotionSpace motion, const Parameters& par
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       rigid_(motion == MotionSpace::rigid),
       sees_contacts_(query.simulator.capabilities().contacts),
-      guide_(*world_, parameters),
+      local_planner_(*world_, parameters, parameters.free_penetration * query.tolerance),
       center_(query.scene.moving[0].pose * world_->center(0)),
       arm_(rigid_ ? 0.5 * world_->radius(0) : 0.0),
       start_(path::poses_of(query.scene.moving)),
-      map_(kCell, arm_) {
+      map_(0.3 * parameters.node_spacing, arm_) {
   const Aabb moving = path::box_of(query.assembly, query.scene.moving);
   bounds_ = path::box_of(query.assembly, query.scene.fixed);
   bounds_.extend(moving);
-  bounds_.inflate(0.6 * moving.size().norm());
-  map_.plant(node_of(world_->initial_state()));
+  bounds_.inflate(0.6 * moving.size().norm());  // the part fits beside the others, however it is turned
+  map_.add_tree(node_of(world_->initial_state()));
 }
 
 Roadmap::Node Forest::node_of(const State& state) {
@@ -76,39 +53,39 @@ std::vector<Pose> Forest::poses(const Target& target) const {
   return all;
 }
 
-void Forest::look_for_tunnels() {
+void Forest::find_tunnels() {
   Mesh moving, fixed;
   for (const auto& m : query_.scene.moving) append(moving, *query_.assembly.parts[m.part].mesh, m.pose);
   if (moving.vertices.empty()) return;
   Aabb near = moving.box();
-  near.inflate(kNearby * near.size().maxCoeff());
+  near.inflate(parameters_.tunnel_neighborhood * near.size().maxCoeff());
   for (const auto& s : query_.scene.fixed) {
     if (path::box_of(query_.assembly, {s}).overlaps(near)) append(fixed, *query_.assembly.parts[s.part].mesh, s.pose);
   }
   Rng rng = rng_.fork(1);
   const auto samples = static_cast<std::size_t>(parameters_.surface_samples);
   NarrowPlaces of_moving = find_narrow_places(moving, samples, rng);
-  tunnel_poses_.emplace(std::move(of_moving), find_narrow_places(fixed, samples, rng));
+  tunnel_poses_.emplace(std::move(of_moving), find_narrow_places(fixed, samples, rng), parameters_.tunnel_width);
 }
 
-void Forest::plant_tunnel(const std::function<bool()>& stop) {
-  if (!tunnel_poses_) look_for_tunnels();
-  constexpr int kDraws = 4;
-  for (int k = 0; k < kDraws && !tunnel_poses_->empty() && !stop(); ++k) {
+void Forest::add_tunnel_tree(const std::function<bool()>& stop) {
+  if (!tunnel_poses_) find_tunnels();
+  // Most poses in a tunnel penetrate too deeply to be retracted, so each call draws a few.
+  for (int k = 0; k < 4 && !tunnel_poses_->empty() && !stop(); ++k) {
     ++draws_;
     const TunnelPoses::Match match = tunnel_poses_->draw(rng_);
     State state = map_.node(0).state;
     for (std::size_t i = 0; i < start_.size(); ++i) state.bodies[i].pose = match.displacement * start_[i];
-    looks_ += 2;
-    const double clearance = kClearanceShare * query_.tolerance;
+    state_checks_ += 2;
+    const double clearance = parameters_.free_penetration * query_.tolerance;
     world_->project_to_clearance(state, clearance);
     if (world_->penetration(state) > clearance) continue;
-    // Pushed out of the tunnel, it is as good as any other state.
+    // A pose that was retracted out of the tunnel is worth no more than any other.
     const Pose moved = state.bodies[0].pose * start_[0].inverse();
     if ((moved * match.on_moving - match.on_fixed).norm() > match.reach) continue;
     Roadmap::Node node = node_of(state);
-    node.out = world_->separated(state);
-    map_.plant(std::move(node));
+    node.separated = world_->separated(state);
+    map_.add_tree(std::move(node));
     ++tunnels_;
     return;
   }
@@ -136,7 +113,7 @@ Forest::Target Forest::anywhere() {
 Forest::Index Forest::choose_tree() {
   const auto& trees = map_.trees();
   const Index home = map_.node(0).tree;
-  if (trees.size() == 1 || rng_.uniform() < kHome) return home;
+  if (trees.size() == 1 || rng_.uniform() < parameters_.start_bias) return home;
   return trees[static_cast<std::size_t>(rng_.below(trees.size()))];
 }
 
@@ -144,75 +121,79 @@ Forest::Index Forest::choose_node(Index tree) {
   const auto& nodes = map_.tree(tree).nodes;
   Index best = Roadmap::kNone;
   std::uint64_t least = 0;
-  for (int k = 0; k < kContest; ++k) {
+  for (std::int64_t k = 0; k < parameters_.tournament; ++k) {
     const Index n = nodes[static_cast<std::size_t>(rng_.below(nodes.size()))];
-    const std::uint64_t used = std::uint64_t{map_.node(n).expansions + 1} * map_.crowd(n);
+    const std::uint64_t used = std::uint64_t{map_.node(n).expansions + 1} * map_.density(n);
     if (best == Roadmap::kNone || used < least) best = n, least = used;
   }
   return best;
 }
 
-void Forest::note_contacts(const State& state) {
+void Forest::record_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
   for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
 }
 
-Forest::Index Forest::keep(Index from, const Guide::Trip& trip) {
-  if (trip.blocked) note_contacts(trip.end);
-  if (trip.way.empty() || guide_.distance(path::poses_of(map_.node(from).state), path::poses_of(trip.end)) < kNew)
+Forest::Index Forest::add_trajectory(Index from, const LocalPlanner::Trajectory& trajectory) {
+  if (trajectory.blocked) record_contacts(trajectory.end);
+  if (trajectory.path.empty() ||
+      local_planner_.distance(path::poses_of(map_.node(from).state), path::poses_of(trajectory.end)) <
+          0.02 * parameters_.node_spacing)
     return Roadmap::kNone;
   Index last = from;
-  Path way;
+  Path path;
   double length = 0;
   const std::vector<Pose>* before = nullptr;
   const std::vector<Pose> begin = path::poses_of(map_.node(from).state);
-  for (std::size_t k = 0; k < trip.way.size(); ++k) {
-    length += guide_.distance(before != nullptr ? *before : begin, trip.way[k]);
-    before = &trip.way[k];
-    way.push_back(trip.way[k]);
-    const bool end = k + 1 == trip.way.size();
+  for (std::size_t k = 0; k < trajectory.path.size(); ++k) {
+    length += local_planner_.distance(before != nullptr ? *before : begin, trajectory.path[k]);
+    before = &trajectory.path[k];
+    path.push_back(trajectory.path[k]);
+    const bool end = k + 1 == trajectory.path.size();
     if (length < parameters_.node_spacing && !end) continue;
-    State state = trip.end;
+    State state = trajectory.end;
     for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-      state.bodies[i].pose = trip.way[k][i];
+      state.bodies[i].pose = trajectory.path[k][i];
       state.bodies[i].velocity.setZero();
       state.bodies[i].angular_velocity.setZero();
     }
     Path whole{path::poses_of(map_.node(last).state)};
-    whole.insert(whole.end(), way.begin(), way.end());
-    whole = path::thin(whole, guide_.bodies(), parameters_.thinning);
+    whole.insert(whole.end(), path.begin(), path.end());
+    whole = path::thin(whole, local_planner_.bodies(), parameters_.thinning);
     whole.erase(whole.begin());
     Roadmap::Node node = node_of(state);
-    node.out = end && world_->separated(state);
+    node.separated = end && world_->separated(state);
     last = map_.grow(last, std::move(node), std::move(whole));
     const double moved = (map_.node(last).center - map_.node(0).center).norm();
-    if (map_.node(last).tree == map_.node(0).tree && moved > farthest_way_) farthest_way_ = moved, farthest_ = last;
-    way.clear();
+    if (map_.node(last).tree == map_.node(0).tree && moved > farthest_distance_)
+      farthest_distance_ = moved, farthest_ = last;
+    path.clear();
     length = 0;
   }
   return last;
 }
 
 bool Forest::join(Index n, Index to, const std::function<bool()>& stop) {
-  const double range = kDetour * parameters_.join_distance;
-  const Guide::Trip trip = guide_.go(map_.node(n).state, path::poses_of(map_.node(to).state), range, stop);
-  const Index end = keep(n, trip);
-  if (!trip.arrived) return false;
+  const double range = 2 * parameters_.join_distance;
+  const LocalPlanner::Trajectory trajectory =
+      local_planner_.steer(map_.node(n).state, path::poses_of(map_.node(to).state), range, stop);
+  const Index end = add_trajectory(n, trajectory);
+  if (!trajectory.arrived) return false;
   const Index from = end == Roadmap::kNone ? n : end;
   map_.join(from, to, {path::poses_of(map_.node(to).state)});
   return true;
 }
 
 void Forest::try_joins(Index n, const std::function<bool()>& stop) {
-  const std::vector<Index> trees = map_.trees();  // joins change it
+  const std::vector<Index> trees = map_.trees();  // a copy, because joins change the list
   for (const Index t : trees) {
     const Index own = map_.node(n).tree, home = map_.node(0).tree;
     if (t == own || map_.tree(t).nodes.empty()) continue;
-    const double chance = own == home || t == home ? kTryJoin : kTryJoin * kTryOther;
+    const double chance = own == home || t == home ? parameters_.join_start : parameters_.join_others;
     if (rng_.uniform() >= chance || stop()) continue;
-    const Target here = place(n);
+    const Target here = target_of(n);
     const Index to = map_.nearest(here.center, here.turn, t);
     if (map_.distance(here.center, here.turn, map_.node(to)) <= parameters_.join_distance) join(n, to, stop);
   }
@@ -220,42 +201,44 @@ void Forest::try_joins(Index n, const std::function<bool()>& stop) {
 
 bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
   const auto wanted = static_cast<std::uint64_t>(parameters_.tunnels);
-  if (rigid_ && wanted > 0 && tunnels_ < wanted + iterations_ / kExtensionsPerTunnel &&
-      draws_ * kStepsPerDraw <= guide_.steps())
-    plant_tunnel(stop);
+  if (rigid_ && wanted > 0 &&
+      tunnels_ < wanted + iterations_ / static_cast<std::uint64_t>(parameters_.extensions_per_tunnel) &&
+      draws_ * static_cast<std::uint64_t>(parameters_.draw_cost) <= local_planner_.steps())
+    add_tunnel_tree(stop);
   ++iterations_;
   if (stop()) return false;
 
   const Index tree = choose_tree();
-  const double what = rng_.uniform();
+  const double kind_of_target = rng_.uniform();
   Index from = Roadmap::kNone;
-  Target target = place(0);
-  double range = kRange;
-  if (what < kLocal) {
+  Target target = target_of(0);
+  double range = parameters_.range * parameters_.node_spacing;
+  if (kind_of_target < parameters_.local_share) {
     from = choose_node(tree);
-    range = kShortest * std::pow(kLongest / kShortest, rng_.uniform());
-    // A slide, a turn, or both.
-    target = place(from);
+    range = parameters_.node_spacing * parameters_.local_range_min *
+            std::pow(parameters_.local_range_max / parameters_.local_range_min, rng_.uniform());
+    // Translates, turns, or both.
+    target = target_of(from);
     const auto kind = rigid_ ? rng_.below(3) : 0;
     if (kind != 1) target.center += range * random_vector().normalized();
     if (kind != 0)
       target.turn =
           (rotation_from_vector(std::min(range / arm_, 3.0) * random_vector().normalized()) * target.turn).normalized();
-  } else if (what < kLocal + kAnywhere) {
+  } else if (kind_of_target < parameters_.local_share + parameters_.uniform_share) {
     target = anywhere();
   } else {
     const auto& trees = map_.trees();
     const auto& others = map_.tree(trees[static_cast<std::size_t>(rng_.below(trees.size()))]).nodes;
-    target = around(place(others[static_cast<std::size_t>(rng_.below(others.size()))]),
-                    std::pow(10.0, rng_.uniform(-1, 0.5)));
+    target = around(target_of(others[static_cast<std::size_t>(rng_.below(others.size()))]),
+                    parameters_.node_spacing * std::pow(10.0, rng_.uniform(-1, 0.5)));
   }
   if (from == Roadmap::kNone) from = map_.nearest(target.center, target.turn, tree);
   ++map_.node(from).expansions;
-  const Guide::Trip trip = guide_.go(map_.node(from).state, poses(target), range, stop);
-  const Index end = keep(from, trip);
+  const LocalPlanner::Trajectory trajectory = local_planner_.steer(map_.node(from).state, poses(target), range, stop);
+  const Index end = add_trajectory(from, trajectory);
   if (end == Roadmap::kNone) return false;
   try_joins(end, stop);
-  return map_.tree(map_.node(0).tree).out > 0 && verified(result);
+  return map_.tree(map_.node(0).tree).separated > 0 && find_verified_path(result);
 }
 
 }  // namespace dismantle::tunnel_forest

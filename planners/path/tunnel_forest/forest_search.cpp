@@ -1,4 +1,4 @@
-#include "growth.h"
+#include "forest_search.h"
 
 #include <algorithm>
 
@@ -7,18 +7,9 @@
 #include "dismantle/path/touched.h"
 
 namespace dismantle::tunnel_forest {
-namespace {
 
-/// Simulated steps of the first turn of a forest where two grow in turn.
-constexpr std::uint64_t kFirstTurn = 10'000;
-/// A forest that has seen more of its space by this share in a turn gets twice as long a next one.
-constexpr double kFruitful = 1.2;
-/// After so many turns in a row without anything new a forest has seen all that it will.
-constexpr unsigned kBarren = 3;
-
-}  // namespace
-
-Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps)
+ForestSearch::ForestSearch(const Parameters& parameters, const PathQuery& query, RunContext& context,
+                           std::uint64_t most_steps)
     : parameters_(parameters),
       query_(query),
       context_(context),
@@ -28,15 +19,15 @@ Growth::Growth(const Parameters& parameters, const PathQuery& query, RunContext&
   if (parameters_.motion != Motion::translation) add(MotionSpace::rigid, 2);
 }
 
-void Growth::add(MotionSpace motion, std::uint64_t stream) {
+void ForestSearch::add(MotionSpace motion, std::uint64_t stream) {
   forests_.push_back(
       {std::make_unique<Forest>(query_, motion, parameters_, context_.rng.fork(stream), [this] { return halted(); }),
-       kFirstTurn});
+       static_cast<std::uint64_t>(parameters_.first_turn)});
 }
 
-SearchStatus Growth::run(const Budget& portion) {
+SearchStatus ForestSearch::run(const Budget& portion) {
   if (is_success(result_.outcome())) return SearchStatus::solved;
-  if (forests_.front().forest->starts_out()) {
+  if (forests_.front().forest->starts_separated()) {
     result_.start_is_goal();
     return SearchStatus::solved;
   }
@@ -44,8 +35,8 @@ SearchStatus Growth::run(const Budget& portion) {
   portion_.deadline = path::deadline_of(portion);
   bool solved = false;
   while (!solved && !over() && !portion_over()) {
-    Grown& grown = forests_[current_];
-    if (grown.barren < kBarren && (solved = continue_turn(grown), turn_)) continue;
+    GrowingForest& growing = forests_[current_];
+    if (growing.barren_turns < parameters_.barren_turns && (solved = continue_turn(growing), turn_)) continue;
     current_ = (current_ + 1) % forests_.size();
   }
   if (solved) return SearchStatus::solved;
@@ -56,69 +47,73 @@ SearchStatus Growth::run(const Budget& portion) {
   return over() || used() >= most_steps_ ? status_of(result_.outcome()) : SearchStatus::paused;
 }
 
-/// Stops at the end of the turn or of the portion. The end of a portion does not cut an extension and does not end the
-/// turn, so that the length of the portions has no influence on the trees.
-bool Growth::continue_turn(Grown& grown) {
+/// Stops at the end of the turn or of the portion. The end of a portion interrupts no extension and does not end the
+/// turn, so that the lengths of portions do not change the trees.
+bool ForestSearch::continue_turn(GrowingForest& growing) {
   if (!turn_) turn_ = Turn{used(), 0};
-  const std::uint64_t end = turn_->begin + grown.turn;
+  const std::uint64_t end = turn_->begin + growing.turn;
   const auto stop = [&] { return used() >= end || used() >= most_steps_ || stopped(); };
   bool solved = false;
-  // Extensions that use no step, as where nothing can move, need a count of their own.
-  while (!solved && !stop() && !given_up() && turn_->extensions < grown.turn) {
+  // Where nothing can move, extensions take no time steps, so their number is limited as well.
+  while (!solved && !stop() && !given_up() && turn_->extensions < growing.turn) {
     if (portion_over()) return false;
-    solved = grown.forest->iterate(result_, stop);
+    solved = growing.forest->iterate(result_, stop);
     ++turn_->extensions;
   }
-  const std::size_t cells = grown.forest->cells();
-  const bool whole = used() >= end || turn_->extensions == grown.turn;
-  if (cells != grown.cells)
-    grown.barren = 0;
+  const std::size_t cells = growing.forest->cells();
+  const bool whole = used() >= end || turn_->extensions == growing.turn;
+  if (cells != growing.cells)
+    growing.barren_turns = 0;
   else if (whole)
-    ++grown.barren;
-  if (static_cast<double>(cells) > kFruitful * static_cast<double>(grown.cells)) grown.turn *= 2;
-  grown.cells = cells;
-  if (!grown.relaxed) grown.forest->allow_overlap_everywhere();
-  grown.relaxed = true;
+    ++growing.barren_turns;
+  if (static_cast<double>(cells) > (1 + parameters_.new_cells) * static_cast<double>(growing.cells)) growing.turn *= 2;
+  growing.cells = cells;
+  if (!growing.overlap_everywhere) growing.forest->allow_overlap_everywhere();
+  growing.overlap_everywhere = true;
   turn_.reset();
   return solved;
 }
 
-bool Growth::portion_over() const { return used() >= portion_.last_step || portion_.deadline.passed(); }
+bool ForestSearch::portion_over() const { return used() >= portion_.last_step || portion_.deadline.passed(); }
 
-std::uint64_t Growth::used() const {
+std::uint64_t ForestSearch::used() const {
   std::uint64_t steps = 0;
   for (const auto& g : forests_) steps += g.forest->steps();
   return steps;
 }
 
-bool Growth::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
+bool ForestSearch::halted() const { return context_.cancel.cancelled() || deadline_.passed(); }
 
-bool Growth::stopped() const { return halted() || (query_.budget.max_steps > 0 && used() >= query_.budget.max_steps); }
-
-bool Growth::given_up() const {
-  return std::any_of(forests_.begin(), forests_.end(),
-                     [&](const Grown& g) {
-                       return g.forest->refused() >= static_cast<std::uint64_t>(parameters_.max_refusals);
-                     }) ||
-         std::all_of(forests_.begin(), forests_.end(), [](const Grown& g) { return g.barren >= kBarren; });
+bool ForestSearch::stopped() const {
+  return halted() || (query_.budget.max_steps > 0 && used() >= query_.budget.max_steps);
 }
 
-PathResult Growth::result() {
+bool ForestSearch::given_up() const {
+  return std::any_of(forests_.begin(), forests_.end(),
+                     [&](const GrowingForest& g) {
+                       return g.forest->refused() >= static_cast<std::uint64_t>(parameters_.max_refusals);
+                     }) ||
+         std::all_of(forests_.begin(), forests_.end(),
+                     [&](const GrowingForest& g) { return g.barren_turns >= parameters_.barren_turns; });
+}
+
+PathResult ForestSearch::result() {
   PathResult result = result_;
   if (result.outcome() == Outcome::start_is_goal) return result;
   if (!is_success(result.outcome())) {
-    const auto& best = *std::max_element(forests_.begin(), forests_.end(), [](const Grown& a, const Grown& b) {
-      return a.forest->farthest_way() < b.forest->farthest_way();
-    });
+    const auto& best =
+        *std::max_element(forests_.begin(), forests_.end(), [](const GrowingForest& a, const GrowingForest& b) {
+          return a.forest->farthest_distance() < b.forest->farthest_distance();
+        });
     result.best_pose = best.forest->farthest();
   }
   std::map<PartId, std::uint64_t> touched;
   for (const auto& g : forests_) {
     result.stats += {.steps = g.forest->steps(),
-                     .state_checks = g.forest->looks(),
+                     .state_checks = g.forest->state_checks(),
                      .nodes = g.forest->size(),
                      .refused = g.forest->refused(),
-                     .cost = static_cast<double>(g.forest->steps() + g.forest->looks()),
+                     .cost = static_cast<double>(g.forest->steps() + g.forest->state_checks()),
                      .extra = {{"tunnels", static_cast<double>(g.forest->tunnels())}}};
     for (const auto& [part, times] : g.forest->touched()) touched[part] += times;
   }

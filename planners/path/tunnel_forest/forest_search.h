@@ -1,4 +1,4 @@
-/// The forests of one query, translating and turning, that grow by turns.
+/// The forests of one query, one in R3 and one in SE(3), which grow in turns.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +13,24 @@ namespace dismantle::tunnel_forest {
 /// What the simulator has to be capable of.
 inline constexpr Capabilities kNeeds{.dynamics = true, .distance = true};
 
-class Growth final : public PathSearch {
+class ForestSearch final : public PathSearch {
  public:
-  /// All three outlive this. Ends with `depth_limit` when `most_steps` were
-  /// simulated; with `exhausted` when the checker has refused too many paths,
-  /// or nothing new is seen any more.
-  Growth(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps);
+  /// All arguments outlive this. Ends with `depth_limit` when `most_steps` were simulated; with `exhausted` when the
+  /// checker has refused too many paths or no forest explores new space.
+  ForestSearch(const Parameters& parameters, const PathQuery& query, RunContext& context, std::uint64_t most_steps);
 
   SearchStatus run(const Budget& portion) override;
   PathResult result() override;
-  /// Simulated so far.
+  /// Time steps simulated so far.
   std::uint64_t used() const;
 
  private:
-  struct Grown {
+  struct GrowingForest {
     std::unique_ptr<Forest> forest;
-    std::uint64_t turn;  ///< steps of the next one
+    std::uint64_t turn;  ///< steps of the next turn
     std::size_t cells = 0;
-    unsigned barren = 0;  ///< turns in a row in which it saw nothing new
-    bool relaxed = false;
+    std::int64_t barren_turns = 0;  ///< turns in a row without new space
+    bool overlap_everywhere = false;
   };
 
   struct Turn {
@@ -44,7 +43,7 @@ class Growth final : public PathSearch {
   };
 
   void add(MotionSpace motion, std::uint64_t stream);
-  bool continue_turn(Grown& grown);
+  bool continue_turn(GrowingForest& growing);
   bool portion_over() const;
   bool halted() const;
   bool stopped() const;
@@ -55,7 +54,7 @@ class Growth final : public PathSearch {
   const PathQuery& query_;
   RunContext& context_;
   Deadline deadline_;
-  std::vector<Grown> forests_;
+  std::vector<GrowingForest> forests_;
   std::size_t current_ = 0;   ///< the forest whose turn it is
   std::optional<Turn> turn_;  ///< the turn that has begun and not ended
   const std::uint64_t most_steps_;

@@ -1,29 +1,21 @@
-#include "guide.h"
+#include "local_planner.h"
 
 #include <algorithm>
 
 #include "dismantle/path/placed_parts.h"
 
 namespace dismantle::tunnel_forest {
-namespace {
 
-/// Nearer than this is there (assembly units): a motion over it may penetrate by half as much.
-constexpr double kArrived = 2e-3;
-/// A push that moves nothing by more than this share of a free one has met something.
-constexpr double kStuck = 0.02;
-/// So many pushes in a row may bring the bodies no nearer: around a corner the way is longer.
-constexpr int kPatience = 2;
-/// A push was free when so much of its travel (share) brought the bodies nearer.
-constexpr double kStraight = 0.98;
-constexpr double kNearer = 0.01;  ///< of a free push
-constexpr int kMostPushes = 1000;
+LocalPlanner::LocalPlanner(World& world, const Parameters& parameters, double arrival)
+    : world_(world),
+      force_(parameters.force),
+      push_time_(parameters.push_time),
+      stall_(parameters.stall),
+      arrival_(arrival),
+      idle_pushes_(parameters.idle_pushes),
+      bodies_(path::balls_of(world)) {}
 
-}  // namespace
-
-Guide::Guide(World& world, const Parameters& parameters)
-    : world_(world), force_(parameters.force), push_time_(parameters.push_time), bodies_(path::balls_of(world)) {}
-
-double Guide::distance(const std::vector<Pose>& from, const std::vector<Pose>& to) const {
+double LocalPlanner::distance(const std::vector<Pose>& from, const std::vector<Pose>& to) const {
   double most = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto& b = bodies_[i];
@@ -33,20 +25,20 @@ double Guide::distance(const std::vector<Pose>& from, const std::vector<Pose>& t
   return most;
 }
 
-Guide::Trip Guide::go(const State& from, const std::vector<Pose>& target, double range,
-                      const std::function<bool()>& stop) {
-  Trip trip;
-  trip.end = from;
-  double left = distance(path::poses_of(trip.end), target), best = left;
-  int idle = 0;
-  for (int push = 0; push < kMostPushes; ++push) {
-    trip.arrived = left < kArrived;
-    if (trip.arrived || trip.length >= range || stop()) return trip;
-    // Near the target a weaker push goes just as far as is left, where speed follows force.
-    const double share = reach_ > 0 ? std::min(1.0, left / reach_) : 1.0;
+LocalPlanner::Trajectory LocalPlanner::steer(const State& from, const std::vector<Pose>& target, double range,
+                                             const std::function<bool()>& stop) {
+  Trajectory trajectory;
+  trajectory.end = from;
+  double left = distance(path::poses_of(trajectory.end), target), best = left;
+  std::int64_t idle = 0;
+  for (int push = 0; push < 1000; ++push) {  // a bound for bodies that creep
+    trajectory.arrived = left < arrival_;
+    if (trajectory.arrived || trajectory.length >= range || stop()) return trajectory;
+    // Speed is proportional to force, so a weaker push near the target travels just the remaining distance.
+    const double share = free_push_ > 0 ? std::min(1.0, left / free_push_) : 1.0;
     Action action;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      BodyState& body = trip.end.bodies[i];
+      BodyState& body = trajectory.end.bodies[i];
       body.velocity.setZero();
       body.angular_velocity.setZero();
       const double f = share * force_ / left, radius = bodies_[i].radius;
@@ -58,35 +50,36 @@ Guide::Trip Guide::go(const State& from, const std::vector<Pose>& target, double
       }
       action.wrenches.push_back(wrench);
     }
-    const State before = trip.end;
-    const std::size_t instants = trip.way.size();
-    const StepReport report = world_.advance(trip.end, action, push_time_, &trip.way);
+    const State before = trajectory.end;
+    const std::size_t instants = trajectory.path.size();
+    const StepReport report = world_.advance(trajectory.end, action, push_time_, &trajectory.path);
     steps_ += std::max<std::uint64_t>(report.steps, 1);
     if (!report.finite) {
-      trip.end = before;
-      trip.way.resize(instants);
-      return trip;
+      trajectory.end = before;
+      trajectory.path.resize(instants);
+      return trajectory;
     }
-    trip.length += report.travel;
+    trajectory.length += report.travel;
     const double was = left;
-    left = distance(path::poses_of(trip.end), target);
-    // Straight to the target: nothing was in the way. Pushed out of something, bodies jump further than any push goes.
-    if (share == 1 && was - left > kStraight * report.travel) reach_ = std::max(reach_, report.travel);
-    const double free = share * reach_;
-    if (report.travel < kStuck * free) {
-      trip.blocked = true;
-      trip.arrived = left < kArrived;
-      return trip;
+    left = distance(path::poses_of(trajectory.end), target);
+    // A push that leads straight to the target met no obstacle. Bodies that are pushed out of a penetration jump
+    // further than any push leads, so travel alone does not tell.
+    if (share == 1 && was - left > (1 - stall_) * report.travel) free_push_ = std::max(free_push_, report.travel);
+    const double free = share * free_push_;
+    if (report.travel < stall_ * free) {
+      trajectory.blocked = true;
+      trajectory.arrived = left < arrival_;
+      return trajectory;
     }
-    if (left < best - kNearer * free) {
+    if (left < best - 0.5 * stall_ * free) {
       best = left;
       idle = 0;
-    } else if (++idle >= kPatience) {
-      trip.blocked = true;
-      return trip;
+    } else if (++idle >= idle_pushes_) {
+      trajectory.blocked = true;
+      return trajectory;
     }
   }
-  return trip;
+  return trajectory;
 }
 
 }  // namespace dismantle::tunnel_forest

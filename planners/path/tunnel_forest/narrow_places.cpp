@@ -10,19 +10,10 @@
 namespace dismantle::tunnel_forest {
 namespace {
 
-/// Surfaces face each other when their normals are opposite to within 60 degrees.
-constexpr double kFacing = -0.5;
-/// Chords shorter than this share of the body's box are slivers of the mesh.
-constexpr double kSliver = 1e-3;
-/// A gap up to this many bars wide is a tunnel.
-constexpr double kTunnel = 1.25;
-/// A bar may be wider than the gap that it is put in by this factor: retraction finds where it fits, if it does.
-constexpr double kSqueeze = 1.05;
-
 Eigen::Vector3d normal_of(const std::array<Eigen::Vector3d, 3>& c) { return geometry::area_vector(c).normalized(); }
 
 struct Hit {
-  double way = std::numeric_limits<double>::infinity();
+  double distance = std::numeric_limits<double>::infinity();
   std::uint32_t triangle = 0;
 };
 
@@ -32,8 +23,9 @@ bool meets(const Aabb& box, const Eigen::Vector3d& from, const Eigen::Vector3d& 
   return std::max(a.min(b).maxCoeff(), 0.0) <= std::min(a.max(b).minCoeff(), limit);
 }
 
-/// Moeller and Trumbore 1997.
-double way_to(const std::array<Eigen::Vector3d, 3>& c, const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
+/// Distance along a ray to a triangle, infinite if it misses (Moeller and Trumbore 1997).
+double ray_distance(const std::array<Eigen::Vector3d, 3>& c, const Eigen::Vector3d& from,
+                    const Eigen::Vector3d& along) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d e1 = c[1] - c[0], e2 = c[2] - c[0], p = along.cross(e2);
   const double det = e1.dot(p);
@@ -51,7 +43,7 @@ Hit cast_ray(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::V
     const std::uint32_t at = waiting.back();
     waiting.pop_back();
     const auto& node = bvh.nodes()[at];
-    if (!meets(node.box, from, inverse, hit.way)) continue;
+    if (!meets(node.box, from, inverse, hit.distance)) continue;
     if (node.count == 0) {
       waiting.push_back(node.first);
       waiting.push_back(at + 1);
@@ -59,8 +51,8 @@ Hit cast_ray(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::V
     }
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
       const std::uint32_t triangle = bvh.order()[k];
-      const double way = way_to(bvh.corners(triangle), from, along);
-      if (way > least && way < hit.way) hit = {way, triangle};
+      const double distance = ray_distance(bvh.corners(triangle), from, along);
+      if (distance > least && distance < hit.distance) hit = {distance, triangle};
     }
   }
   return hit;
@@ -86,7 +78,7 @@ NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng)
   NarrowPlaces found;
   if (mesh.triangles.empty()) return found;
   const TriangleBvh bvh(mesh);
-  const double least = kSliver * mesh.box().size().maxCoeff();
+  const double least = 1e-3 * mesh.box().size().maxCoeff();  // shorter chords are slivers of the mesh
   std::vector<double> area(mesh.triangles.size());
   double total = 0;
   for (std::uint32_t t = 0; t < area.size(); ++t) {
@@ -105,22 +97,23 @@ NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng)
     for (const double side : {1.0, -1.0}) {
       const Eigen::Vector3d along = side * normal;
       const Hit hit = cast_ray(bvh, point, along, least);
-      if (!std::isfinite(hit.way) || normal_of(bvh.corners(hit.triangle)).dot(normal) > kFacing) continue;
-      (side > 0 ? found.gaps : found.bars).push_back({point + 0.5 * hit.way * along, along, 0.5 * hit.way});
+      // Two surfaces face each other when their normals are opposite to within 60 degrees.
+      if (!std::isfinite(hit.distance) || normal_of(bvh.corners(hit.triangle)).dot(normal) > -0.5) continue;
+      (side > 0 ? found.gaps : found.bars).push_back({point + 0.5 * hit.distance * along, along, 0.5 * hit.distance});
     }
   }
   return found;
 }
 
-TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed)
+TunnelPoses::TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed, double width)
     : moving_(std::move(moving)), fixed_(std::move(fixed)) {
-  const auto keep_narrow = [](std::vector<NarrowPlace>& gaps, const std::vector<NarrowPlace>& bars) {
-    const double limit = bars.empty() ? 0 : kTunnel * median_width(bars);
+  const auto keep_narrow = [width](std::vector<NarrowPlace>& gaps, const std::vector<NarrowPlace>& bars) {
+    const double limit = bars.empty() ? 0 : width * median_width(bars);
     std::erase_if(gaps, [&](const NarrowPlace& g) { return g.half_width > limit; });
   };
   keep_narrow(moving_.gaps, fixed_.bars);
   keep_narrow(fixed_.gaps, moving_.bars);
-  // Of the three, the first is what puzzles of two alike pieces are made of: it is drawn as often as the others.
+  // Puzzles of two equal pieces consist of the first kind, so it is drawn as often as the other two together.
   if (!moving_.gaps.empty() && !fixed_.gaps.empty()) kinds_.insert(kinds_.end(), 2, Kind::gap_in_gap);
   if (!moving_.bars.empty() && !fixed_.gaps.empty()) kinds_.push_back(Kind::bar_in_gap);
   if (!moving_.gaps.empty() && !fixed_.bars.empty()) kinds_.push_back(Kind::gap_on_bar);
@@ -131,18 +124,19 @@ TunnelPoses::Match TunnelPoses::draw(Rng& rng, bool turning) const {
     return places[static_cast<std::size_t>(rng.below(places.size()))];
   };
   const Kind kind = kinds_[static_cast<std::size_t>(rng.below(kinds_.size()))];
-  constexpr int kDraws = 20;  // for a bar that is not too wide for the gap; if there is none, any will do
   const NarrowPlace *m = nullptr, *s = nullptr;
-  for (int k = 0; k < kDraws; ++k) {
+  // The bar should fit into the gap, or be a little wider: retraction finds where it fits. If 20 draws find no such
+  // pair, the last one is taken.
+  for (int k = 0; k < 20; ++k) {
     m = &any(kind == Kind::bar_in_gap ? moving_.bars : moving_.gaps);
     s = &any(kind == Kind::gap_on_bar ? fixed_.bars : fixed_.gaps);
     if (kind == Kind::gap_in_gap) break;
     const NarrowPlace *gap = kind == Kind::bar_in_gap ? s : m, *bar = gap == s ? m : s;
-    if (bar->half_width <= kSqueeze * gap->half_width) break;
+    if (bar->half_width <= 1.05 * gap->half_width) break;
   }
   Match match;
   if (turning) match.displacement.q = random_turn(rng);
-  if (turning && kind != Kind::gap_in_gap) {  // across the gap, any way round
+  if (turning && kind != Kind::gap_in_gap) {  // the chords are parallel, the turn about them is random
     const Eigen::Vector3d axis = match.displacement.q * m->axis;
     match.displacement.q = (Eigen::Quaterniond::FromTwoVectors(axis, s->axis) * match.displacement.q).normalized();
   }

@@ -1,4 +1,4 @@
-/// Where a body is thin, and where it nearly touches itself: the places that meet in the tunnels of a puzzle.
+/// Places where a body is thin or nearly touches itself. In the narrow passages of a puzzle such places meet.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,21 +27,21 @@ struct NarrowPlaces {
 /// Chords at `samples` points drawn uniformly from the surface, in the frame of the mesh. `mesh` is closed.
 NarrowPlaces find_narrow_places(const Mesh& mesh, std::size_t samples, Rng& rng);
 
-/// Draws displacements of a body that bring a narrow place of it to one of the body that stay fixed: gap into gap,
-/// bar into gap, gap around bar. Only gaps that are narrow for the bars of the other body count: wide ones are no
-/// tunnels.
+/// Draws displacements of the moving body that bring one of its narrow places to one of the fixed body: gap into gap,
+/// bar into gap, gap around bar. Only gaps that are narrow for the bars of the other body count.
 class TunnelPoses {
  public:
-  TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed);
+  /// `width`: the widest gap that counts, in median bar widths of the other body.
+  TunnelPoses(NarrowPlaces moving, NarrowPlaces fixed, double width);
   bool empty() const { return kinds_.empty(); }
 
   struct Match {
     Pose displacement;          ///< of the moving body
     Eigen::Vector3d on_moving;  ///< before the displacement
     Eigen::Vector3d on_fixed;   ///< displacement * on_moving
-    double reach = 0;           ///< how far the two may come apart before they have left the tunnel
+    double reach = 0;           ///< largest distance of the two that is still within the tunnel
   };
-  /// Not when empty().
+  /// Requires !empty().
   Match draw(Rng& rng, bool turning = true) const;
 
  private:

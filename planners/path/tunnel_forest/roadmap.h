@@ -1,4 +1,4 @@
-/// Nodes and ways of a forest: which trees there are, and what leads from the start to a node.
+/// Nodes and edges of a forest: its trees, and the edges that lead from the start to a node.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace dismantle::tunnel_forest {
 
-/// A forest whose trees may grow, join, and fall apart. Ways have no direction.
+/// A forest whose trees grow, join and split. Edges have no direction.
 class Roadmap {
  public:
   using Index = std::uint32_t;
@@ -18,33 +18,34 @@ class Roadmap {
   struct Node {
     State state;
     Eigen::Vector3d center;   ///< of the first moving part, world
-    Eigen::Quaterniond turn;  ///< likewise, since the start
+    Eigen::Quaterniond turn;  ///< of the first moving part since the start, world
     Index tree = kNone;
     Index expansions = 0;
-    bool out = false;
+    bool separated = false;
     std::vector<Index> edges{};
     std::uint64_t cell = 0;
   };
   struct Edge {
     Index a = kNone, b = kNone;
-    Path way;  ///< from a to b: a's poses excluded, b's included
+    Path path;  ///< from a to b: a's poses excluded, b's included
     bool cut = false;
   };
   struct Tree {
     std::vector<Index> nodes;
-    std::uint32_t out = 0;  ///< nodes that are out
+    std::uint32_t separated = 0;  ///< number of its nodes that are separated
   };
 
-  /// `spacing`: edge of the cells that crowd() counts in (assembly units); `arm`: what turns are multiplied by.
-  Roadmap(double spacing, double arm) : spacing_(spacing), arm_(arm) {}
+  /// `cell`: edge of the cells in which density() counts nodes (assembly units). `arm`: length that stands for a turn
+  /// of 1 rad.
+  Roadmap(double cell, double arm) : cell_(cell), arm_(arm) {}
 
-  /// A tree of its own.
-  Index plant(Node node);
-  /// In the tree of `from`. `way` ends with the node's poses.
-  Index grow(Index from, Node node, Path way);
-  /// Joins the trees of a and b, which are two. `way` from a to b.
-  void join(Index a, Index b, Path way);
-  /// The tree that it was in falls apart.
+  /// Adds a tree with one node.
+  Index add_tree(Node node);
+  /// Adds a node to the tree of `from`. `path` ends with the node's poses.
+  Index grow(Index from, Node node, Path path);
+  /// Joins the two different trees of a and b. `path` leads from a to b.
+  void join(Index a, Index b, Path path);
+  /// Removes an edge; its tree splits in two.
   void cut(Index edge);
 
   Node& node(Index i) { return nodes_[i]; }
@@ -52,30 +53,31 @@ class Roadmap {
   std::size_t size() const { return nodes_.size(); }
   const Tree& tree(Index t) const { return trees_[t]; }
   /// Trees with nodes, oldest first.
-  const std::vector<Index>& trees() const { return living_; }
-  /// Nodes about where this one is.
-  std::uint32_t crowd(Index node) const { return cells_.at(nodes_[node].cell); }
+  const std::vector<Index>& trees() const { return live_trees_; }
+  /// Number of nodes in the cell of this one.
+  std::uint32_t density(Index node) const { return cells_.at(nodes_[node].cell); }
   std::size_t cells() const { return cells_.size(); }
 
   double distance(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, const Node& n) const;
   Index nearest(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, Index tree) const;
 
-  /// Edges from `from` to the nearest node (by edges) that is out; empty when its tree has none, or when it is `from`.
-  std::vector<Index> way_out(Index from) const;
-  /// The way along an edge that begins at `from`: `from`'s poses excluded.
+  /// Edges from `from` to the separated node that is fewest edges away. Empty when its tree has none, or when it is
+  /// `from` itself.
+  std::vector<Index> edges_to_separated(Index from) const;
+  /// The path along an edge, beginning at `from`: `from`'s poses excluded.
   Path along(Index edge, Index from) const;
   Index other_end(Index edge, Index from) const { return edges_[edge].a == from ? edges_[edge].b : edges_[edge].a; }
 
  private:
   Index add(Node node, Index tree);
-  Index connect(Index a, Index b, Path way);
+  Index connect(Index a, Index b, Path path);
   void relabel(Index from, Index tree);
 
-  double spacing_, arm_;
+  double cell_, arm_;
   std::vector<Node> nodes_;
   std::vector<Edge> edges_;
   std::vector<Tree> trees_;
-  std::vector<Index> living_;
+  std::vector<Index> live_trees_;
   std::unordered_map<std::uint64_t, std::uint32_t> cells_;
 };
 

@@ -3,7 +3,7 @@
 #include "dismantle/path/ended_search.h"
 #include "dismantle/path/growing_turns.h"
 #include "dismantle/plugin.h"
-#include "growth.h"
+#include "forest_search.h"
 
 namespace dismantle::tunnel_forest {
 namespace {
@@ -17,8 +17,8 @@ class TunnelForest final : public PathPlanner {
     const Capabilities has = query.simulator.capabilities();
     if (!has.dynamics || !has.distance || has.max_moving < query.scene.moving.size())
       return path::unsupported("needs a simulator with dynamics and distances for all moving parts");
-    return std::make_unique<Growth>(parameters_, query, context,
-                                    path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));
+    return std::make_unique<ForestSearch>(parameters_, query, context,
+                                          path::doubled_per_level(parameters_.level_steps, query.budget.max_depth));
   }
 
  private:
@@ -30,7 +30,7 @@ class TunnelForest final : public PathPlanner {
 
 DISMANTLE_PLUGIN("dismantle.tunnel_forest", DISMANTLE_VERSION, "MIT", "") {
   r.add<dismantle::PathPlanner, dismantle::tunnel_forest::TunnelForest, dismantle::tunnel_forest::Parameters>(
-      "tunnel_forest", "Trees from the start and from narrow places that match, grown along contact, and joined.",
+      "tunnel_forest", "Trees from the start and from matching narrow places that grow along contact and are joined.",
       {.source = "Zhang and Manocha 2008 (retraction), Zhang et al. 2020 (tunnels); see its README",
        .needs = dismantle::tunnel_forest::kNeeds});
 }

@@ -55,18 +55,18 @@ TEST(NarrowPlaces, TwoPlatesHaveTheGapBetweenThem) {
   }
 }
 
-TEST(NarrowPlaces, OfNothingThereAreNone) {
+TEST(NarrowPlaces, AnEmptyMeshHasNone) {
   Rng rng(3);
   const NarrowPlaces none = find_narrow_places({}, kSamples, rng);
   EXPECT_TRUE(none.gaps.empty() && none.bars.empty());
-  EXPECT_TRUE(TunnelPoses({}, {}).empty());
+  EXPECT_TRUE(TunnelPoses({}, {}, 1.25).empty());
 }
 
 TEST(TunnelPoses, BringNarrowPlacesTogether) {
   Rng rng(4);
   const NarrowPlaces ring = find_narrow_places(open_ring(0.6), kSamples, rng);
   const NarrowPlaces bar = find_narrow_places(boxes({block(0, 0, 0, 5, 0.5, 0.5)}), kSamples, rng);
-  const TunnelPoses poses(bar, ring);
+  const TunnelPoses poses(bar, ring, 1.25);
   ASSERT_FALSE(poses.empty());
   for (int k = 0; k < 200; ++k) {
     const auto match = poses.draw(rng);
@@ -80,10 +80,10 @@ TEST(TunnelPoses, BringNarrowPlacesTogether) {
 
 TEST(TunnelPoses, WideGapsAreNone) {
   Rng rng(5);
-  // The hole of the ring is four times as wide as the bar; its gap, too.
+  // The hole of the ring and its gap are four times as wide as the bar.
   const NarrowPlaces ring = find_narrow_places(open_ring(1.9), kSamples, rng);
   EXPECT_FALSE(ring.gaps.empty());
-  EXPECT_TRUE(TunnelPoses(find_narrow_places(boxes({block(0, 0, 0, 5, 0.5, 0.5)}), kSamples, rng), ring).empty());
+  EXPECT_TRUE(TunnelPoses(find_narrow_places(boxes({block(0, 0, 0, 5, 0.5, 0.5)}), kSamples, rng), ring, 1.25).empty());
 }
 
 }  // namespace

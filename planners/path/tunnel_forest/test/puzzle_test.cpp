@@ -27,20 +27,20 @@ std::vector<Mesh> corridors() {
                  block(0.6 + c, 1.4 - c, 0.6 + c, 3 + c, 2 + c, 1.2)})};
 }
 
-TEST(TunnelForest, FindsItsWayThroughCorridorsHoweverTheyLie) {
+TEST(TunnelForest, SolvesTurnedCorridors) {
   Rng rng(11);
   for (std::uint64_t k = 1; k <= 4; ++k) {
     Table table(assembly_of(corridors(), k == 1 ? Pose{} : random_pose(rng)));
     const PathResult r = table.plan("tunnel_forest", {{"motion", std::string("translation")}}, k, 100'000);
     EXPECT_EQ(r.outcome(), Outcome::solved) << k;
     EXPECT_GE(r.depth, 4u);
-    EXPECT_EQ(r.stats.extra.at("tunnels"), 0) << "there are none in R3";
+    EXPECT_EQ(r.stats.extra.at("tunnels"), 0) << "tunnels exist in SE(3) only";
     for (const auto& instant : r.path()->poses())
       EXPECT_LT(angle_between(instant[0].q, Eigen::Quaterniond::Identity()), 1e-9);
   }
 }
 
-TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
+TEST(TunnelForest, TakesARingOffATurnedOpenOne) {
   Rng rng(12);
   for (std::uint64_t k = 1; k <= 3; ++k) {
     Table table(assembly_of({linked_ring(), open_ring(0.6)}, k == 1 ? Pose{} : random_pose(rng)));
@@ -50,7 +50,7 @@ TEST(TunnelForest, TakesARingOffAnOpenOneHoweverTheyLie) {
   }
 }
 
-/// A gap that is too narrow for the bar, and nothing else to go through.
+/// The gap is too narrow for the bar, and there is no other exit.
 TEST(TunnelForest, ARingThatCannotLeaveDoesNot) {
   Table table(assembly_of({linked_ring(), open_ring(0.4)}));
   const PathResult r = table.plan("tunnel_forest", {}, 1, 40'000);

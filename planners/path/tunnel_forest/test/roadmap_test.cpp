@@ -10,13 +10,13 @@ namespace {
 
 using Index = Roadmap::Index;
 
-Roadmap::Node node_at(double x, bool out) {
+Roadmap::Node node_at(double x, bool separated) {
   Roadmap::Node n;
   n.state.bodies.resize(1);
   n.state.bodies[0].pose.t = Eigen::Vector3d(x, 0, 0);
   n.center = n.state.bodies[0].pose.t;
   n.turn = Eigen::Quaterniond::Identity();
-  n.out = out;
+  n.separated = separated;
   return n;
 }
 
@@ -45,49 +45,49 @@ void expect_same(const Roadmap& map, const Reference& reference) {
   EXPECT_EQ(std::set<Index>(map.trees().begin(), map.trees().end()), names);
   std::size_t count = 0;
   for (const Index t : map.trees()) {
-    std::uint32_t out = 0;
+    std::uint32_t separated = 0;
     for (const Index n : map.tree(t).nodes) {
       EXPECT_EQ(map.node(n).tree, t);
-      out += map.node(n).out ? 1 : 0;
+      separated += map.node(n).separated ? 1 : 0;
     }
-    EXPECT_EQ(map.tree(t).out, out);
+    EXPECT_EQ(map.tree(t).separated, separated);
     count += map.tree(t).nodes.size();
   }
   EXPECT_EQ(count, reference.nodes);
 }
 
-/// A way out starts at node 0, follows edges that hang together, and ends at a node that is out.
-void expect_way_out(const Roadmap& map) {
-  const std::vector<Index> edges = map.way_out(0);
-  const bool none = map.tree(map.node(0).tree).out == 0 || map.node(0).out;
+/// The edges start at node 0, are connected, and end at a separated node.
+void expect_edges_to_separated(const Roadmap& map) {
+  const std::vector<Index> edges = map.edges_to_separated(0);
+  const bool none = map.tree(map.node(0).tree).separated == 0 || map.node(0).separated;
   EXPECT_EQ(edges.empty(), none);
   Index at = 0;
   for (const Index e : edges) {
-    const Path way = map.along(e, at);
+    const Path path = map.along(e, at);
     const Index to = map.other_end(e, at);
-    ASSERT_FALSE(way.empty());
-    EXPECT_EQ(way.back()[0].t, map.node(to).center);
+    ASSERT_FALSE(path.empty());
+    EXPECT_EQ(path.back()[0].t, map.node(to).center);
     const Path back = map.along(e, to);
     EXPECT_EQ(back.back()[0].t, map.node(at).center);
-    EXPECT_EQ(back.size(), way.size());
+    EXPECT_EQ(back.size(), path.size());
     at = to;
   }
   if (!edges.empty()) {
-    EXPECT_TRUE(map.node(at).out);
+    EXPECT_TRUE(map.node(at).separated);
   }
 }
 
-TEST(Roadmap, TreesAreWhatHangsTogether) {
+TEST(Roadmap, TreesAreTheConnectedComponents) {
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     Rng rng(seed);
     Roadmap map(0.3, 1);
     Reference reference;
-    map.plant(node_at(0, false));
+    map.add_tree(node_at(0, false));
     reference.nodes = 1;
     for (int k = 0; k < 60; ++k) {
       const auto any = [&] { return static_cast<Index>(rng.below(reference.nodes)); };
       const double x = 0.1 * static_cast<double>(reference.nodes);
-      const bool out = rng.below(12) == 0;
+      const bool separated = rng.below(12) == 0;
       const auto link = [&](Index a, Index b) {
         reference.edges.emplace_back(a, b);
         reference.cut.push_back(false);
@@ -99,14 +99,14 @@ TEST(Roadmap, TreesAreWhatHangsTogether) {
       };
       switch (rng.below(5)) {
         case 0:
-          EXPECT_EQ(map.plant(node_at(x, out)), reference.nodes++);
+          EXPECT_EQ(map.add_tree(node_at(x, separated)), reference.nodes++);
           break;
         case 1:
         case 2: {
           const Index from = any();
           Pose end;
           end.t.x() = x;
-          EXPECT_EQ(map.grow(from, node_at(x, out), {{middle(from, x)}, {end}}), reference.nodes);
+          EXPECT_EQ(map.grow(from, node_at(x, separated), {{middle(from, x)}, {end}}), reference.nodes);
           link(from, static_cast<Index>(reference.nodes++));
           break;
         }
@@ -125,7 +125,7 @@ TEST(Roadmap, TreesAreWhatHangsTogether) {
           reference.cut[e] = true;
       }
       expect_same(map, reference);
-      expect_way_out(map);
+      expect_edges_to_separated(map);
     }
   }
 }
@@ -139,7 +139,7 @@ TEST(Roadmap, NearestIsTheNearestOfItsTree) {
     n.turn = rotation_from_vector(Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal()));
     return n;
   };
-  const Index a = map.plant(random_node()), b = map.plant(random_node());
+  const Index a = map.add_tree(random_node()), b = map.add_tree(random_node());
   for (int k = 0; k < 200; ++k) map.grow(k % 2 == 0 ? a : b, random_node(), {{Pose{}}});
   for (int k = 0; k < 200; ++k) {
     const Roadmap::Node probe = random_node();
