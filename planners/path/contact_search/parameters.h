@@ -12,16 +12,16 @@ struct Parameters : push::SearchParameters {
 
   static void describe(Schema<Parameters>& s) {
     push::describe_search(s);
-    s.add("proposals", &Parameters::proposals,
-          {.doc =
-               "Translating, push first along directions that the contacts leave free, then along the axes, then along "
-               "free directions while leaning on a wall."});
-    s.add("twists", &Parameters::twists,
-          {.doc = "Turning, first along the screw motions that the surfaces in contact leave free."});
     s.add(
-        "novelty", &Parameters::novelty,
+        "proposals", &Parameters::proposals,
+        {.doc = "When translating, push first along directions that the contacts leave free, then along the axes, then "
+                "along free directions while pressing against a wall. Off: the axes only."});
+    s.add(
+        "twists", &Parameters::twists,
         {.doc =
-             "Search first from states in places that were not searched from before; off: first come, first served."});
+             "When turning, try first the screw motions that the surfaces in contact leave free. Off: the axes only."});
+    s.add("novelty", &Parameters::novelty,
+          {.doc = "Expand states first that are unlike the states expanded before. Off: first in, first out."});
     push::describe_effort(s);
   }
 
@@ -29,7 +29,7 @@ struct Parameters : push::SearchParameters {
     push::Tactics t = push::tactics_of(*this);
     t.own_axes = true;
     t.novelty = novelty;
-    t.first_rank = 1;  // what the contacts leave free and the axes; then screws
+    t.first_rank = 1;  // free directions and axes before screws
     t.turning_lag = 1;
     if (proposals) t.translating.push_back(push::Stage::free);
     t.translating.push_back(push::Stage::axes);

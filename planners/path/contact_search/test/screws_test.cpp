@@ -1,4 +1,4 @@
-// Screws and curved slides are undone however the assembly lies, and the verifier agrees.
+// Screws and curved slides are undone for any orientation of the assembly, and the verifier agrees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Assembly turned_sample(const std::string& name, ParamSet given, std::int64_t see
   return prepare_assembly(samples::make(name, given), name, "", PrepareOptions{}, context, report);
 }
 
-/// The verifier has accepted what was solved; it is asked once more for the path as it was returned.
+/// The verifier has accepted the path already; here it checks the path that was returned.
 void expect_solved(const Assembly& assembly, const std::string& name, std::uint64_t most_steps) {
   path::test::Table table(assembly);
   const auto part =
@@ -33,13 +33,13 @@ void expect_solved(const Assembly& assembly, const std::string& name, std::uint6
   double turned = 0;
   for (std::size_t k = 1; k < result.path()->poses().size(); ++k)
     turned += angle_between(result.path()->poses()[k - 1][0].q, result.path()->poses()[k][0].q);
-  EXPECT_GT(turned, 0.5) << "it takes a turn";
+  EXPECT_GT(turned, 0.5) << "the path needs a rotation";
 }
 
-/// Steps of simulation and looks while gliding: several times of what it takes.
+/// Simulated steps and state checks: several times as many as are needed.
 constexpr std::uint64_t kSteps = 8'000;
 
-void expect_solved_however_it_lies(const std::string& name, const std::string& part, const ParamSet& given) {
+void expect_solved_in_any_orientation(const std::string& name, const std::string& part, const ParamSet& given) {
   for (std::int64_t seed = 0; seed < 3; ++seed) {
     SCOPED_TRACE(name + ", " + std::to_string(seed));
     expect_solved(turned_sample(name, given, seed), part, kSteps);
@@ -47,11 +47,11 @@ void expect_solved_however_it_lies(const std::string& name, const std::string& p
 }
 
 TEST(ContactSearchScrews, ANutIsUnscrewed) {
-  expect_solved_however_it_lies("bolt_and_nut", "nut",
-                                {{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}});
+  expect_solved_in_any_orientation("bolt_and_nut", "nut",
+                                   {{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}});
 }
-/// Where the contacts at rest tell the screw of a thread, the nut leaves without a step of simulation. Where they do not, as
-/// with much clearance, the search finds it.
+/// Where the contacts at rest determine the screw of a thread, the nut is removed without simulated steps. Where they do
+/// not, as with much clearance, the search finds the screw.
 TEST(ContactSearchScrews, NutsOfAnySizeAreUnscrewed) {
   Rng rng(5);
   int without_simulation = 0;
@@ -72,7 +72,7 @@ TEST(ContactSearchScrews, NutsOfAnySizeAreUnscrewed) {
   EXPECT_GT(without_simulation, 0);
 }
 TEST(ContactSearchScrews, ARingLeavesACurvedTube) {
-  expect_solved_however_it_lies("ring_on_curved_tube", "ring", {{"segments", std::int64_t{24}}});
+  expect_solved_in_any_orientation("ring_on_curved_tube", "ring", {{"segments", std::int64_t{24}}});
 }
 
 }  // namespace
