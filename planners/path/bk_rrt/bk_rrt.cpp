@@ -13,8 +13,6 @@ namespace dismantle::bk_rrt {
 namespace {
 
 constexpr Capabilities kNeeds{.dynamics = true};
-/// Simulated steps of the first turn of a tree where two grow in turn; each round doubles it.
-constexpr std::uint64_t kFirstTurn = 4'000;
 
 class BkRrtSearch final : public PathSearch {
  public:
@@ -24,14 +22,14 @@ class BkRrtSearch final : public PathSearch {
         context_(context),
         deadline_(path::deadline_of(query, context)),
         level_(path::doubled_per_level(parameters.level_steps, query.budget.max_depth)),
-        turns_(parameters.motion == Motion::automatic ? 2 : 1, kFirstTurn) {
+        turns_(parameters.motion == Motion::automatic ? 2 : 1, static_cast<std::uint64_t>(parameters.first_turn)) {
     if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
     if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
   }
 
   SearchStatus run(const Budget& portion) override {
     if (is_success(result_.outcome())) return SearchStatus::solved;
-    if (used() == 0 && trees_.front()->starts_out()) {
+    if (used() == 0 && trees_.front()->starts_separated()) {
       result_.start_is_goal();
       return SearchStatus::solved;
     }
@@ -56,7 +54,7 @@ class BkRrtSearch final : public PathSearch {
     PathResult result = result_;
     if (!result.path() && result.outcome() != Outcome::start_is_goal) {
       const auto& best = *std::max_element(trees_.begin(), trees_.end(), [](const auto& a, const auto& b) {
-        return a->farthest_way() < b->farthest_way();
+        return a->farthest_distance() < b->farthest_distance();
       });
       result.best_pose = best->farthest();
     }

@@ -19,18 +19,21 @@ struct Parameters {
   Actions actions = Actions::sphere;
   double thinning = 1e-4;
   std::int64_t level_steps = 20'000;
+  std::int64_t first_turn = 4'000;
 
   static void describe(Schema<Parameters>& s) {
     s.add_choice<Motion>("motion", &Parameters::motion,
                          {{"translation", Motion::translation, "forces, orientation locked"},
                           {"rotation", Motion::rotation, "forces and torques in SE(3)"},
-                          {"auto", Motion::automatic, "a tree of each kind, which grow in turn"}},
+                          {"auto", Motion::automatic, "a tree of each kind; they grow in turns"}},
                          "State space of the search.");
     s.add("time_step", &Parameters::time_step,
           {.unit = "s",
            .min = 1e-3,
            .max = 10,
-           .doc = "Planning time step: how long a random action is applied (table 6)."});
+           .doc = "Planning time step: duration of a random action (table 6). Longer: larger extensions, of which more "
+                  "end at "
+                  "an obstacle."});
     s.add("force", &Parameters::force,
           {.unit = "N",
            .min = 0,
@@ -40,9 +43,16 @@ struct Parameters {
         "actions", &Parameters::actions,
         {{"sphere", Actions::sphere, "any direction, uniformly; with rotation any wrench of that size"},
          {"axes", Actions::axes, "one of the 6 (with rotation 12) unit actions of bfs"}},
-        "What a random action is drawn from.");
+        "Distribution of random actions.");
     path::add_thinning(s, &Parameters::thinning);
     path::add_level_steps(s, &Parameters::level_steps);
+    s.add("first_turn", &Parameters::first_turn,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e12,
+           .doc =
+               "Advanced. Simulated time steps of the first turn of each tree, with `motion: auto`. Each round doubles "
+               "them."});
   }
 };
 

@@ -26,32 +26,32 @@ RandomTree::RandomTree(const PathQuery& query, MotionSpace motion, const Paramet
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, motion)),
       sees_contacts_(query.simulator.capabilities().contacts) {
   const sampling::Surroundings around(query, *world_);
-  // Several parts that move at once are told apart by the first of them: where it is draws the tree.
+  // The displacement of the first moving part represents that of all: distances between nodes are distances of it.
   const sampling::Mover first{query.scene.moving[0].pose * world_->center(0), world_->radius(0)};
   space_ = std::make_unique<sampling::DisplacementSpace>(first, motion, around.bounds);
   bodies_ = path::balls_of(*world_);
   add(world_->initial_state(), 0, {});
 }
 
-bool RandomTree::starts_out() { return world_->separated(nodes_[0].state); }
+bool RandomTree::starts_separated() { return world_->separated(nodes_[0].state); }
 
 std::vector<Pose> RandomTree::farthest() const { return path::poses_of(nodes_[farthest_].state); }
 
-RandomTree::StateType RandomTree::place(const State& state) const {
+RandomTree::StateType RandomTree::displacement_of(const State& state) const {
   StateType s;
   s.center = state.bodies[0].pose * world_->center(0);
   s.turn = (state.bodies[0].pose.q * query_.scene.moving[0].pose.q.conjugate()).normalized();
   return s;
 }
 
-std::uint32_t RandomTree::add(State state, std::uint32_t parent, Path way) {
-  const StateType where = place(state);
+std::uint32_t RandomTree::add(State state, std::uint32_t parent, Path path) {
+  const StateType where = displacement_of(state);
   const unsigned depth = nodes_.empty() ? 0 : nodes_[parent].depth + 1;
-  nodes_.push_back({std::move(state), where, parent, depth, std::move(way)});
+  nodes_.push_back({std::move(state), where, parent, depth, std::move(path)});
   const std::uint32_t id = near_.add(where.center);
-  const double moved = (where.center - nodes_[0].place.center).norm();
-  if (moved > farthest_way_) {
-    farthest_way_ = moved;
+  const double moved = (where.center - nodes_[0].displacement.center).norm();
+  if (moved > farthest_distance_) {
+    farthest_distance_ = moved;
     farthest_ = id;
   }
   return id;
@@ -74,7 +74,7 @@ Action RandomTree::random_action() {
   return action;
 }
 
-void RandomTree::note_contacts(const State& state) {
+void RandomTree::record_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
@@ -82,19 +82,19 @@ void RandomTree::note_contacts(const State& state) {
 }
 
 Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const {
-  std::vector<std::uint32_t> chain;
-  for (std::uint32_t n = node; n != 0; n = nodes_[n].parent) chain.push_back(n);
-  std::reverse(chain.begin(), chain.end());
+  std::vector<std::uint32_t> branch;
+  for (std::uint32_t n = node; n != 0; n = nodes_[n].parent) branch.push_back(n);
+  std::reverse(branch.begin(), branch.end());
   Path path{path::poses_of(nodes_[0].state)};
   node_of_instant = {0};
-  for (const auto n : chain) {
-    path.insert(path.end(), nodes_[n].way.begin(), nodes_[n].way.end());
-    node_of_instant.insert(node_of_instant.end(), nodes_[n].way.size(), n);
+  for (const auto n : branch) {
+    path.insert(path.end(), nodes_[n].path.begin(), nodes_[n].path.end());
+    node_of_instant.insert(node_of_instant.end(), nodes_[n].path.size(), n);
   }
   return path;
 }
 
-bool RandomTree::verified(std::uint32_t node, PathResult& result) {
+bool RandomTree::find_verified_path(std::uint32_t node, PathResult& result) {
   std::vector<std::uint32_t> node_of;
   const Path full = path_to(node, node_of);
   const Path path = path::thin(full, bodies_, parameters_.thinning);
@@ -111,7 +111,7 @@ bool RandomTree::verified(std::uint32_t node, PathResult& result) {
     discard(node);
     return false;
   }
-  // Thinning keeps instants as they are: find the one after the fault among all, and the action that led there.
+  // Thinning changes no pose, so the one after the fault is among those of the whole path; its node is at fault.
   const auto& after = path[std::min(shown.last.instant + 1, path.size() - 1)];
   std::size_t k = 1;
   while (k + 1 < full.size() && !same(full[k], after)) ++k;
@@ -129,17 +129,17 @@ bool RandomTree::iterate(PathResult& result) {
   StateType drawn;
   space_->draw(rng_, drawn);
   const std::uint32_t from =
-      near_.nearest(drawn.center, [&](std::uint32_t n) { return space_->distance(nodes_[n].place, drawn); });
+      near_.nearest(drawn.center, [&](std::uint32_t n) { return space_->distance(nodes_[n].displacement, drawn); });
   const Action action = random_action();
   State state = nodes_[from].state;
-  Path way;
-  const StepReport report = world_->advance(state, action, parameters_.time_step, &way);
+  Path path;
+  const StepReport report = world_->advance(state, action, parameters_.time_step, &path);
   steps_ += std::max<std::uint64_t>(report.steps, 1);
-  if (report.stalled) note_contacts(state);
-  if (!report.finite || way.empty()) return false;
-  way = path::thin(way, bodies_, parameters_.thinning);
-  const std::uint32_t node = add(std::move(state), from, std::move(way));
-  return world_->separated(nodes_[node].state) && verified(node, result);
+  if (report.stalled) record_contacts(state);
+  if (!report.finite || path.empty()) return false;
+  path = path::thin(path, bodies_, parameters_.thinning);
+  const std::uint32_t node = add(std::move(state), from, std::move(path));
+  return world_->separated(nodes_[node].state) && find_verified_path(node, result);
 }
 
 }  // namespace dismantle::bk_rrt

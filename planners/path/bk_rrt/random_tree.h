@@ -18,35 +18,35 @@ class RandomTree {
  public:
   RandomTree(const PathQuery& query, MotionSpace motion, const Parameters& parameters, const Rng& rng);
 
-  /// One iteration: random state, nearest node, random action, simulation. True
-  /// when that led to a path that the checker accepts; then `result` holds it.
+  /// One iteration: random state, nearest node, random action, simulation. True when the checker accepts a path; then
+  /// `result` holds it.
   bool iterate(PathResult& result);
 
-  bool starts_out();
+  bool starts_separated();
   std::uint64_t steps() const { return steps_; }  ///< simulated time steps so far
   std::uint64_t refused() const { return refused_; }
   std::size_t size() const { return nodes_.size(); }
-  double farthest_way() const { return farthest_way_; }  ///< of the centre, assembly units
+  double farthest_distance() const { return farthest_distance_; }  ///< of the centre, assembly units
   std::vector<Pose> farthest() const;
-  /// How often each fixed part was touched at the end of an action.
+  /// Number of blocked actions that touched each fixed part at their end.
   const std::map<PartId, std::uint64_t>& touched() const { return touched_; }
 
  private:
   using StateType = sampling::DisplacementSpace::StateType;
   struct Node {
     State state;
-    StateType place;  ///< of the first moving part
+    StateType displacement;  ///< of the first moving part
     std::uint32_t parent = 0;
     unsigned depth = 0;
-    Path way;  ///< from the parent: its state excluded, this one included
+    Path path;  ///< from the parent: its state excluded, this one included
   };
-  std::uint32_t add(State state, std::uint32_t parent, Path way);
-  StateType place(const State& state) const;
+  std::uint32_t add(State state, std::uint32_t parent, Path path);
+  StateType displacement_of(const State& state) const;
   Action random_action();
   Path path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const;
-  bool verified(std::uint32_t node, PathResult& result);
+  bool find_verified_path(std::uint32_t node, PathResult& result);
   void discard(std::uint32_t node);
-  void note_contacts(const State& state);
+  void record_contacts(const State& state);
 
   const PathQuery& query_;
   Parameters parameters_;
@@ -59,7 +59,7 @@ class RandomTree {
   sampling::NearestNodes near_;
   std::uint64_t steps_ = 0, refused_ = 0;
   std::uint32_t farthest_ = 0;
-  double farthest_way_ = 0;
+  double farthest_distance_ = 0;
   std::map<PartId, std::uint64_t> touched_;
 };
 

@@ -13,9 +13,9 @@ namespace {
 
 using geometry::FaceAxis;
 
-/// Sums of area by direction, opposite directions together. Exactly equal normals first: a finely cut flat face is one.
+/// Sums areas by direction, opposite directions together. Only equal normals are merged: those of one flat face.
 void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAxis>& faces) {
-  constexpr double kGrid = 1e-6;
+  constexpr double kGrid = 1e-6;  // unit vectors that round to the same multiples of this are equal
   std::map<std::tuple<long, long, long>, FaceAxis> by_direction;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3d c = geometry::area_vector(mesh, t);
@@ -44,7 +44,7 @@ std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach
       add_faces(*query.assembly.parts[s.part].mesh, s.pose.q, faces);
   geometry::sort_by_area(faces);
 
-  // Merge into those of more area, then order by what they have together.
+  // Normals are merged into those of more area, then sorted by the sums.
   std::vector<FaceAxis> distinct;
   for (const FaceAxis& f : faces) geometry::add_face(distinct, f, std::cos(merge_angle));
   geometry::sort_by_area(distinct);

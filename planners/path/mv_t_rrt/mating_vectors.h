@@ -1,4 +1,4 @@
-/// Directions in which parts that were put together face to face come apart (Ebinger et al. 2018).
+/// Directions in which parts with mating faces separate (Ebinger et al. 2018).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,9 @@
 
 namespace dismantle::mv_t_rrt {
 
-/// Distinct face normals, both ways, of what moves and of the fixed parts whose boxes come within `reach` (assembly
-/// units) of it; unit, world. Normals closer than `merge_angle` (rad) to one of more area, or to its opposite, are
-/// taken for that one. Most area first, at most `most`.
+/// Distinct face normals and their opposites, of the moving parts and of the fixed parts whose boxes are within `reach`
+/// (assembly units) of them; unit vectors, world. A normal closer than `merge_angle` (rad) to one with more area, or to
+/// its opposite, is merged into that one. Sorted by area, largest first; at most `most`.
 std::vector<Eigen::Vector3d> mating_vectors(const PathQuery& query, double reach, double merge_angle, std::size_t most);
 
 }  // namespace dismantle::mv_t_rrt

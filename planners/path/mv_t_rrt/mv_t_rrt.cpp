@@ -15,13 +15,21 @@ struct Parameters : sampling::TreeParameters {
   static void describe(Schema<Parameters>& s) {
     sampling::describe_tree(s,
                             "Probability of extending a node towards the nearest state outside "
-                            "the box of the rest (table 7).");
+                            "the bounding box of the fixed parts (table 7).");
     s.add("neighbor_reach", &Parameters::neighbor_reach,
-          {.unit = "unit", .min = 0, .doc = "Still parts whose boxes are this near to the part's are its neighbours."});
+          {.unit = "unit",
+           .min = 0,
+           .doc = "Fixed parts whose boxes are within this distance of the moving part's box are its neighbours. "
+                  "Larger: more "
+                  "directions are tried."});
     s.add("merge_angle", &Parameters::merge_angle,
-          {.unit = "rad", .min = 0, .max = 1.5, .doc = "Face normals that differ by less are one mating vector."});
+          {.unit = "rad",
+           .min = 0,
+           .max = 1.5,
+           .doc = "Face normals that differ by less are one mating vector. Larger: fewer directions, of which some are "
+                  "inexact."});
     s.add("max_vectors", &Parameters::max_vectors,
-          {.unit = "1", .min = 0, .doc = "Mating vectors tried, those of the largest faces first."});
+          {.unit = "1", .min = 0, .doc = "Mating vectors that are tried at most, those of the largest faces first."});
   }
 };
 

@@ -23,14 +23,23 @@ struct Parameters : sampling::SpaceParameters {
            .max = 1e6,
            .doc = "Disassembled states that the roadmap begins with: the six nearest exits, the others are random."});
     s.add("neighbours", &Parameters::neighbours,
-          {.unit = "1", .min = 1, .max = 1000, .doc = "Nearest milestones that a new one is joined to."});
+          {.unit = "1",
+           .min = 1,
+           .max = 1000,
+           .doc = "Nearest milestones to which connections from a new one are tried. More: paths are found with fewer "
+                  "milestones, each of which costs more state checks."});
     s.add("expansion", &Parameters::expansion,
           {.unit = "1",
            .min = 0,
            .max = 1,
-           .doc = "Probability of extending a milestone whose motions were mostly blocked, in place of a sample."});
+           .doc = "Probability of expanding a milestone whose motions were mostly blocked, instead of sampling. "
+                  "Larger: more "
+                  "work in narrow passages."});
     s.add("gaussian", &Parameters::gaussian,
-          {.unit = "1", .min = 0, .max = 1, .doc = "Share of the other samples that are drawn near obstacles."});
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .doc = "Share of the samples that are drawn near obstacles; the others are uniform."});
     sampling::describe_space(s, "Longest extension of a milestone, and deviation of the samples near obstacles.");
   }
 };

@@ -31,9 +31,9 @@ void ConnectTrees::clear() {
 std::optional<std::uint32_t> ConnectTrees::extend(StateTree& tree, std::uint32_t node, const StateType& target) {
   const auto& space = problem_.space();
   const StateType from = tree.state(node);
-  const double way = space.distance(from, target);
-  if (!(way > 0)) return std::nullopt;
-  const StateType to = way <= range_ ? target : space.between(from, target, range_ / way);
+  const double distance = space.distance(from, target);
+  if (!(distance > 0)) return std::nullopt;
+  const StateType to = distance <= range_ ? target : space.between(from, target, range_ / distance);
   const double share = problem_.free_share(from, to);
   if (share <= 0) return std::nullopt;
   return tree.add(share < 1 ? space.between(from, to, share) : to, node);

@@ -67,8 +67,8 @@ void DisplacementSpace::draw(Rng& rng, StateType& state) const {
 }
 
 double DisplacementSpace::distance(const StateType& a, const StateType& b) const {
-  const double way = (a.center - b.center).norm();
-  return motion_ == MotionSpace::translation ? way : way + mover_.radius * angle_between(a.turn, b.turn);
+  const double distance = (a.center - b.center).norm();
+  return motion_ == MotionSpace::translation ? distance : distance + mover_.radius * angle_between(a.turn, b.turn);
 }
 
 StateType DisplacementSpace::between(const StateType& a, const StateType& b, double u) const {
@@ -79,8 +79,8 @@ StateType DisplacementSpace::between(const StateType& a, const StateType& b, dou
 }
 
 double DisplacementSpace::getMaximumExtent() const {
-  const double way = bounds_.size().norm();
-  return motion_ == MotionSpace::translation ? way : way + mover_.radius * std::numbers::pi;
+  const double extent = bounds_.size().norm();
+  return motion_ == MotionSpace::translation ? extent : extent + mover_.radius * std::numbers::pi;
 }
 
 double DisplacementSpace::getMeasure() const {
@@ -125,10 +125,11 @@ ompl::base::StateSamplerPtr DisplacementSpace::allocDefaultStateSampler() const 
 
 void append_edge(const DisplacementSpace& space, const StateType& first, const StateType& last,
                  std::vector<Pose>& displacements) {
-  constexpr double kDeviation = 1e-5;
-  const double way = (last.center - first.center).norm(), turn = angle_between(first.turn, last.turn);
-  // On a screw the centre takes an arc over its chord: sagitta = way * turn / 8; cut in n, it is n * n times less.
-  const double pieces = std::max(1.0, std::ceil(std::sqrt(way * turn / 8 / kDeviation)));
+  constexpr double kDeviation = 1e-5;  // assembly units: far below any tolerance
+  const double length = (last.center - first.center).norm(), turn = angle_between(first.turn, last.turn);
+  // On a screw motion the centre moves on an arc above its chord: sagitta = length * turn / 8. In n pieces it is n * n
+  // times smaller.
+  const double pieces = std::max(1.0, std::ceil(std::sqrt(length * turn / 8 / kDeviation)));
   for (double k = 1; k <= pieces; ++k)
     displacements.push_back(space.displacement(k < pieces ? space.between(first, last, k / pieces) : last));
 }

@@ -11,12 +11,6 @@ namespace dismantle::sampling {
 
 namespace ob = ompl::base;
 
-namespace {
-
-constexpr int kDrawsOfANode = 20;  // rejection sampling of the milestone to expand
-
-}  // namespace
-
 Roadmap::Roadmap(SamplingProblem& problem, const Settings& settings, const Rng& rng)
     : Planner(problem.information(), "Roadmap"), problem_(problem), settings_(settings), rng_(rng) {}
 
@@ -82,7 +76,7 @@ void Roadmap::connect(std::uint32_t node) {
 
 std::optional<std::uint32_t> Roadmap::expand() {
   const bool at_start = rng_.uniform() < 0.5;
-  for (int k = 0; k < kDrawsOfANode; ++k) {
+  for (int k = 0; k < 20; ++k) {  // rejection sampling of the milestone to expand
     const auto& reached = components_[0].members;
     const auto node =
         at_start ? reached[rng_.below(reached.size())] : static_cast<std::uint32_t>(rng_.below(milestones_.size()));

@@ -16,10 +16,6 @@ namespace {
 
 using StateType = DisplacementSpace::StateType;
 
-/// How far beyond contact of boxes a part counts as gone (assembly units): more than any simulator's rounding.
-constexpr double kBeyond = 0.01;
-constexpr int kPollEvery = 32;
-
 /// OMPL writes to the terminal unless told otherwise; a planner prints nothing.
 void silence_ompl() {
   static std::once_flag once;
@@ -71,7 +67,7 @@ class SamplingProblem::Checker final : public ompl::base::StateValidityChecker {
   SamplingProblem& problem_;
 };
 
-/// OMPL's discrete validator takes its step as a fraction of the space's extent; ours is a length.
+/// OMPL's discrete validator takes its step as a fraction of the space's extent; this one takes a length.
 class SamplingProblem::Validator final : public ompl::base::MotionValidator {
  public:
   Validator(SamplingProblem& problem, const ompl::base::SpaceInformationPtr& information)
@@ -100,12 +96,12 @@ SamplingProblem::SamplingProblem(const PathQuery& query, MotionSpace motion, dou
       step_(step),
       start_(path::poses_of(query.scene.moving)) {
   silence_ompl();
-  // Noise of CAD may put the start itself beyond the limit; what is there already is no obstacle.
+  // Inexact CAD data may put the start itself beyond the limit; the initial penetration is not an obstacle.
   allowed_ = std::max(max_penetration, world_->penetration(world_->initial_state()));
   information_ = std::make_shared<ompl::base::SpaceInformation>(space_);
   information_->setStateValidityChecker(std::make_shared<Checker>(*this, information_));
   information_->setMotionValidator(std::make_shared<Validator>(*this, information_));
-  // For whatever asks OMPL itself: the same step, as the fraction that it wants.
+  // The same step for code that asks OMPL itself, as a fraction.
   space_->setLongestValidSegmentFraction(step / space_->getMaximumExtent());
 }
 
@@ -129,12 +125,13 @@ bool SamplingProblem::is_free(const StateType& state) {
   return false;
 }
 
-bool SamplingProblem::is_out(const StateType& state) { return world_->separated(world_state(state)); }
+bool SamplingProblem::is_separated(const StateType& state) { return world_->separated(world_state(state)); }
 
 double SamplingProblem::free_share(const StateType& from, const StateType& to) {
   const double steps = std::ceil(space_->distance(from, to) / step_ - 1e-9);
   for (double k = 1; k <= steps; ++k) {
-    if (std::fmod(k, kPollEvery) == 0 && budget_.spent()) return (k - 1) / steps;
+    if (std::fmod(k, 32) == 0 && budget_.spent())  // reading the clock costs more than a cheap state check
+      return (k - 1) / steps;
     if (!is_free(k < steps ? space_->between(from, to, k / steps) : to)) return (k - 1) / steps;
   }
   return 1;
@@ -151,7 +148,7 @@ std::optional<StateType> SamplingProblem::draw_disassembled(Rng& rng) {
   StateType state;
   for (int attempt = 0; attempt < 10'000; ++attempt) {
     space_->draw(rng, state);
-    if (is_out(state)) return state;
+    if (is_separated(state)) return state;
   }
   return std::nullopt;
 }
@@ -160,8 +157,9 @@ StateType SamplingProblem::exit(const StateType& from, int side) const {
   const Aabb box = surroundings_.moving_box(space_->displacement(from));
   StateType to = from;
   const int axis = side / 2;
-  to.center[axis] += side % 2 == 0 ? surroundings_.rest.lo[axis] - box.hi[axis] - kBeyond
-                                   : surroundings_.rest.hi[axis] - box.lo[axis] + kBeyond;
+  // The boxes are one tolerance apart: more than the rounding of any simulator.
+  to.center[axis] += side % 2 == 0 ? surroundings_.rest.lo[axis] - box.hi[axis] - query_.tolerance
+                                   : surroundings_.rest.hi[axis] - box.lo[axis] + query_.tolerance;
   return to;
 }
 
@@ -186,17 +184,16 @@ std::vector<StateType> SamplingProblem::shortcut(const std::vector<StateType>& s
 }
 
 void SamplingProblem::note_blocked(const StateType& state) {
-  // The first few, then fewer and fewer: enough to tell who is in the way.
+  // The first 16, then those whose number is a power of two: a small sample over the whole search.
   const std::uint64_t n = ++blocked_;
   if (n <= 16 || (n & (n - 1)) == 0) blocked_states_.push_back(state);
 }
 
 std::vector<PartId> SamplingProblem::blockers() const {
-  constexpr std::size_t kMostReplays = 64;  // checks of their own, beyond the budget
+  // Each state is checked against each fixed part alone: about 64 checks beyond the budget.
   std::vector<std::pair<std::size_t, PartId>> hits;
-  const std::size_t states =
-      std::min(blocked_states_.size(),
-               std::max<std::size_t>(1, kMostReplays / std::max<std::size_t>(1, query_.scene.fixed.size())));
+  const std::size_t states = std::min(
+      blocked_states_.size(), std::max<std::size_t>(1, 64 / std::max<std::size_t>(1, query_.scene.fixed.size())));
   const auto end = blocked_states_.begin() + static_cast<std::ptrdiff_t>(states);
   for (const auto& fixed : query_.scene.fixed) {
     const auto alone =

@@ -15,9 +15,6 @@ namespace {
 
 using StateType = SamplingProblem::StateType;
 
-/// Checks of the first turn of a space where two take turns; each round doubles it.
-constexpr std::uint64_t kFirstTurn = 4'000;
-
 /// One state space and what is grown in it.
 class Space {
  public:
@@ -43,7 +40,7 @@ class Space {
     }
   }
 
-  /// Straight on along each direction until out or blocked.
+  /// Moves along each direction until separated or blocked.
   bool try_lines(const std::vector<Eigen::Vector3d>& directions, double range, CandidatePaths& candidates,
                  std::uint64_t limit, PathResult& result) {
     const StateType start = problem_.space().start();
@@ -52,13 +49,13 @@ class Space {
       if (problem_.budget().checks >= limit || problem_.budget().spent()) return false;
       ++lines_;
       StateType at = start;
-      for (double way = 0; way < far;) {
+      for (double length = 0; length < far;) {
         StateType next = at;
         next.center += range * direction;
         if (problem_.free_share(at, next) < 1) break;
         at = next;
-        way += range;
-        if (!problem_.is_out(at)) continue;
+        length += range;
+        if (!problem_.is_separated(at)) continue;
         std::size_t edge = 1;
         if (candidates.accepts(problem_, {start, at}, result, edge)) return true;
         break;
@@ -85,13 +82,12 @@ class SpaceSearch final : public PathSearch {
         budget_(query, context),
         level_(path::doubled_per_level(parameters.level_checks, query.budget.max_depth)),
         candidates_(query.checker, parameters.simplify),
-        turns_(parameters.motion == Motion::automatic ? 2 : 1, kFirstTurn) {
+        turns_(parameters.motion == Motion::automatic ? 2 : 1, static_cast<std::uint64_t>(parameters.first_turn)) {
     const auto add = [&](MotionSpace motion, std::uint64_t stream) {
       spaces_.push_back(
           std::make_unique<Space>(query, motion, parameters, make_planner, budget_, context.rng.fork(stream)));
     };
-    // A motion without turns is a motion in SE(3), too: lines need no space of
-    // their own.
+    // A motion without rotation is a motion in SE(3) as well, so lines need no space of their own.
     if (parameters.motion != Motion::rotation) add(MotionSpace::translation, 1);
     if (parameters.motion != Motion::translation) add(MotionSpace::rigid, 2);
   }
@@ -100,7 +96,7 @@ class SpaceSearch final : public PathSearch {
     if (is_success(result_.outcome())) return SearchStatus::solved;
     const bool first = !begun_;
     begun_ = true;
-    if (first && starts_out()) {
+    if (first && starts_separated()) {
       result_.start_is_goal();
       return SearchStatus::solved;
     }
@@ -131,8 +127,8 @@ class SpaceSearch final : public PathSearch {
       for (const auto& space : spaces_) {
         const auto state = space->planner().farthest();
         if (!state) continue;
-        const double way = (state->center - space->problem().space().start().center).norm();
-        if (way > most) most = way, result.best_pose = space->problem().poses(*state);
+        const double distance = (state->center - space->problem().space().start().center).norm();
+        if (distance > most) most = distance, result.best_pose = space->problem().poses(*state);
       }
       if (!context_.cancel.cancelled()) result.blocked_by = spaces_.front()->problem().blockers();
     }
@@ -148,9 +144,9 @@ class SpaceSearch final : public PathSearch {
   }
 
  private:
-  bool starts_out() {
+  bool starts_separated() {
     SamplingProblem& first = spaces_.front()->problem();
-    return first.is_out(first.space().start());
+    return first.is_separated(first.space().start());
   }
 
   const PathQuery& query_;

@@ -26,16 +26,16 @@ void TargetTree::clear() {
   iterations_ = 0;
 }
 
-/// Returns the first new node that is out, if any.
+/// Returns the first new node that satisfies the goal, if any.
 std::optional<std::uint32_t> TargetTree::extend(std::uint32_t node, const StateType& target, bool greedy,
                                                 const ob::PlannerTerminationCondition& stop) {
   const auto& space = problem_.space();
   while (true) {
     const StateType from = tree_.state(node);
-    const double way = space.distance(from, target);
-    if (!(way > 0)) return std::nullopt;
-    const bool last = way <= settings_.range;
-    const StateType to = last ? target : space.between(from, target, settings_.range / way);
+    const double distance = space.distance(from, target);
+    if (!(distance > 0)) return std::nullopt;
+    const bool last = distance <= settings_.range;
+    const StateType to = last ? target : space.between(from, target, settings_.range / distance);
     const double share = problem_.free_share(from, to);
     if (share <= 0) return std::nullopt;
     node = tree_.add(share < 1 ? space.between(from, to, share) : to, node);
@@ -62,7 +62,7 @@ ob::PlannerStatus TargetTree::solve(const ob::PlannerTerminationCondition& stop)
   }
   StateType drawn;
   while (!stop()) {
-    // The first thing to try is a goal: many parts leave in a straight line.
+    // The first extension goes to a goal: many parts leave in a straight line.
     const bool to_goal = iterations_++ == 0 || rng_.uniform() < settings_.goal_bias;
     const auto target = to_goal ? rule_->target(*this, rng_) : std::nullopt;
     std::optional<std::uint32_t> out;

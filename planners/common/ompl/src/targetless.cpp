@@ -7,12 +7,13 @@ namespace dismantle::sampling {
 
 std::array<int, 6> exits_by_distance(const SamplingProblem& problem, const SamplingProblem::StateType& from) {
   std::array<int, 6> order{};
-  std::array<double, 6> way{};
+  std::array<double, 6> distance{};
   std::iota(order.begin(), order.end(), 0);
   for (const int side : order)
-    way[static_cast<std::size_t>(side)] = problem.space().distance(from, problem.exit(from, side));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return way[static_cast<std::size_t>(a)] < way[static_cast<std::size_t>(b)]; });
+    distance[static_cast<std::size_t>(side)] = problem.space().distance(from, problem.exit(from, side));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return distance[static_cast<std::size_t>(a)] < distance[static_cast<std::size_t>(b)];
+  });
   return order;
 }
 

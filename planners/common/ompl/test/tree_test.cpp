@@ -178,7 +178,7 @@ TEST(TreePlanner, ExitsLeadOut) {
     double last = 0;
     for (const int side : order) {
       const auto exit = problem.exit(s, side);
-      EXPECT_TRUE(problem.is_out(exit));
+      EXPECT_TRUE(problem.is_separated(exit));
       EXPECT_TRUE(exit.turn.isApprox(s.turn, 0));
       EXPECT_GE(problem.space().distance(s, exit), last);
       last = problem.space().distance(s, exit);

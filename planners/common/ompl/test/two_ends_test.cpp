@@ -107,7 +107,7 @@ TYPED_TEST(TwoEnds, FindsTheHole) {
     ASSERT_FALSE(states.empty()) << "seed " << seed;
     const auto& space = task.problem->space();
     EXPECT_EQ(states.front().center, space.start().center);
-    EXPECT_TRUE(task.problem->is_out(states.back()));
+    EXPECT_TRUE(task.problem->is_separated(states.back()));
     for (std::size_t k = 1; k < states.size(); ++k)
       for (double u = 0; u <= 1; u += 0.001)
         ASSERT_FALSE(gate.blocks(space.displacement(space.between(states[k - 1], states[k], u)).t, kStep));

@@ -10,17 +10,17 @@
 
 namespace dismantle::sampling {
 
-/// A path is shown simplified, and as it was found if that is refused.
+/// Checks the simplified path first, and the original one if that is refused.
 class CandidatePaths {
  public:
   /// The checker outlives this.
   CandidatePaths(const PathChecker& checker, bool simplify) : checker_(checker), simplify_(simplify) {}
 
-  /// True: `result` holds the path. False: `edge` is that of `states` (from edge - 1 to edge) which is at fault, and
-  /// `result` holds the checker's reason. `end`: where the moving parts end exactly; empty: where the last state says.
+  /// True: `result` holds the path. False: the motion of `states` from edge - 1 to `edge` is at fault, and `result`
+  /// holds the checker's reason. `end`: exact final poses of the moving parts; empty: those of the last state.
   bool accepts(SamplingProblem& problem, const std::vector<SamplingProblem::StateType>& states, PathResult& result,
                std::size_t& edge, const std::vector<Pose>& end = {});
-  /// Paths that were refused, both forms counted.
+  /// Number of refused paths; both forms count.
   std::uint64_t refused() const { return refused_; }
 
  private:

@@ -14,15 +14,15 @@
 namespace dismantle::sampling {
 
 /// RRT-Connect (Kuffner and LaValle 2000): one tree from the start, one from states of the goal. In each iteration one
-/// of them extends towards a random state, and the other goes on towards the new node until it gets there or is
-/// blocked; then they change roles. A new root of the second tree is the first state that the other extends to.
+/// of them extends towards a random state, and the other extends towards the new node until it arrives or is blocked;
+/// then they change roles. The first target after a new root of the second tree is that root.
 ///
 /// The problem's goal is a GoalState, or a region that can be sampled: then each iteration adds a root until there are
-/// maxSampleCount(), and a node of the first tree that is in the region ends the search, too.
+/// maxSampleCount(), and a node of the first tree within the region ends the search as well.
 ///
 /// Not ompl::geometric::RRTConnect: that draws its seeds from a sequence of the whole process. All random numbers
-/// come from the generator given. solve() again goes on with the same trees, unless clear() was called: that begins
-/// anew with other numbers.
+/// come from the given generator. A further solve() continues with the same trees; after clear() it starts again with
+/// other random numbers.
 class ConnectTrees final : public ompl::base::Planner {
  public:
   using StateType = SamplingProblem::StateType;
@@ -35,18 +35,18 @@ class ConnectTrees final : public ompl::base::Planner {
 
   /// From start to goal; empty before a solution was found.
   const std::vector<StateType>& solution() const { return solution_; }
-  /// Takes the motion from state `edge` - 1 to `edge` of the solution out of its tree, with all that grew from it.
+  /// Removes the motion from state `edge` - 1 to `edge` of the solution from its tree, with its subtree.
   void discard(std::size_t edge);
   std::uint64_t nodes() const { return grown_ + trees_[0].size() + trees_[1].size(); }
   std::uint64_t iterations() const { return iterations_; }
   const StateTree& from_start() const { return trees_[0]; }
 
  private:
-  /// The second of two trees is on its way to the node that the first has got.
+  /// One tree extends towards the new node of the other.
   struct Connection {
     std::uint32_t meeting = 0, at = 0;
   };
-  /// Up to `range` towards the target, as far as it is free. Nothing: not a step.
+  /// Extends up to `range` towards the target, as far as it is free. Nothing: the first step is blocked.
   std::optional<std::uint32_t> extend(StateTree& tree, std::uint32_t node, const StateType& target);
   void add_root(const ompl::base::GoalSampleableRegion& goal);
   void next_iteration();
@@ -59,7 +59,7 @@ class ConnectTrees final : public ompl::base::Planner {
   int growing_ = 0;
   StateType target_;
   std::optional<Connection> connection_;
-  unsigned sampled_ = 0;  // states of the goal
+  unsigned sampled_ = 0;  // goal states drawn
   std::uint64_t grown_ = 0, iterations_ = 0;
   std::vector<StateType> solution_;
   std::vector<std::uint32_t> child_of_edge_;  // of the solution, by edge - 1: a node of the first tree ...

@@ -1,4 +1,4 @@
-/// The OMPL goal "disassembled" for planners that want states of it.
+/// The OMPL goal "disassembled" with samples, for planners that grow from the goal.
 #pragma once
 
 #include <ompl/base/goals/GoalSampleableRegion.h>
@@ -7,24 +7,23 @@
 
 namespace dismantle::sampling {
 
-/// Hulls apart. Its samples: the start moved out of the box of the rest by each of the six exits, the nearest
-/// first, as the bases of Targetless-RRT do; then states drawn at random. All random numbers come from the generator
-/// given.
+/// The hulls are disjoint. Its samples: the start moved out of the fixed parts' box by each of the six exits, the
+/// nearest first, as in Targetless-RRT; then random states. All random numbers come from the given generator.
 class DisassembledGoal final : public ompl::base::GoalSampleableRegion {
  public:
   using StateType = SamplingProblem::StateType;
 
-  /// `most`: samples in all.
+  /// `most`: number of samples.
   DisassembledGoal(SamplingProblem& problem, unsigned most, const Rng& rng)
       : GoalSampleableRegion(problem.information()), problem_(problem), most_(most), rng_(rng) {}
 
   bool isSatisfied(const ompl::base::State* state) const override {
-    return problem_.is_out(*static_cast<const StateType*>(state));
+    return problem_.is_separated(*static_cast<const StateType*>(state));
   }
-  /// 0 in the goal; elsewhere nothing is known but that it is more.
+  /// 0 in the goal, 1 elsewhere: the distance is not known.
   double distanceGoal(const ompl::base::State* state) const override { return isSatisfied(state) ? 0 : 1; }
   unsigned int maxSampleCount() const override { return most_; }
-  /// The next sample. Where none can be drawn the last exit comes again.
+  /// The next sample. If no random state is found, the last exit again.
   void sampleGoal(ompl::base::State* state) const override;
 
  private:

@@ -1,4 +1,4 @@
-/// OMPL state space of a part's (or rigid group's) displacement, in our units and with our metric.
+/// OMPL state space of the displacement of a part or rigid group, with a metric in assembly units.
 #pragma once
 
 #include <ompl/base/StateSpace.h>
@@ -12,18 +12,18 @@
 
 namespace dismantle::sampling {
 
-/// What moves: its centre in the world at the start, and the largest distance of its points from there (assembly
+/// The moving group: its centre in the world at the start, and the largest distance of its points from there (assembly
 /// units).
 struct Mover {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double radius = 0;
 };
 
-/// R3 or SE(3). A state is where the mover's centre is and how the mover is turned since the start.
+/// R3 or SE(3). A state is the position of the mover's centre and its rotation since the start.
 ///
-/// Metric (assembly units): way of the centre plus radius times angle of turn. No point of the mover travels further
+/// Metric (assembly units): displacement of the centre plus radius times angle. No point of the mover travels further
 /// on the motion between two states, in which the centre moves on a line while the mover turns at constant speed
-/// (OMPL's interpolation for SE(3)). So a step in this metric is a step of the part, wherever one looks.
+/// (OMPL's interpolation for SE(3)). A step in this metric therefore bounds the step of every point.
 ///
 /// Draws nothing from OMPL's process-wide sequence of seeds unless asked for a sampler by OMPL itself.
 class DisplacementSpace final : public ompl::base::StateSpace {
@@ -78,8 +78,8 @@ class DisplacementSpace final : public ompl::base::StateSpace {
   mutable Rng sampler_seeds_{1};
 };
 
-/// The turns of a path's edges, cut so that the screw motions between the poses that come out (which is how everybody
-/// else reads a path) stay within 1e-5 assembly units of the edges. `first` excluded, `last` included.
+/// Subdivides an edge so that the screw motions between the poses, which is the meaning of a path, stay within 1e-5
+/// assembly units of it. `first` excluded, `last` included.
 void append_edge(const DisplacementSpace& space, const DisplacementSpace::StateType& first,
                  const DisplacementSpace::StateType& last, std::vector<Pose>& displacements);
 

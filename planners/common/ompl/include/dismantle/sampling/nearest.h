@@ -1,5 +1,5 @@
-/// Nearest neighbours that depend on nothing but what was added, in which order. (OMPL's trees pick their pivots with
-/// generators seeded from a process-wide sequence.)
+/// Deterministic nearest neighbours. (OMPL's trees pick their pivots with generators seeded from a process-wide
+/// sequence.)
 #pragma once
 
 #include <Eigen/Core>
@@ -15,13 +15,13 @@ class NearestNodes {
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
   std::uint32_t add(const Eigen::Vector3d& point);
-  /// The label counts no more.
+  /// The label is ignored from now on.
   void remove(std::uint32_t label) { removed_[label] = true; }
   bool removed(std::uint32_t label) const { return removed_[label]; }
-  /// Label with the least metric(label), of several the lowest; kNone when there is none. The metric must not be
-  /// below the distance from `point` to the label's point.
+  /// Label with the least metric(label), the lowest of equal ones; kNone without any. The metric has to be at least the
+  /// distance from `point` to the label's point.
   std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
-  /// Up to `count` labels with the least metric, the nearest first; of equals the lower label first.
+  /// Up to `count` labels with the least metric, the nearest first, of equal ones the lower label first.
   std::vector<std::uint32_t> nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric,
                                      std::size_t count) const;
   std::size_t size() const { return points_.size(); }

@@ -14,19 +14,18 @@
 
 namespace dismantle::sampling {
 
-/// PRM (Kavraki, Svestka, Latombe and Overmars 1996): free states are drawn and joined to their nearest neighbours by
-/// straight motions where these are free; only milestones of different components are joined. Ends when the start's
-/// component holds a state of the goal. Each iteration adds at most one milestone:
-/// - as long as the goal has samples left, one of these;
+/// PRM (Kavraki, Svestka, Latombe and Overmars 1996): free states are drawn and connected to their nearest neighbours
+/// by free straight motions; only milestones of different components are connected. Ends when the start's component
+/// holds a state of the goal. Each iteration adds at most one milestone:
+/// - a sample of the goal, as long as there are any;
 /// - with probability `expansion`, the end of a free motion from a milestone whose motions were mostly blocked and that
-/// was
-///   seldom expanded (their expansion step), which is how the roadmap gets through narrow passages; every other time
-///   one that the start is joined to;
+///   was seldom expanded (their expansion step): so the roadmap gets through narrow passages. Every other time the
+///   milestone is one that is connected to the start;
 /// - with probability `gaussian` of the rest, a state near an obstacle (Boor, Overmars and van der Stappen 1999);
-/// - else a uniform one.
+/// - otherwise a uniform one.
 ///
 /// Not ompl::geometric::PRM: that runs threads of its own, draws its seeds from a sequence of the whole process, and is
-/// not the same from run to run. All random numbers come from the generator given. solve() again goes on with the same
+/// not reproducible. All random numbers come from the given generator. A further solve() continues with the same
 /// roadmap.
 class Roadmap final : public ompl::base::Planner {
  public:
@@ -45,11 +44,11 @@ class Roadmap final : public ompl::base::Planner {
 
   /// The shortest path of the roadmap, from start to goal; empty before a solution was found.
   const std::vector<StateType>& solution() const { return solution_; }
-  /// The motion from state `edge` - 1 to `edge` of the solution is used no more.
+  /// Removes the motion from state `edge` - 1 to `edge` of the solution.
   void discard(std::size_t edge);
   std::uint64_t nodes() const { return milestones_.size(); }
   std::uint64_t iterations() const { return iterations_; }
-  /// Of what the start is joined to, the milestone whose centre is furthest from it. Nothing: not begun.
+  /// Of the milestones connected to the start, the one whose centre is furthest from it. Nothing: not begun.
   std::optional<StateType> farthest() const;
 
  private:
@@ -66,13 +65,13 @@ class Roadmap final : public ompl::base::Planner {
     std::vector<std::uint32_t> members;
     std::uint32_t goals = 0;  ///< members that are in the goal
   };
-  /// One component of two. Roots are the lower: that of the start is 0.
+  /// Merges two components. The root is the lower one, so that of the start is 0.
   void merge(std::uint32_t a, std::uint32_t b);
   std::uint32_t component(std::uint32_t node);
   void join(std::uint32_t a, std::uint32_t b);
   std::uint32_t add(const StateType& state);
   void connect(std::uint32_t node);
-  /// A milestone of this iteration. Nothing: the state drawn was not free.
+  /// The milestone of this iteration. Nothing: the state was not free.
   std::optional<std::uint32_t> sample(const ompl::base::GoalSampleableRegion& goal);
   std::optional<std::uint32_t> expand();
   std::optional<StateType> near_obstacle();
@@ -83,7 +82,7 @@ class Roadmap final : public ompl::base::Planner {
   Rng rng_;
   std::vector<Milestone> milestones_;
   NearestNodes near_;
-  unsigned sampled_ = 0;  // states of the goal
+  unsigned sampled_ = 0;  // goal states drawn
   std::uint64_t iterations_ = 0;
   std::vector<Component> components_;  // by root
   std::vector<StateType> solution_;

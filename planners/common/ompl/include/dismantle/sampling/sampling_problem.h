@@ -1,4 +1,4 @@
-/// What a sampling planner asks of a query: is this state free, is this motion free, is it out, have we time left?
+/// The problem of a sampling planner: validity of states and motions, the goal, and the budget.
 #pragma once
 
 #include <ompl/base/Goal.h>
@@ -18,11 +18,10 @@ namespace dismantle::sampling {
 /// Budget of one search, shared by all its trees.
 struct CheckBudget {
   CheckBudget(const PathQuery& query, const RunContext& context);
-  bool spent() const;   ///< nothing may be done any more: cancelled, too late, or
-                        ///< too many checks
-  Outcome why() const;  ///< when spent: cancelled or timeout
+  bool spent() const;   ///< cancelled, past the deadline, or too many checks
+  Outcome why() const;  ///< the outcome when spent: cancelled or timeout
 
-  std::uint64_t checks = 0;      ///< states looked at
+  std::uint64_t checks = 0;      ///< state checks
   std::uint64_t max_checks = 0;  ///< 0 = no limit
   const RunContext& context;
   Deadline deadline;
@@ -30,13 +29,13 @@ struct CheckBudget {
 
 /// Geometry of the query that does not depend on the state space.
 struct Surroundings {
-  /// `goal`: a displacement that must be within the bounds, too.
+  /// `goal`: a displacement that has to be within the bounds as well.
   Surroundings(const PathQuery& query, const World& world, const Pose& goal = {});
   Mover mover;
-  Aabb rest;                                 ///< of all that stay fixed, world
-  std::vector<Eigen::Vector3d> moving_hull;  ///< corners of all that moves, where they are at the start
-  Aabb bounds;                               ///< of the mover's centre: room to get out on every side
-  /// Box of what moves after a displacement.
+  Aabb rest;                                 ///< box of all fixed parts, world
+  std::vector<Eigen::Vector3d> moving_hull;  ///< corners of the moving parts' hull, at the start
+  Aabb bounds;                               ///< of the mover's centre, with room for exits on every side
+  /// Box of the moving parts after a displacement.
   Aabb moving_box(const Pose& displacement) const;
 };
 
@@ -45,8 +44,8 @@ class SamplingProblem {
  public:
   using StateType = DisplacementSpace::StateType;
 
-  /// States penetrating no deeper than `max_penetration` (assembly units), or than the start does, are free; motions
-  /// are looked at every `step` of the space's metric.
+  /// A state is free when it penetrates no deeper than `max_penetration` (assembly units), or than the start does.
+  /// Motions are checked at every `step` of the space's metric.
   SamplingProblem(const PathQuery& query, MotionSpace motion, double max_penetration, double step, CheckBudget& budget,
                   const Pose& goal = {});
   SamplingProblem(const SamplingProblem&) = delete;
@@ -60,26 +59,25 @@ class SamplingProblem {
   double allowed() const { return allowed_; }
 
   bool is_free(const StateType& state);
-  bool is_out(const StateType& state);
-  /// Share in [0, 1] of the motion that is free, in whole steps: 1 = all of it. Stops early when the budget is spent.
-  /// The beginning is taken to be free.
+  bool is_separated(const StateType& state);
+  /// Share in [0, 1] of the motion that is free, in whole steps; 1: all of it. Stops early when the budget is spent.
+  /// `from` has to be free.
   double free_share(const StateType& from, const StateType& to);
   bool motion_is_free(const StateType& from, const StateType& to) { return free_share(from, to) >= 1; }
 
   /// The state after a displacement since the start.
   StateType state_after(const Pose& displacement) const;
-  /// A state that is out, drawn at random. Nothing if none was found (the bounds leave room for many).
+  /// A random separated state. Nothing if none was found.
   std::optional<StateType> draw_disassembled(Rng& rng);
-  /// Displacements along which the part leaves the box of the rest on the side given, 0 to 5 for -x, +x, -y, ...
+  /// The state moved out of the fixed parts' box on the given side, 0 to 5 for -x, +x, -y, ...
   StateType exit(const StateType& from, int side) const;
 
-  /// Path through states: the first is the start. Edges are cut where turning asks for it.
+  /// Path through states; the first is the start. Edges with a rotation are subdivided.
   Path path(const std::vector<StateType>& states, std::vector<std::size_t>* edge_of_instant = nullptr) const;
-  /// Shortest sequence that greedy halving finds: straight motions that are free replace what lies between. Draws
-  /// nothing.
+  /// Replaces states between two others by free straight motions (greedy halving). Deterministic.
   std::vector<StateType> shortcut(const std::vector<StateType>& states);
 
-  /// Still parts that were hit, most often hit first. Looks at the samples of blocked states that were kept.
+  /// Fixed parts that blocked states, most often first, by a sample of the blocked states.
   std::vector<PartId> blockers() const;
   /// Poses of the moving parts in `state`.
   std::vector<Pose> poses(const StateType& state) const;
@@ -102,12 +100,12 @@ class SamplingProblem {
   std::vector<StateType> blocked_states_;
 };
 
-/// The OMPL goal "disassembled": hulls apart.
+/// The OMPL goal "disassembled": hulls are disjoint.
 class SeparatedGoal final : public ompl::base::Goal {
  public:
   explicit SeparatedGoal(SamplingProblem& problem) : Goal(problem.information()), problem_(problem) {}
   bool isSatisfied(const ompl::base::State* state) const override {
-    return problem_.is_out(*static_cast<const SamplingProblem::StateType*>(state));
+    return problem_.is_separated(*static_cast<const SamplingProblem::StateType*>(state));
   }
 
  private:

@@ -1,4 +1,4 @@
-/// From a query to a path in the space of displacements: what the geometric planners share, whatever they grow.
+/// Search for a path in the space of displacements: shared by all geometric planners.
 #pragma once
 
 #include <ompl/base/PlannerTerminationCondition.h>
@@ -28,6 +28,7 @@ struct SpaceParameters {
   double tolerance_share = 0.4;
   bool simplify = true;
   std::int64_t level_checks = 1'000;
+  std::int64_t first_turn = 4'000;
 };
 
 /// Declares `motion` for a struct that derives from SpaceParameters.
@@ -36,7 +37,7 @@ void describe_motion(Schema<P>& s) {
   s.template add_choice<Motion>("motion", path::inherited<P>(&SpaceParameters::motion),
                                 {{"translation", Motion::translation, "R3, orientation locked"},
                                  {"rotation", Motion::rotation, "SE(3)"},
-                                 {"auto", Motion::automatic, "R3 and SE(3) in turn"}},
+                                 {"auto", Motion::automatic, "R3 and SE(3) in turns"}},
                                 "State space of the search.");
 }
 
@@ -45,41 +46,50 @@ template <class P>
 void describe_space(Schema<P>& s, const std::string& range_doc) {
   using path::inherited;
   s.add("range", inherited<P>(&SpaceParameters::range), {.unit = "unit", .min = 0, .min_open = true, .doc = range_doc});
-  s.add("step", inherited<P>(&SpaceParameters::step),
-        {.unit = "unit",
-         .min = 1e-5,
-         .max = 1,
-         .doc = "Extensions go on in steps of this length, each of which is checked (table 7); largest way of any "
-                "point of the part."});
+  s.add(
+      "step", inherited<P>(&SpaceParameters::step),
+      {.unit = "unit",
+       .min = 1e-5,
+       .max = 1,
+       .doc = "Distance of the state checks along a motion (table 7), as the largest displacement of any point of the "
+              "part. Smaller: thin obstacles are not missed, each motion costs more."});
   s.add(
       "tolerance_share", inherited<P>(&SpaceParameters::tolerance_share),
       {.unit = "1",
        .min = 0,
        .max = 1,
-       .doc = "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding (table "
-              "7 has all of it; the rest keeps the verifier from refusing paths)."});
+       .doc =
+           "Share of verify.max_penetration, above the initial overlap, at which a state counts as colliding. Table 7 "
+           "has all of it; with less the verifier refuses fewer paths."});
   s.add("simplify", inherited<P>(&SpaceParameters::simplify),
-        {.doc = "Replace detours by straight motions where these are free."});
+        {.doc = "Replace detours by straight motions that are free."});
   s.add("level_checks", inherited<P>(&SpaceParameters::level_checks),
         {.unit = "1",
          .min = 1,
          .doc = "State checks for a search of depth 1 where the sequence planner limits depth; each further level "
                 "doubles them."});
+  s.add(
+      "first_turn", inherited<P>(&SpaceParameters::first_turn),
+      {.unit = "1",
+       .min = 1,
+       .max = 1e12,
+       .doc = "Advanced. State checks of the first turn of each space, with `motion: auto`. Each round doubles them."});
 }
 
-/// What is grown in one state space until it holds a path: a tree, two trees, a roadmap.
+/// The structure that is grown in one state space until it holds a path: a tree, two trees, a roadmap.
 class SpacePlanner {
  public:
   using StateType = SamplingProblem::StateType;
 
   virtual ~SpacePlanner() = default;
-  /// Goes on until there is a path or `stop` says so. From the start to a state that is out; empty: stopped.
+  /// Continues until there is a path or `stop` returns true. The path leads from the start to a separated state; empty:
+  /// stopped.
   virtual std::vector<StateType> solve(const ompl::base::PlannerTerminationCondition& stop) = 0;
-  /// The checker refused the last path for its motion from state `edge` - 1 to `edge`: it is not used again.
+  /// The checker refused the motion of the last path from state `edge` - 1 to `edge`. It is not used again.
   virtual void discard(std::size_t edge) = 0;
   virtual std::uint64_t nodes() const = 0;
   virtual std::uint64_t iterations() const = 0;
-  /// Of the states reached from the start, the one whose centre went furthest. Nothing: not begun.
+  /// Of the states reached from the start, the one whose centre is furthest from it. Nothing: not begun.
   virtual std::optional<StateType> farthest() const = 0;
 };
 
@@ -88,16 +98,16 @@ using MakeSpacePlanner = std::function<std::unique_ptr<SpacePlanner>(SamplingPro
 /// Straight lines to try before anything is grown, as unit directions in the world. May be empty.
 using MakeLines = std::function<std::vector<Eigen::Vector3d>(const PathQuery& query)>;
 
-/// A search that goes on until a path is accepted or the budget is spent; with Motion::automatic the planners of two
-/// spaces take turns. A path is shown to the checker simplified, and as it was found if that is refused. If both are
-/// refused, the edge at fault is discarded, and the search goes on.
+/// A search that continues until a path is accepted or the budget is spent. With Motion::automatic the planners of two
+/// spaces take turns. The checker gets the simplified path first, and the original one if that is refused. If both are
+/// refused, the edge at fault is discarded, and the search continues.
 ///
 /// Extra statistics: `iterations`, `lines` (tried). The cost is the number of state checks. The functions may be called
 /// as long as the search exists.
 std::unique_ptr<PathSearch> start_search(const PathQuery& query, RunContext& context, const SpaceParameters& parameters,
                                          const MakeSpacePlanner& make_planner, const MakeLines& make_lines = {});
 
-/// An OMPL problem from the start to `goal`; what SpacePlanner classes set up their OMPL planner with.
+/// An OMPL problem from the start to `goal`, for the set-up of an OMPL planner.
 ompl::base::ProblemDefinitionPtr definition_of(SamplingProblem& problem, const ompl::base::GoalPtr& goal);
 
 /// Needs of planners made with start_search.

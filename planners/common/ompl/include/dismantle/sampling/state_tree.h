@@ -1,4 +1,4 @@
-/// States that grow from roots: what every tree planner keeps.
+/// Trees of states: the nodes of every tree planner.
 #pragma once
 
 #include <cstdint>
@@ -19,18 +19,18 @@ class StateTree {
 
   std::uint32_t add_root(const StateType& state);
   std::uint32_t add(const StateType& state, std::uint32_t parent);
-  /// Takes a node and all that grew from it out of the tree. Not for roots.
+  /// Removes a node that is no root, with its subtree.
   void discard(std::uint32_t node);
   void clear();
 
-  std::size_t size() const { return nodes_.size(); }  ///< with those that were discarded
+  std::size_t size() const { return nodes_.size(); }  ///< discarded ones included
   bool discarded(std::uint32_t node) const { return near_.removed(node); }
   const StateType& state(std::uint32_t node) const { return nodes_[node].state; }
   std::uint32_t parent(std::uint32_t node) const { return nodes_[node].parent; }
   std::uint32_t nearest(const StateType& state) const;
   /// From the node to its root, both included.
   std::vector<std::uint32_t> to_root(std::uint32_t node) const;
-  /// The node whose centre went furthest from the first root.
+  /// The node whose centre is furthest from the first root.
   std::uint32_t farthest() const { return farthest_; }
 
  private:

@@ -1,5 +1,5 @@
-/// A rapidly-exploring random tree as an OMPL planner, with the choice of goals left open: what `rrt` and `t_rrt`
-/// share.
+/// A rapidly-exploring random tree as an OMPL planner with an exchangeable choice of goals: shared by `rrt` and
+/// `t_rrt`.
 #pragma once
 
 #include <ompl/base/Planner.h>
@@ -16,24 +16,24 @@ namespace dismantle::sampling {
 
 class TargetTree;
 
-/// Where the tree grows when it does not grow towards a random state.
+/// Selects goals for extensions that do not go towards a random state.
 class TargetRule {
  public:
   using StateType = SamplingProblem::StateType;
   struct Target {
-    std::uint32_t node = 0;  ///< grows
-    StateType state;         ///< towards this
+    std::uint32_t node = 0;  ///< to be extended ...
+    StateType state;         ///< ... towards this state
   };
   virtual ~TargetRule() = default;
-  /// Nothing: this time there is no goal worth trying, take a random state.
+  /// Nothing: there is no goal worth trying, so a random state is taken.
   virtual std::optional<Target> target(TargetTree& tree, Rng& rng) = 0;
 };
 
 /// LaValle 1998: in each iteration draw a state (or, with probability goal_bias, take a goal), and extend the nearest
-/// node towards it. What is free of an extension is kept up to the first state that is not. Towards a random state an
-/// extension is `range` long at most; towards a goal it goes on until it is blocked, with a node every `range`.
+/// node towards it. An extension is kept up to its first state that is not free. Towards a random state it is `range`
+/// long at most; towards a goal it continues until it is blocked, with a node every `range`.
 ///
-/// Ends as soon as a node satisfies the problem's goal. solve() may be called again: it goes on with the same tree.
+/// Ends as soon as a node satisfies the problem's goal. solve() may be called again and continues with the same tree.
 /// All random numbers come from the generator given.
 class TargetTree final : public ompl::base::Planner {
  public:
@@ -51,7 +51,7 @@ class TargetTree final : public ompl::base::Planner {
 
   /// Nodes from the root to the one that solve() ended with; empty before.
   const std::vector<std::uint32_t>& solution() const { return solution_; }
-  /// Takes a node and all that grew from it out of the tree. Not for the root.
+  /// Removes a node other than the root, with its subtree.
   void discard(std::uint32_t node) { tree_.discard(node); }
 
   SamplingProblem& problem() { return problem_; }
@@ -59,7 +59,7 @@ class TargetTree final : public ompl::base::Planner {
   std::size_t size() const { return tree_.size(); }
   std::uint64_t iterations() const { return iterations_; }
   std::uint32_t nearest(const StateType& state) const { return tree_.nearest(state); }
-  /// The node whose centre went furthest from the start.
+  /// The node whose centre is furthest from the start.
   std::uint32_t farthest() const { return tree_.farthest(); }
 
  private:

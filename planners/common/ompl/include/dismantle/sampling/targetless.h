@@ -1,4 +1,4 @@
-/// Goals of Targetless-RRT (Aguinaga, Borro and Matey 2008): out of the box by the shortest way.
+/// Goals of Targetless-RRT (Aguinaga, Borro and Matey 2008): the nearest exits of the box.
 #pragma once
 
 #include <array>
@@ -9,9 +9,9 @@
 
 namespace dismantle::sampling {
 
-/// The current node is the one nearest to a random state; its goal is the nearest state, orientation kept, whose box
-/// is outside the box of the rest. A node that was extended to its nearest exit gets the next nearest, and so on: the
-/// same extension again would end at the same place.
+/// The current node is the one nearest to a random state. Its goal is the nearest state with the same orientation whose
+/// box is outside the box of the fixed parts. A node that was extended to its nearest exit gets the next nearest one
+/// the next time, because the same extension would end in the same state.
 class NearestExit final : public TargetRule {
  public:
   explicit NearestExit(SamplingProblem& problem) : problem_(problem) {}
@@ -19,10 +19,10 @@ class NearestExit final : public TargetRule {
 
  private:
   SamplingProblem& problem_;
-  std::vector<std::uint8_t> tried_;  ///< by node: how many of its exits
+  std::vector<std::uint8_t> tried_;  ///< by node: number of its exits that were tried
 };
 
-/// The six ways out of the box, shortest first; of equals the lower side (-x, +x, -y, ...).
+/// The six exits of the box, nearest first; of equal ones the lower side (-x, +x, -y, ...).
 std::array<int, 6> exits_by_distance(const SamplingProblem& problem, const SamplingProblem::StateType& from);
 
 }  // namespace dismantle::sampling

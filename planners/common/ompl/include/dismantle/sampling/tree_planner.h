@@ -1,4 +1,4 @@
-/// From a query to a path by growing trees: what the geometric planners share.
+/// Search for a path by growing trees: shared by the tree planners.
 #pragma once
 
 #include <functional>
@@ -21,14 +21,14 @@ void describe_tree(Schema<P>& s, const std::string& goal_doc) {
   describe_motion(s);
   s.add("goal_bias", path::inherited<P>(&TreeParameters::goal_bias),
         {.unit = "1", .min = 0, .max = 1, .doc = goal_doc});
-  describe_space(s, "Longest extension towards a random state, and way between nodes towards a goal.");
+  describe_space(
+      s, "Longest extension towards a random state, and distance of the nodes towards a goal. Larger: fewer nodes.");
 }
 
 /// How a planner chooses goals: one rule per tree. `rng` is the rule's own.
 using MakeRule = std::function<std::unique_ptr<TargetRule>(SamplingProblem& problem, Rng rng)>;
 
-/// start_search with one tree in each space. Of a path that was refused, all that grew from the edge at fault goes,
-/// too.
+/// start_search with one tree in each space. When a path is refused, the subtree behind the edge at fault is discarded.
 std::unique_ptr<PathSearch> start_trees(const PathQuery& query, RunContext& context, const TreeParameters& parameters,
                                         const MakeRule& make_rule, const MakeLines& make_lines = {});
 
