@@ -24,15 +24,15 @@ struct Task {
     verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
     for (const auto& part : assembly.parts) (part.name == moving ? scene.moving : scene.fixed).push_back({part.id, {}});
   }
-  Ruling judge(const Path& path) const {
+  Ruling ruling_of(const Path& path) const {
     Ruling ruling;
     ruling.accept = verifier->check_motion({scene.moving[0].part}, scene.fixed, path).valid &&
                     verifier->apart({{scene.moving[0].part, path.back()[0]}}, scene.fixed);
     return ruling;
   }
   PathResult plan(std::uint64_t seed, dismantle::Budget effort, const TreeParameters& p = {},
-                  std::function<Ruling(const Path&)> judge_with = {}) const {
-    const fake::RuleChecker checker(judge_with ? judge_with : [this](const Path& path) { return judge(path); });
+                  std::function<Ruling(const Path&)> rule_with = {}) const {
+    const fake::RuleChecker checker(rule_with ? rule_with : [this](const Path& path) { return ruling_of(path); });
     const PathQuery query{assembly, simulator, *prepared, scene, effort, 0.01, checker};
     RunContext own;
     own.rng = Rng(seed);
@@ -68,7 +68,7 @@ TEST(TreePlanner, SameSeedSamePath) {
     ASSERT_EQ(a.outcome(), Outcome::solved);
     EXPECT_TRUE(same(a.path()->poses(), b.path()->poses()));
     EXPECT_EQ(a.stats, b.stats);
-    EXPECT_TRUE(slot().judge(a.path()->poses()).accept);
+    EXPECT_TRUE(slot().ruling_of(a.path()->poses()).accept);
     EXPECT_TRUE(a.path()->poses().front()[0].is_identity());
   }
   EXPECT_FALSE(same(slot().plan(1, kEffort).path()->poses(), slot().plan(2, kEffort).path()->poses()));
@@ -126,22 +126,22 @@ TEST(TreePlanner, StopsWhenCancelled) {
   EXPECT_EQ(task.plan(1, {}).outcome(), Outcome::cancelled);
 }
 
-/// A path that the verifier refuses is no end: the edge at fault goes, the search goes on.
+/// When the verifier refuses a path, the edge at fault is removed and the search continues.
 TEST(TreePlanner, GoesOnAfterARefusal) {
   int shown = 0;
   const auto strict = [&](const Path& path) {
-    Ruling verdict = slot().judge(path);
+    Ruling ruling = slot().ruling_of(path);
     if (++shown <= 5) {
-      verdict.accept = false;
-      verdict.has_witness = shown % 2 == 0;
-      verdict.instant = path.size() / 2;
+      ruling.accept = false;
+      ruling.has_witness = shown % 2 == 0;
+      ruling.instant = path.size() / 2;
     }
-    return verdict;
+    return ruling;
   };
   const PathResult r = slot().plan(1, {.max_steps = 400'000}, {}, strict);
   EXPECT_EQ(r.outcome(), Outcome::solved);
   EXPECT_EQ(r.stats.refused, 5u);
-  EXPECT_TRUE(slot().judge(r.path()->poses()).accept);
+  EXPECT_TRUE(slot().ruling_of(r.path()->poses()).accept);
 }
 
 TEST(TreePlanner, StartThatIsOut) {
@@ -163,7 +163,7 @@ TEST(TreePlanner, MotionSpaces) {
   EXPECT_EQ(peg.plan(1, kEffort, p).outcome(), Outcome::solved);
 }
 
-/// The nearest exit is the shortest way out of the box, and leads out.
+/// The nearest exit is the nearest separated state.
 TEST(TreePlanner, ExitsLeadOut) {
   Rng rng(1);
   const fake::RuleChecker checker = fake::accept_all();

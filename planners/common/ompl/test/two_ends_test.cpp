@@ -128,7 +128,7 @@ TYPED_TEST(TwoEnds, FindsNothingWhereThereIsNothing) {
   }
 }
 
-/// Stopped and asked to go on, it finds what it finds without a stop.
+/// A search that is stopped and continued finds the same path as one without a stop.
 TYPED_TEST(TwoEnds, InPortionsAsWithoutStops) {
   Rng rng(3);
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

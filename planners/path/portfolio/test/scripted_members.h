@@ -129,7 +129,7 @@ struct Set {
     parameters.of.push_back(member);
     parameters.of.back().plugin = PluginRef<PathPlanner>("member" + std::to_string(scripts.size()));
   }
-  /// Runs it in portions of so many steps; 0: in one.
+  /// Runs it in portions of this many steps; 0: in one.
   PathResult run(std::uint64_t portion = 0) {
     log.runs.clear();
     log.depths.clear();
@@ -159,7 +159,7 @@ inline Script random_script(Rng& rng) {
   return s;
 }
 
-/// Any mode, any conditions that hold back nobody for good.
+/// Any mode, and any conditions under which each member runs eventually.
 inline void fill_at_random(Set& set, Rng& rng) {
   set.parameters.mode = rng.below(2) == 0 ? Mode::fallback : Mode::alternate;
   set.parameters.turn = 1 + static_cast<std::int64_t>(rng.below(100));

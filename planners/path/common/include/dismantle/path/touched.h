@@ -1,4 +1,4 @@
-/// Who was in the way, for PathResult::blocked_by.
+/// Obstacles of a search, for PathResult::blocked_by.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace dismantle::path {
 
-/// Parts that were touched, most often first, equals by number; those that move themselves are left out.
+/// Fixed parts sorted by the number of touches, most first; equal ones by number.
 std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched, const std::vector<PlacedPart>& moving);
 
-/// The other sides of contacts that touch, ascending, each once; those that move themselves are left out.
+/// Fixed parts of the contacts that touch, ascending, without repetition.
 std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving);
 
 }  // namespace dismantle::path
