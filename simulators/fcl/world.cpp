@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::mesh_collision {

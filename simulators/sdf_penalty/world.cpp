@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 
 namespace dismantle::sdf_penalty {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 
 namespace dismantle::sdf_velocity {
 namespace {

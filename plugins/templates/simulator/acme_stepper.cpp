@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/plugin.h"

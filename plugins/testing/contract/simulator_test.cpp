@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
 #include "simulator_contract.h"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "dismantle/finite.h"
+#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
 
 namespace dismantle::sdf {

@@ -108,7 +108,7 @@ TEST(NavigationFunction, RoutesFromOutsideAreStraight) {
   const Assembly assembly = assembly_of({hollow(0)});
   const NavigationFunction navigation(assembly, all_of(assembly), 0, kGrid);
   const Eigen::Vector3d p(0, 0, 5);
-  EXPECT_LT(ways.length(p), 0);
+  EXPECT_LT(navigation.remaining(p), 0);
   EXPECT_LT(navigation.remaining(navigation.lookahead(p)), navigation.remaining(p));
 }
 
