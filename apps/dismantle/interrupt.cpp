@@ -23,7 +23,7 @@ extern "C" void on_signal(int) {
   g_token->cancel();
   constexpr std::string_view text = "\nstopping: saving what is done (once more to stop now)\n";
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) {
-    // Nobody is there to read it.
+    // Standard error is closed: there is no place left to report to.
   }
   errno = saved;
 }

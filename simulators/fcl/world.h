@@ -74,7 +74,7 @@ class MeshWorld final : public World {
     PartId part = 0;
     const PlacedBody* placed = nullptr;
     Pose pose;  ///< shape frame to world: now (moving) or for good (fixed)
-    Aabb box;   ///< world, likewise
+    Aabb box;   ///< world, at the same time as `pose`
   };
   void place(const State& state);
 

@@ -21,8 +21,8 @@ using Cell = std::array<int, 3>;
 using Cells = std::set<Cell>;
 using shapes::Vec3;
 
-constexpr double kPlay = 2e-4;       // between the two parts, of a cell's edge; where corners of several cells meet, the parts
-                                     // may overlap by as much, which is far below what every proof has to allow
+constexpr double kPlay = 2e-4;  // between the two parts, of a cell's edge; where corners of several cells meet, the
+                                // parts may overlap by as much, which is far below what every proof has to allow
 constexpr double kProofTolerance = 0.01;  // assembly units
 
 Cell plus(const Cell& a, const Cell& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
@@ -31,12 +31,12 @@ const std::array<Cell, 6> kWays = {Cell{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1,
 bool connected(const Cells& cells) {
   if (cells.empty()) return false;
   Cells seen{*cells.begin()};
-  std::vector<Cell> todo{*cells.begin()};
-  while (!todo.empty()) {
-    const Cell at = todo.back();
-    todo.pop_back();
+  std::vector<Cell> pending{*cells.begin()};
+  while (!pending.empty()) {
+    const Cell at = pending.back();
+    pending.pop_back();
     for (const Cell& way : kWays)
-      if (const Cell next = plus(at, way); cells.contains(next) && seen.insert(next).second) todo.push_back(next);
+      if (const Cell next = plus(at, way); cells.contains(next) && seen.insert(next).second) pending.push_back(next);
   }
   return seen.size() == cells.size();
 }
@@ -47,23 +47,23 @@ bool leaves(const Cells& part, const Cells& other, int size) {
     return std::none_of(part.begin(), part.end(), [&](const Cell& c) { return other.contains(plus(c, by)); });
   };
   Cells seen{{0, 0, 0}};
-  std::queue<Cell> todo;
-  todo.push({0, 0, 0});
-  while (!todo.empty()) {
-    const Cell at = todo.front();
-    todo.pop();
+  std::queue<Cell> pending;
+  pending.push({0, 0, 0});
+  while (!pending.empty()) {
+    const Cell at = pending.front();
+    pending.pop();
     if (std::any_of(at.begin(), at.end(), [&](int x) { return std::abs(x) >= size; })) return true;
     for (const Cell& way : kWays)
       if (const Cell next = plus(at, way); !seen.contains(next) && free_at(next)) {
         seen.insert(next);
-        todo.push(next);
+        pending.push(next);
       }
   }
   return false;
 }
 
-/// The surface of the cells, moved inwards by `inset`: closed, its corners on no other surface. Corners where the surface
-/// would touch itself are told apart by the cells around them.
+/// The surface of the cells, moved inwards by `inset`: closed, its corners on no other surface. Corners where the
+/// surface would touch itself are told apart by the cells around them.
 Mesh surface(const Cells& cells, double inset) {
   Mesh m;
   for (const Cell& c : cells)
@@ -98,10 +98,10 @@ Mesh surface(const Cells& cells, double inset) {
     if (!fresh) continue;
     Vec3 inward = Vec3::Zero();
     for (int k = 0; k < 8; ++k) {
-      const Cell around{static_cast<int>(std::lround(p.x())) - (k & 1), static_cast<int>(std::lround(p.y())) - (k >> 1 & 1),
+      const Cell around{static_cast<int>(std::lround(p.x())) - (k & 1),
+                        static_cast<int>(std::lround(p.y())) - (k >> 1 & 1),
                         static_cast<int>(std::lround(p.z())) - (k >> 2 & 1)};
-      if (cells.contains(around))
-        inward += Vec3(k & 1 ? -1 : 1, k >> 1 & 1 ? -1 : 1, k >> 2 & 1 ? -1 : 1);
+      if (cells.contains(around)) inward += Vec3(k & 1 ? -1 : 1, k >> 1 & 1 ? -1 : 1, k >> 2 & 1 ? -1 : 1);
     }
     vertices.push_back(p + inset * inward.cwiseSign());
   }
@@ -217,11 +217,11 @@ TEST(ProofSoundness, NoProofOfPartsThatCanBeSeparated) {
     proved += !puzzle->separable && asked.proofs > 0 ? 1 : 0;
     certificates += asked.checked;
     if (testing_support::nightly() && (separable + held) % 100 == 0)
-      std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved << " proved; "
-                << certificates << " certificates checked" << std::endl;
+      std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved
+                << " proved; " << certificates << " certificates checked" << std::endl;
   }
-  std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved
-            << " proved; " << certificates << " certificates checked\n";
+  std::cout << separable << " separable puzzles, none proved held; " << held << " held ones, " << proved << " proved; "
+            << certificates << " certificates checked\n";
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   RunContext own = context;
   own.rng = rng_.fork(stream_of(key));
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
-  // A path that was found just in time is still verified: only the end of the run interrupts a check.
+  // A path that was found shortly before this deadline is still verified: only the end of the run interrupts a check.
   const Checker checker(*this, attempt, context);
   bool false_claim = false;  // of a success: the planner's fault, however late it comes
   try {

@@ -16,8 +16,8 @@ class ForceBudget {
   explicit ForceBudget(const Deadline& whole) : whole_(whole) {}
 
   bool limited() const { return std::isfinite(whole_.seconds_left()); }
-  /// For quick steps, which make the answer whole: they end a little later than the rest, and where the parts are so
-  /// many that it does not do, some stay.
+  /// For quick steps, by which all parts get out: a second beyond the deadline, so that a run still ends within two
+  /// seconds of it. Parts for which that is not enough stay.
   Deadline for_all() const { return limited() ? Deadline::after_seconds(kOvertime + whole_.seconds_left()) : whole_; }
   /// A quick step took so long.
   void took(double seconds) { quick_ = std::max(quick_, seconds); }
@@ -29,7 +29,7 @@ class ForceBudget {
   }
 
  private:
-  static constexpr double kOvertime = 1;      // seconds
+  static constexpr double kOvertime = 1;     // seconds
   static constexpr double kSafety = 2;       // quick steps may take longer than those before
   static constexpr double kPlanning = 0.25;  // of the time that is free
 

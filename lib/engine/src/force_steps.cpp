@@ -175,7 +175,9 @@ bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
                                           stated.depth / assembly_.normalization.scale));
   RunContext proving = context;
   proving.deadline = budget.for_planning(steps_left());
-  const Certificate* proof = oracle_.proofs().prove_pair(stated.part, stated.other, ProofEffort::medium, proving);
+  const Certificate* proof = proving.should_stop()
+                                 ? nullptr
+                                 : oracle_.proofs().prove_pair(stated.part, stated.other, ProofEffort::medium, proving);
   builder_.force(parts, written.path, stated, choice->exact, proof, seconds_since(begin));
   return true;
 }

@@ -83,9 +83,11 @@ ForcedMotions::ForcedMotions(const Assembly& assembly, const Verifier& verifier,
       axes_(assembly.parts.size()),
       turns_(assembly.parts.size()),
       boxes_(boxes_of(assembly)),
-      ways_(
+      blockers_(
           boxes_, [this](const PlacedPart& p, const Vec3& along) { return reach(p, along); },
-          [this](const PlacedPart& p, const PlacedPart& q, const Vec3& along) { return known(p, q, along).thickness; }) {}
+          [this](const PlacedPart& p, const PlacedPart& q, const Vec3& along) {
+            return known(p, q, along).thickness;
+          }) {}
 
 const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
   std::vector<geometry::FaceAxis>& known = axes_.at(part);
@@ -171,11 +173,12 @@ ForcedMotions::Known& ForcedMotions::known(const PlacedPart& moving, const Place
   return entry;
 }
 
-const ForcedMotions::Known& ForcedMotions::in_the_way(const PlacedPart& moving, const PlacedPart& fixed,
-                                                      const Vec3& along) {
-  static const Known kNever;
+const ForcedMotions::Known& ForcedMotions::blocking(const PlacedPart& moving, const PlacedPart& fixed,
+                                                    const Vec3& along) {
+  static const Known kNotBlocking;
   const Aabb a = geometry::box_under(boxes_[moving.part], moving.pose);
-  return may_meet(a, geometry::box_under(boxes_[fixed.part], fixed.pose), along) ? known(moving, fixed, along) : kNever;
+  return may_meet(a, geometry::box_under(boxes_[fixed.part], fixed.pose), along) ? known(moving, fixed, along)
+                                                                                 : kNotBlocking;
 }
 
 /// Largest of along * x over the hull.
@@ -236,7 +239,7 @@ ForcedMotion ForcedMotions::straight(const Placed& moving, const Placed& group, 
   for (const PlacedPart& p : m.moving) behind = std::max(behind, reach(p, -along));
   m.duration = std::max(0.0, front + behind) + kClearance * verifier_.options().max_penetration;
   for (const PlacedPart& p : m.moving)
-    for (const PlacedPart& q : m.fixed) m.thickness += in_the_way(p, q, along).thickness;
+    for (const PlacedPart& q : m.fixed) m.thickness += blocking(p, q, along).thickness;
   return m;
 }
 
@@ -257,7 +260,7 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
         if (moves[other]) continue;
         double share = 0;
         for (const PlacedPart& p : all[open[k]])
-          for (const PlacedPart& q : all[other]) share = std::max(share, in_the_way(p, q, along).blocked);
+          for (const PlacedPart& q : all[other]) share = std::max(share, blocking(p, q, along).blocked);
         if (share <= most) continue;
         moves[other] = true;
         open.push_back(other);
@@ -323,12 +326,12 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
     Vec3 along = Vec3::Zero();
     double thickness = 0, length = 0;
   } best;
-  ways_.look_at(group);
+  blockers_.set_group(group);
   for (const Vec3& d : directions(group, Variety::few)) {
-    const WaysOut::Along ways = ways_.along(d);
+    const DirectionalBlockers::Along along_d = blockers_.along(d);
     for (const Placed& unit : leaving) {
       if (context.should_stop()) return std::nullopt;
-      const double thickness = ways.thickness(unit), length = ways.length(unit);
+      const double thickness = along_d.thickness(unit), length = along_d.length(unit);
       if (!best.unit || thickness < best.thickness || (thickness == best.thickness && length < best.length))
         best = {&unit, d, thickness, length};
     }

@@ -9,12 +9,12 @@
 #include <tuple>
 #include <vector>
 
+#include "directional_blockers.h"
 #include "dismantle/engine/force_options.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/twist.h"
 #include "dismantle/path_oracle.h"
 #include "dismantle/verification/motion_depth.h"
-#include "ways_out.h"
 
 namespace dismantle {
 
@@ -81,7 +81,7 @@ class ForcedMotions {
   std::optional<MotionDepth> depth_at_instants(const ForcedMotion& motion, double enough) const;
   Known& known(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   /// As known(), and remembers nothing of pairs that never meet, which most pairs of many parts are.
-  const Known& in_the_way(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
+  const Known& blocking(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along);
   bool in_reach(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, double distance) const;
   void send_rays(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along, Known& entry) const;
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
@@ -100,7 +100,7 @@ class ForcedMotions {
   std::vector<std::optional<std::vector<geometry::Twist>>> turns_;  // by part, in its frame
   std::map<Key, Known> known_;
   std::vector<Aabb> boxes_;  // by part, in its frame
-  WaysOut ways_;
+  DirectionalBlockers blockers_;
 };
 
 }  // namespace dismantle

@@ -213,7 +213,7 @@ std::vector<Unsolved> reasons(const SequenceResult& said, const std::vector<Part
       return std::find(c.parts.begin(), c.parts.end(), u.part) != c.parts.end();
     };
     if (u.certificate != nullptr && !is_about(*u.certificate)) u.certificate = nullptr;
-    // Nobody can check what has no certificate.
+    // A claim without a certificate cannot be checked.
     if (u.outcome == Outcome::infeasible && (u.certificate == nullptr || !u.certificate->full_tolerance))
       u.outcome = Outcome::exhausted;
   }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "dismantle/testing/fake_prover.h"
 #include "dismantle/testing/run_rig.h"
 #include "dismantle/verification/check_plan.h"
 
@@ -52,6 +54,37 @@ TEST(ForcedSteps, WhatIsStuckIsTakenOutWhereItCutsInLeast) {
   EXPECT_TRUE(c.valid) << (c.problems.empty() ? "" : c.problems.front().message);
   EXPECT_FALSE(c.complete);
   EXPECT_EQ(c.forced, 1u);
+}
+
+/// The planner had no time for proofs; the pair that is cut is asked about all the same.
+TEST(ForcedSteps, ThePairThatIsCutIsAskedAboutAndItsProofIsCited) {
+  for (const bool proves : {true, false}) {
+    int asked = 0;
+    PlanningSetup setup = fake::setup(
+        fake::push, std::make_shared<fake::Custom>([](const Assembly&, PathOracle&, SequenceObserver&, RunContext&) {
+          SequenceResult result;
+          result.outcome = Outcome::cancelled;
+          return result;
+        }));
+    setup.provers = {
+        fake::prover("medium", {ProofEffort::medium, 2, 2, false}, [&](const SeparationQuery& q, const RunContext&) {
+          ++asked;
+          return proves ? std::optional(fake::claim(q, "held")) : std::nullopt;
+        })};
+    RunContext context;
+    const RunResult r = run(fake::closed_box(), setup, last_resort(), context);
+    ASSERT_EQ(r.plan.disassembly.size(), 1u);
+    const auto& forced = r.plan.disassembly.front().forced;
+    ASSERT_TRUE(forced);
+    EXPECT_EQ(asked, 1);
+    ASSERT_EQ(forced->certificate.has_value(), proves);
+    if (!proves) continue;
+    const PlanCertificate& proof = r.plan.certificates.at(*forced->certificate);
+    EXPECT_EQ(proof.kind, "medium");
+    EXPECT_EQ(std::set<std::string>(proof.parts.begin(), proof.parts.end()),
+              (std::set<std::string>{forced->part, forced->other}));
+    EXPECT_EQ(forced->reason, "held");
+  }
 }
 
 TEST(ForcedSteps, AFalseDepthIsRefused) {

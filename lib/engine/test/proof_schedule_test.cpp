@@ -188,7 +188,7 @@ TEST(ProofSchedule, HowOneOfManyIsHeldIsNotAskedAfterEachSearch) {
   EXPECT_TRUE(groups.parts.empty());
 }
 
-/// A whole run, with a sequence planner that tries every part once, in vain.
+/// A whole run, with a sequence planner that tries every part once and removes none.
 RunResult end_of_run(const std::vector<PartId>& blocked_by, std::vector<NamedProver> provers) {
   int searches = 0;
   RunContext context;
@@ -220,6 +220,33 @@ TEST(ProofSchedule, SeveralPartsThatAreLeftAreAskedAboutTogether) {
   for (const auto& u : r.plan.unsolved) {
     EXPECT_EQ(u.outcome, Outcome::depth_limit) << "half of the tolerance proves nothing of paths";
     EXPECT_EQ(u.certificate, std::optional<std::size_t>(0));
+  }
+}
+
+/// With a deadline, no proof of high effort may take the time that all others wait for.
+TEST(ProofSchedule, ADeadlineIsSharedAndProofsOfHighEffortGetTheirShare) {
+  for (const double share : {0.1, 0.5}) {
+    double high_left = 0, low_left = 0;
+    const auto notes = [](double& left) {
+      return [&left](const SeparationQuery&, const RunContext& context) {
+        left = context.deadline.seconds_left();
+        return std::optional<Certificate>();
+      };
+    };
+    int searches = 0;
+    RunOptions options;
+    options.proofs.deadline_share = share;
+    RunContext context;
+    context.deadline = Deadline::after_seconds(1000);
+    Rig s(row(2),
+          with(fake::setup(touching({}, searches)),
+               {fake::prover("high", kHigh, notes(high_left)), fake::prover("low", kLow, notes(low_left))}),
+          1, options);
+    EXPECT_EQ(s.oracle->prove({{0, 1}, ProofEffort::high, 1}, context), nullptr);
+    EXPECT_EQ(s.oracle->prove({{0, 1}, ProofEffort::low, 1}, context), nullptr);
+    EXPECT_GT(high_left, 900 * share);
+    EXPECT_LE(high_left, 1000 * share);
+    EXPECT_GT(low_left, 900);
   }
 }
 

@@ -87,7 +87,7 @@ TEST(Run, PrecedenceIsWhatTheWaysNeedAndNoMore) {
   RunContext context;
   const RunResult r = run(assembly, fake::setup(push_blocks, std::make_shared<InTurn>()), RunOptions{}, context);
   ASSERT_EQ(r.plan.disassembly.size(), 4u);
-  // Each block needs the next one gone; what follows from that is left out, and nobody waits for the tube.
+  // Each block needs the next one gone; what follows from that is left out, and no step waits for the tube.
   EXPECT_EQ(r.precedence, (Pairs{{"block4", "block3"}, {"block3", "block2"}, {"block2", "block1"}}));
   for (const PlanStep& step : r.plan.disassembly) EXPECT_EQ(step.layer, step.step);
 }

@@ -97,9 +97,9 @@ double DiameterClearance::free_half_length(const Vec3& from, const Vec3& normal,
                                            const std::vector<std::uint32_t>& around) {
   const std::vector<Wall> all = walls(from, normal, around);
   double longest = 0;
-  constexpr int samples = 32;  // a narrower fan of free lines is found by no_diameter_fits(), which then fails
-  for (int k = 0; k < samples; ++k) {
-    const double angle = free_ + pi * k / samples;  // the direction that was free last comes first
+  constexpr int kSamples = 32;  // a narrower fan of free lines is found by no_diameter_fits(), which then fails
+  for (int k = 0; k < kSamples; ++k) {
+    const double angle = free_ + pi * k / kSamples;  // the direction that was free last comes first
     const Vec2 d(std::cos(angle), std::sin(angle)), left(-d.y(), d.x());
     double room = std::numeric_limits<double>::infinity();
     for (const Wall& w : all) {
@@ -170,11 +170,11 @@ bool DiameterClearance::no_diameter_fits(const Aabb& box, const Vec3& normal,
   const Vec3 e = normal.unitOrthogonal();
   Lines lines{normal, e, normal.cross(e), 0, 0};
   steps_ = shown_ = 0;
-  constexpr int fans = 4;  // of directions; less than pi / 2 each
-  for (int k = 0; k < fans; ++k) {
-    lines.from = pi * k / fans;
-    lines.to = pi * (k + 1) / fans;
-    if (!all_blocked(box, lines, around, 1.0 / fans)) return false;
+  constexpr int kFans = 4;  // of directions; less than pi / 2 each
+  for (int k = 0; k < kFans; ++k) {
+    lines.from = pi * k / kFans;
+    lines.to = pi * (k + 1) / kFans;
+    if (!all_blocked(box, lines, around, 1.0 / kFans)) return false;
   }
   return true;
 }

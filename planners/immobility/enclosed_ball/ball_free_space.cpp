@@ -160,12 +160,12 @@ Flood flood(const Vec3& start, const PlacedWalls& bounds, double edge, std::size
 Ball inscribed_ball(const Solid& solid, std::uint64_t most_cubes) {
   Ball best;
   std::priority_queue<Cube> open;
-  constexpr double good_enough = 0.95;  // the last 5 % of the radius take most of the time
+  constexpr double kGoodEnough = 0.95;  // the last 5 % of the radius take most of the time
   const auto add = [&](const Vec3& center, double half) {
     const double depth = escape_at(center, solid).depth;
     if (depth > best.radius) best = {center, depth};
     const double bound = depth + std::sqrt(3.0) * half;
-    if (good_enough * bound > best.radius) open.push({center, half, bound});
+    if (kGoodEnough * bound > best.radius) open.push({center, half, bound});
   };
   const Vec3 size = solid.box.size();  // the first cubes have its shortest edge, or a twentieth of the longest
   if (!(size.minCoeff() > 0)) return best;
@@ -177,7 +177,7 @@ Ball inscribed_ball(const Solid& solid, std::uint64_t most_cubes) {
   for (std::uint64_t cubes = 0; !open.empty() && cubes < most_cubes; ++cubes) {
     const Cube cube = open.top();
     open.pop();
-    if (good_enough * cube.bound <= best.radius) break;
+    if (kGoodEnough * cube.bound <= best.radius) break;
     for (int k = 0; k < 8; ++k)
       add(cube.center + 0.5 * cube.half * Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1), 0.5 * cube.half);
   }

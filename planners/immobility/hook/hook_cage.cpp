@@ -173,10 +173,10 @@ bool is_bend(const Vec3& a, const Vec3& b, double min_bend) { return std::abs(a.
 /// The best two of 150 directions, on a Fibonacci sphere: about 16 degrees apart.
 std::optional<Corner> coarse_corner(const Solid& bar, const Node& node, double depth, double min_bend) {
   const double step = 0.5 * node.keep;
-  constexpr std::size_t directions = 150;
+  constexpr std::size_t kDirections = 150;
   std::vector<Line> lines;
-  for (std::size_t k = 0; k < directions; ++k) {
-    const double z = 1 - (2 * k + 1.0) / directions, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const double z = 1 - (2 * k + 1.0) / kDirections, r = std::sqrt(1 - z * z), a = k * pi * (3 - std::sqrt(5.0));
     lines.push_back(line_along(bar, node.at, {r * std::cos(a), r * std::sin(a), z}, step, depth));
   }
   const auto better = [](const Line& a, const Line& b) { return a.worth < b.worth; };

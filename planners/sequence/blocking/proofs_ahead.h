@@ -15,9 +15,9 @@ namespace dismantle::blocking {
 struct ImmobilityQuestion {
   enum class Kind : char {
     cage,           ///< ProofEffort::low
-    flat,           ///< ProofEffort::medium; a is the smaller part
-    confined_full,  ///< ProofEffort::high, for motions that cut in as deep as paths may
-    confined_half,  ///< the same for motions that cut in half as deep
+    flat,           ///< up to ProofEffort::medium; a is the smaller part
+    confined_full,  ///< up to ProofEffort::high, for motions that cut in as deep as paths may
+    confined_half,  ///< the same, where ProofEffort::high is for motions that cut in half as deep
   };
   Kind kind;
   PartId a, b;  ///< a < b, except for flat pieces

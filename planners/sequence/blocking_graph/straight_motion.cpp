@@ -70,10 +70,10 @@ std::vector<std::vector<std::size_t>> StraightMotion::blocking_graph(const Group
     for (std::size_t j = 0; j < n; ++j)
       if (i != j)
         for (const Pair& pair : pairs_of(group.members[i], group.members[j], direction)) pairs.push_back(pair);
-  constexpr std::size_t batch = 16;  // between two polls of the deadline
-  for (std::size_t first = 0; first < pairs.size(); first += batch) {
+  constexpr std::size_t kBatch = 16;  // between two polls of the deadline
+  for (std::size_t first = 0; first < pairs.size(); first += kBatch) {
     if (state_.stop()) return {};
-    relations_.compute(std::span(pairs).subspan(first, std::min(batch, pairs.size() - first)));
+    relations_.compute(std::span(pairs).subspan(first, std::min(kBatch, pairs.size() - first)));
   }
   std::vector<std::vector<std::size_t>> blocked_by(n);
   for (std::size_t i = 0; i < n; ++i)

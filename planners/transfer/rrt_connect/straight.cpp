@@ -39,9 +39,10 @@ bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
   for (std::size_t i = 1; i < moving.size(); ++i) {
     const Pose there = displacement * moving[i].pose;
     // Poses are read from files with about ten digits.
-    constexpr double rounding = 1e-8;
+    constexpr double kRounding = 1e-8;
     const double size = displacement.t.norm() + moving[i].pose.t.norm();
-    if ((there.t - query.goal[i].t).norm() > rounding * size || angle_between(there.q, query.goal[i].q) > 10 * rounding)
+    if ((there.t - query.goal[i].t).norm() > kRounding * size ||
+        angle_between(there.q, query.goal[i].q) > 10 * kRounding)
       return false;
   }
   return true;

@@ -1,6 +1,7 @@
 // glTF, 3MF and DAE through assimp.
 #include "assimp_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/ProgressHandler.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 #include "appearance.h"
 #include "dismantle/errors.h"
-#include "dismantle/lies_beside.h"
+#include "dismantle/referenced_file.h"
 #include "names_3mf.h"
 #include "text_scan.h"
 
@@ -56,11 +56,11 @@ class Polling : public Assimp::ProgressHandler {
   const RunContext& context_;
 };
 
-/// Opens the file itself, and of those that it names the ones that lie beside it.
-class FilesBeside : public Assimp::DefaultIOSystem {
+/// Opens the file itself, and of those that it names the ones that may_read_referenced() allows.
+class ReferencedFiles : public Assimp::DefaultIOSystem {
  public:
   /// `refused`: the last one that was not opened for this reason.
-  FilesBeside(std::filesystem::path file, std::string& refused) : file_(std::move(file)), refused_(refused) {}
+  ReferencedFiles(std::filesystem::path file, std::string& refused) : file_(std::move(file)), refused_(refused) {}
   bool Exists(const char* name) const override { return may_be_read(name) && DefaultIOSystem::Exists(name); }
   Assimp::IOStream* Open(const char* name, const char* mode) override {
     return may_be_read(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
@@ -68,7 +68,7 @@ class FilesBeside : public Assimp::DefaultIOSystem {
 
  private:
   bool may_be_read(const char* name) const {
-    if (file_ == name || lies_beside(name, file_)) return true;
+    if (file_ == name || may_read_referenced(name, file_)) return true;
     refused_ = name;
     return false;
   }
@@ -89,18 +89,19 @@ class SceneReader {
       Eigen::Matrix4d above;
       std::vector<std::string> parents;
     };
-    std::vector<Visit> todo{{scene_.mRootNode, Eigen::Matrix4d::Identity(), {}}};
+    std::vector<Visit> pending{{scene_.mRootNode, Eigen::Matrix4d::Identity(), {}}};
     std::size_t visited = 0;
-    while (!todo.empty()) {
-      const Visit visit = todo.back();
-      todo.pop_back();
+    while (!pending.empty()) {
+      const Visit visit = pending.back();
+      pending.pop_back();
       if (++visited > kMaxNodes) fail(fmt::format("more than {} nodes", kMaxNodes));
       Eigen::Matrix4d to_world = visit.above;
       if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
       add(*visit.node, to_world, visit.parents);
       std::vector<std::string> path = visit.parents;
       if (groups(*visit.node)) path.emplace_back(visit.node->mName.C_Str());
-      for (unsigned i = visit.node->mNumChildren; i-- > 0;) todo.push_back({visit.node->mChildren[i], to_world, path});
+      for (unsigned i = visit.node->mNumChildren; i-- > 0;)
+        pending.push_back({visit.node->mChildren[i], to_world, path});
     }
     if (parts_.empty()) fail(other_primitives_ ? "only points or lines, no triangles" : "no triangles");
     return std::move(parts_);
@@ -187,7 +188,7 @@ std::vector<RawPart> read_scene(const std::filesystem::path& file, const RunCont
   try {
     std::string refused;
     Assimp::Importer importer;
-    importer.SetIOHandler(new FilesBeside(file, refused));  // the importer owns both
+    importer.SetIOHandler(new ReferencedFiles(file, refused));  // the importer owns both
     importer.SetProgressHandler(new Polling(context));
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);

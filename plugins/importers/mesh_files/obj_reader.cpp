@@ -9,7 +9,7 @@
 #include "appearance.h"
 #include "dismantle/errors.h"
 #include "dismantle/geometry/mesh_measure.h"
-#include "dismantle/lies_beside.h"
+#include "dismantle/referenced_file.h"
 #include "readers.h"
 #include "text_scan.h"
 
@@ -160,7 +160,7 @@ class ObjReader {
     std::map<std::string, Rgba> all;
     for (const std::string& library : libraries_) {
       const std::filesystem::path name = file_.parent_path() / library;
-      if (lies_beside(name, file_)) all.merge(read_material_library(name));
+      if (may_read_referenced(name, file_)) all.merge(read_material_library(name));
     }
     return all;
   }

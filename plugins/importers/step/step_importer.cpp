@@ -55,6 +55,20 @@ void check_ends(const fs::path& file) {
                      "the file is cut off: its end, END-ISO-10303-21, is missing; export or copy it again");
 }
 
+/// Plain text: Open CASCADE colours its messages, and quotes the file, which may come from anybody, as it is.
+std::string without_control_characters(const std::string& text) {
+  std::string plain;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\x1b' && k + 1 < text.size() && text[k + 1] == '[') {  // up to the letter that ends the sequence
+      k += 2;
+      while (k < text.size() && !(text[k] >= '@' && text[k] <= '~')) ++k;
+      continue;
+    }
+    plain += std::iscntrl(static_cast<unsigned char>(text[k])) != 0 ? ' ' : text[k];
+  }
+  return plain;
+}
+
 /// The last lines that are worth showing.
 std::string last_words(const std::string& messages) {
   std::string text = messages;
@@ -66,7 +80,7 @@ std::string last_words(const std::string& messages) {
       break;
     }
   }
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  text = without_control_characters(text);
   if (text.size() > 300) text.erase(0, text.size() - 300);
   return text;
 }

@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Whoever catches std::bad_alloc could go on for ever at the limit.
+/// Ends the process: code that catches std::bad_alloc could go on for ever at the limit.
 void end_without_memory() {
   constexpr std::string_view text = "out of memory: the limit of the trial (limits.memory) is reached\n";
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) _exit(kOutOfMemory);

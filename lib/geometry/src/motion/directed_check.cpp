@@ -249,7 +249,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     }
     if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
   }
-  if (bent) {  // too bent to be judged as straight
+  if (bent) {  // too bent to be treated as straight
     later.push_back(id);
     return true;
   }

@@ -111,7 +111,7 @@ bool DirectedCheck::take_over(Share& share, List& later) {
   return true;
 }
 
-/// Those of a list as far as threads came before they were told to stop; none where nobody helps.
+/// Those of a list as far as threads came before they were told to stop; none where no other thread takes part.
 std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& other, const Winding& winding,
                                                           std::size_t from, std::size_t to, const List& list) const {
   if (!has_help() || list.size() < kWorthHelp) return {};

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
-#include "dismantle/lies_beside.h"
+#include "dismantle/referenced_file.h"
 #include "input/own_files.h"
 #include "input/sha256.h"
 
@@ -117,7 +117,7 @@ std::vector<fs::path> buffers_of_gltf(const fs::path& file) {
       }
     }
     const fs::path path = file.parent_path() / name;
-    if (lies_beside(path, file)) buffers.push_back(path);
+    if (may_read_referenced(path, file)) buffers.push_back(path);
   }
   return buffers;
 }

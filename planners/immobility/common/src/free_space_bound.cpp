@@ -63,9 +63,9 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
     return result;
   }
   // A larger box is cheaper to divide than to clip: most of its triangles do not matter for its halves.
-  constexpr std::size_t most_corners = 600;
+  constexpr std::size_t kMostCorners = 600;
   // Directions of the box's faces, and eight of the solid's: each costs a pass over all corners.
-  constexpr std::size_t most_normals = 6 + 8;
+  constexpr std::size_t kMostNormals = 6 + 8;
   // Every access to a thread_local variable is a call, so both are looked up together and only here.
   static thread_local struct { std::vector<Vec3> corners, normals; } kept;
   auto& corners = kept.corners;
@@ -75,7 +75,7 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
   for (int k = 0; k < 3; ++k)
     for (const double s : {-1.0, 1.0}) normals.push_back(s * Vec3::Unit(k));
   solid.bvh.overlapping(box, [&](std::uint32_t t) {
-    if (corners.size() > most_corners) return;
+    if (corners.size() > kMostCorners) return;
     const auto& whole = solid.bvh.corners(t);
     if (plane_misses_box(obstacle.planes[t], whole[0] - at, half, obstacle.rounding)) return;
     std::array<Vec3, 3> c = whole;
@@ -85,11 +85,11 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
     corners.insert(corners.end(), polygon.corner.begin(),
                    polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
     const Vec3& normal = solid.normals[t];
-    if (!normal.isZero() && normals.size() < most_normals &&
+    if (!normal.isZero() && normals.size() < kMostNormals &&
         std::none_of(normals.begin(), normals.end(), [&](const Vec3& m) { return m.dot(normal) > 0.999; }))
       normals.push_back(normal);
   });
-  if (corners.size() > most_corners) return result;
+  if (corners.size() > kMostCorners) return result;
   if (corners.empty()) {
     (obstacle.occupied.inside(at) ? result.none : result.all) = true;
     return result;

@@ -66,8 +66,8 @@ SampledPair::SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& 
   // Samples further from the other part hardly ever get there: a tenth of the part, or some rows of samples.
   const double reach = std::max(7.5 * spacing, 0.1 * radius_);
   const auto spacing_of = [&](const std::vector<Solid>& of, const Aabb& other) {
-    constexpr double most = 6000;  // samples of a part, about; memory and time grow with their number
-    return std::max(spacing, std::sqrt(area_near(of, other, reach) / most));
+    constexpr double kMostSamples = 6000;  // samples of a part, about; memory and time grow with their number
+    return std::max(spacing, std::sqrt(area_near(of, other, reach) / kMostSamples));
   };
   const double spacing_a = spacing_of(a, box_b), spacing_b = spacing_of(b, box_a);
   const double cell = 0.5 * std::min(spacing_a, spacing_b);

@@ -26,10 +26,10 @@ using Vec3 = Eigen::Vector3d;
 /// parallel_for in chunks: a triangle or a ball takes too little time to be a task of its own.
 template <class Body>
 void for_each_in_chunks(std::size_t count, const RunContext& context, const Body& body) {
-  constexpr std::size_t chunk = 64;
-  parallel_for((count + chunk - 1) / chunk, context,
+  constexpr std::size_t kChunk = 64;
+  parallel_for((count + kChunk - 1) / kChunk, context,
                [&](std::size_t c) {
-                 for (std::size_t k = c * chunk; k < std::min((c + 1) * chunk, count); ++k) body(k);
+                 for (std::size_t k = c * kChunk; k < std::min((c + 1) * kChunk, count); ++k) body(k);
                },
                [&] { return context.should_stop(); });
 }

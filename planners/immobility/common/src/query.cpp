@@ -16,8 +16,8 @@ const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part) {
 }
 
 double depth_allowed(const SeparationQuery& query, PartId a, PartId b) {
-  constexpr double rounding = 1e-6;  // relative; initial overlaps are measured much less exactly, from below
-  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + rounding);
+  constexpr double kRoundingMargin = 1e-6;  // relative; initial overlaps are measured much less exactly, from below
+  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + kRoundingMargin);
 }
 
 double slack_of(const SeparationQuery& query) { return 1e-4 * query.tolerance; }

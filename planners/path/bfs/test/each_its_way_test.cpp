@@ -85,7 +85,7 @@ TEST(EachItsWay, TwoAreDrivenAtOnceWhereOneIsNotEnough) {
     const auto& end = run.result.path()->poses().back();
     EXPECT_GT(std::abs(end[0].t.x()), 5);
     EXPECT_NEAR(end[0].t.x(), end[1].t.y(), 1e-6);
-    ASSERT_EQ(run.judged.size(), 1u);
+    ASSERT_EQ(run.checked.size(), 1u);
   }
   // As one group they go nowhere.
   MazeRun group;

@@ -35,10 +35,10 @@ void expect_lawful(const MazeRun& run, const Maze& maze) {
   ASSERT_GE(run.result.path()->poses().size(), 2u);
   EXPECT_EQ(run.result.path()->poses().front()[0].t, Vector3d::Zero());
   EXPECT_FALSE(maze.exit.contains(run.result.path()->poses().back()[0].t));
-  ASSERT_FALSE(run.judged.empty());
-  ASSERT_EQ(run.judged.back().size(), run.result.path()->poses().size());
+  ASSERT_FALSE(run.checked.empty());
+  ASSERT_EQ(run.checked.back().size(), run.result.path()->poses().size());
   for (std::size_t k = 0; k < run.result.path()->poses().size(); ++k)
-    EXPECT_EQ(run.judged.back()[k][0].t, run.result.path()->poses()[k][0].t) << "what is returned is what was judged";
+    EXPECT_EQ(run.checked.back()[k][0].t, run.result.path()->poses()[k][0].t) << "what is returned is what was checked";
 }
 
 TEST(BfsMaze, FindsTheWayWithTheFewestActions) {
@@ -84,7 +84,7 @@ TEST(BfsMaze, AClosedRoomIsExhausted) {
       const Maze maze{.free = {Aabb{Vector3d::Constant(-size), Vector3d::Constant(size)}}};
       search(run, maze, {{"motion", std::string(motion)}, {"diagonals", size < 0.1}}, {.max_steps = 1'000'000});
       EXPECT_EQ(run.result.outcome(), Outcome::exhausted) << motion << size;
-      EXPECT_TRUE(run.judged.empty());
+      EXPECT_TRUE(run.checked.empty());
       EXPECT_EQ(run.result.blocked_by, std::vector<PartId>{9});
       expect_lawful(run, maze);
       EXPECT_EQ(run.notes.worlds, std::string(motion) == "auto" ? 2u : 1u);
@@ -204,7 +204,7 @@ TEST(BfsMaze, LearnsFromARefusal) {
   search(run, maze, {}, {}, [](const Path& p) { return refuse_x(p, true); });
   EXPECT_EQ(run.result.outcome(), Outcome::solved);
   EXPECT_EQ(run.notes.learned, 1u);
-  EXPECT_EQ(run.judged.size(), 2u) << "the world holds now what the verifier refused";
+  EXPECT_EQ(run.checked.size(), 2u) << "the world holds now what the verifier refused";
   EXPECT_EQ(run.result.stats.refused, 1u);
   EXPECT_LT(run.result.path()->poses().back()[0].t.z(), -4.9);
   EXPECT_TRUE(run.result.message.empty());
@@ -245,7 +245,7 @@ TEST(BfsMaze, RefusalsAreLimited) {
   ParamSet given = kTranslation;
   given["max_refusals"] = std::int64_t{3};
   search(run, maze, given, {}, [](const Path&) { return Ruling{}; });
-  EXPECT_EQ(run.judged.size(), 4u);
+  EXPECT_EQ(run.checked.size(), 4u);
 }
 
 TEST(BfsMaze, SameCallsSamePathWhateverTheSeed) {

@@ -205,11 +205,11 @@ TEST(Resume, ContactSamplesAreKept) {
     MazeRun first, again;
     search(first, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {kFar});
     ASSERT_EQ(first.result.outcome(), Outcome::exhausted);
-    ASSERT_EQ(first.judged.size(), 1U);
+    ASSERT_EQ(first.checked.size(), 1U);
     search(again, leaky, translating(), {}, refuse_the_leak, {}, 1, {true, true, true, 4}, "bfs", {}, {},
            first.result.state.get());
     EXPECT_EQ(again.result.outcome(), Outcome::solved);
-    EXPECT_EQ(again.notes.learned, about_gate ? again.judged.size() - 1 : 1U);
+    EXPECT_EQ(again.notes.learned, about_gate ? again.checked.size() - 1 : 1U);
   }
 }
 

@@ -180,7 +180,7 @@ inline Aabb tunnel(const Vector3d& from, const Vector3d& to, double half = 0.04)
 /// One search in a maze, with all that it said.
 struct MazeRun {
   PathResult result;
-  std::vector<Path> judged;
+  std::vector<Path> checked;
   Notes notes;
 };
 
@@ -208,7 +208,7 @@ inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, c
   scene.fixed.push_back({9, Pose{}});
   for (const PartId gate : closed) scene.fixed.push_back({gate, Pose{}});
   const fake::RuleChecker checker([&](const Path& path) {
-    run.judged.push_back(path);
+    run.checked.push_back(path);
     return rule(path);
   });
   const PathQuery query{assembly, simulator, *prepared, scene, effort, 0.01, checker, {leaving}, reached};

@@ -166,7 +166,7 @@ TEST(BlockingProofs, SamePlanOnAnyNumberOfThreads) {
 }
 
 /// Proves pairs whose sum is even.
-class EvenOracle final : public PathOracle {
+class EvenOracle : public PathOracle {
  public:
   const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
   void prefetch(std::span<const Attempt>, RunContext&) override {}
@@ -179,6 +179,44 @@ class EvenOracle final : public PathOracle {
   }
   const Certificate proof{};
 };
+
+/// Proves with one effort, and notes what it is asked.
+class OneEffortOracle final : public EvenOracle {
+ public:
+  explicit OneEffortOracle(ProofEffort proves) : proves_(proves) {}
+  const Certificate* prove(const SeparationQuestion& question, const RunContext&) override {
+    asked.push_back(question.effort);
+    return question.effort == proves_ ? &proof : nullptr;
+  }
+  std::vector<ProofEffort> asked;
+
+ private:
+  ProofEffort proves_;
+};
+
+/// What proves with little effort is not asked about with more.
+TEST(ProofsAhead, LessEffortIsAskedFirstAndMoreOnlyWhereItFailed) {
+  using Question = blocking::ImmobilityQuestion;
+  constexpr ProofEffort kLow = ProofEffort::low, kMedium = ProofEffort::medium, kHigh = ProofEffort::high;
+  const std::vector<std::pair<Question::Kind, ProofEffort>> kinds{{Question::Kind::cage, kLow},
+                                                                  {Question::Kind::flat, kMedium},
+                                                                  {Question::Kind::confined_full, kHigh},
+                                                                  {Question::Kind::confined_half, kHigh}};
+  for (const auto& [kind, most] : kinds)
+    for (const ProofEffort proves : {kLow, kMedium, kHigh, ProofEffort::trivial}) {
+      OneEffortOracle oracle(proves);
+      RunContext context;
+      const bool found = blocking::ProofsAhead(oracle, nullptr).answer(Question::of_pair(kind, 0, 1), {}, context);
+      std::vector<ProofEffort> expected;
+      for (const ProofEffort effort : {kLow, kMedium, kHigh}) {
+        if (effort > most) break;
+        expected.push_back(effort);
+        if (effort == proves) break;
+      }
+      EXPECT_EQ(oracle.asked, expected);
+      EXPECT_EQ(found, expected.back() == proves);
+    }
+}
 
 /// Whatever was begun before, and however much of it was cancelled.
 TEST(ProofsAhead, AnswerAsTheOracleDoes) {

@@ -7,6 +7,8 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <numbers>
 
@@ -314,6 +316,8 @@ TEST(StepImporter, DamageGivesPartsOrAnInputError) {
     if (error.empty()) continue;
     ++refused;
     EXPECT_NE(error.find("a.step: "), std::string::npos) << error;
+    EXPECT_TRUE(std::none_of(error.begin(), error.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }))
+        << error;
   }
   EXPECT_GE(refused, 15);  // at least all that are cut off
 }

@@ -22,7 +22,8 @@ std::vector<Action> screw_actions(const World& world, double force,
 /// For parts that move each in its own way: one is pushed along an axis or (`turns`) turned about it, both ways; the
 /// others are free, and go where they are pushed by contact.
 std::vector<Action> one_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes);
-/// Likewise two at once, along the same axis or (`across`) along different ones. The rest are free.
+/// The same for two parts that are driven simultaneously, along the same axis or (`across`) along different ones. The
+/// rest are free.
 std::vector<Action> two_driven(const World& world, double force, bool turns, const Eigen::Matrix3d& axes, bool across);
 /// A force along `direction` (need not be unit) on every moving part.
 Action push(const World& world, double force, const Eigen::Vector3d& direction);

@@ -1,4 +1,4 @@
-/// Who is in whose way along a direction, for groups of many parts.
+/// Which parts block which along a direction, for groups of many parts.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,10 +18,10 @@ std::array<int, 3> rounded_direction(const Eigen::Vector3d& direction);
 /// Could a box that moves along `along`, as far as it takes, ever meet another?
 bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along);
 
-/// Remembers, for each part and direction, the few parts that are in its way. Parts that leave a group leave the lists of
-/// the others as they are; so choosing the next of n parts costs n, once all have been looked at. Parts that have moved
-/// are looked at again.
-class WaysOut {
+/// Caches, for each part and direction, the few parts that block it (one direction of a directional blocking graph;
+/// Wilson 1992), with how much of each is in the way. The lists of the others stay valid when a part leaves the group,
+/// so choosing the next of n parts costs O(n) once the lists are made. Lists of parts that have moved are made again.
+class DirectionalBlockers {
  public:
   using Placed = std::vector<PlacedPart>;
   /// Of a direction: how far the hull of a part reaches along it.
@@ -31,12 +31,12 @@ class WaysOut {
       std::function<double(const PlacedPart& moving, const PlacedPart& fixed, const Eigen::Vector3d& along)>;
 
   /// `boxes`: of all parts of the assembly, in their own frames.
-  WaysOut(std::vector<Aabb> boxes, Reach reach, Thickness thickness);
+  DirectionalBlockers(std::vector<Aabb> boxes, Reach reach, Thickness thickness);
 
-  /// The parts that are asked about next.
-  void look_at(const Placed& group);
+  /// The group that is asked about next; it must outlive the questions.
+  void set_group(const Placed& group);
 
-  /// Ways of the group along one direction.
+  /// The group along one direction.
   class Along {
    public:
     /// How much the rest of the group is in the way of the unit, summed over pairs of parts.
@@ -45,9 +45,9 @@ class WaysOut {
     double length(const Placed& unit) const;
 
    private:
-    friend class WaysOut;
-    Along(WaysOut& ways, const Eigen::Vector3d& direction);
-    WaysOut& ways_;
+    friend class DirectionalBlockers;
+    Along(DirectionalBlockers& all, const Eigen::Vector3d& direction);
+    DirectionalBlockers& all_;
     std::size_t row_;
     double furthest_ = 0, second_ = 0;  // reach of the group, and without the part that reaches furthest
     PartId front_ = 0;
@@ -55,32 +55,32 @@ class WaysOut {
   Along along(const Eigen::Vector3d& direction) { return {*this, direction}; }
 
  private:
-  struct InTheWay {
+  struct Blocker {
     PartId part;
     double thickness;
   };
   struct Entry {
     bool measured = false, listed = false;
     double ahead = 0, behind = 0;
-    std::vector<InTheWay> blockers;  // ascending
+    std::vector<Blocker> blockers;  // ascending
   };
   struct Row {
     Eigen::Vector3d direction;
     std::vector<Entry> of;  // by part
   };
   Entry& measured(Row& row, const PlacedPart& part);
-  const std::vector<InTheWay>& blockers(Row& row, const PlacedPart& part);
+  const std::vector<Blocker>& blockers(Row& row, const PlacedPart& part);
 
   std::vector<Aabb> boxes_;
   Reach reach_;
   Thickness thickness_;
   std::vector<Row> rows_;
   const Placed* group_ = nullptr;
-  std::vector<std::size_t> family_;  // by part: of those that were in one group when its lists were made; 0: none
-  std::vector<Pose> pose_;           // by part, when its lists were made
-  std::vector<Aabb> placed_box_;     // by part
-  std::vector<bool> present_;        // by part
-  std::size_t families_ = 0;
+  std::vector<std::size_t> list_id_;  // by part: equal for parts whose lists were made together; 0: no list
+  std::vector<Pose> pose_;            // by part, when its lists were made
+  std::vector<Aabb> placed_box_;      // by part
+  std::vector<bool> present_;         // by part
+  std::size_t last_list_id_ = 0;
 };
 
 }  // namespace dismantle

@@ -1,4 +1,4 @@
-/// Files that other files name.
+/// Files that an input file refers to by name: textures, materials, buffers.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace dismantle {
 
 /// May `named` be read because `file`, which may come from anywhere, names it? Only a regular file in the folder of
 /// `file` or below it, once `..` and links are followed: models that were sent to somebody read nothing else of theirs.
-inline bool lies_beside(const std::filesystem::path& named, const std::filesystem::path& file) {
+inline bool may_read_referenced(const std::filesystem::path& named, const std::filesystem::path& file) {
   std::error_code problem;
   if (!std::filesystem::is_regular_file(named, problem)) return false;  // pipes and devices would hang
   const std::filesystem::path there = std::filesystem::canonical(named, problem);

@@ -1,4 +1,4 @@
-#include "ways_out.h"
+#include "directional_blockers.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+constexpr double kUnset = -std::numeric_limits<double>::infinity();
 
 bool among(const std::vector<PlacedPart>& parts, PartId id) {
   return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
@@ -41,34 +41,35 @@ bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& alon
   return first <= last;
 }
 
-WaysOut::WaysOut(std::vector<Aabb> boxes, Reach reach, Thickness thickness)
+DirectionalBlockers::DirectionalBlockers(std::vector<Aabb> boxes, Reach reach, Thickness thickness)
     : boxes_(std::move(boxes)),
       reach_(std::move(reach)),
       thickness_(std::move(thickness)),
-      family_(boxes_.size(), 0),
+      list_id_(boxes_.size(), 0),
       pose_(boxes_.size()),
       placed_box_(boxes_.size()),
       present_(boxes_.size(), false) {}
 
-void WaysOut::look_at(const Placed& group) {
+void DirectionalBlockers::set_group(const Placed& group) {
   group_ = &group;
   std::fill(present_.begin(), present_.end(), false);
   bool known = true;
   for (const PlacedPart& p : group) {
     present_[p.part] = true;
-    known = known && family_[p.part] != 0 && family_[p.part] == family_[group.front().part] && pose_[p.part] == p.pose;
+    known =
+        known && list_id_[p.part] != 0 && list_id_[p.part] == list_id_[group.front().part] && pose_[p.part] == p.pose;
   }
   if (known) return;
-  ++families_;
+  ++last_list_id_;
   for (const PlacedPart& p : group) {
-    family_[p.part] = families_;
+    list_id_[p.part] = last_list_id_;
     pose_[p.part] = p.pose;
     placed_box_[p.part] = geometry::box_under(boxes_[p.part], p.pose);
     for (Row& row : rows_) row.of[p.part] = {};
   }
 }
 
-WaysOut::Entry& WaysOut::measured(Row& row, const PlacedPart& part) {
+DirectionalBlockers::Entry& DirectionalBlockers::measured(Row& row, const PlacedPart& part) {
   Entry& entry = row.of[part.part];
   if (entry.measured) return entry;
   entry.ahead = reach_(part, row.direction);
@@ -77,7 +78,7 @@ WaysOut::Entry& WaysOut::measured(Row& row, const PlacedPart& part) {
   return entry;
 }
 
-const std::vector<WaysOut::InTheWay>& WaysOut::blockers(Row& row, const PlacedPart& part) {
+const std::vector<DirectionalBlockers::Blocker>& DirectionalBlockers::blockers(Row& row, const PlacedPart& part) {
   Entry& entry = measured(row, part);
   if (entry.listed) return entry.blockers;
   for (const PlacedPart& q : *group_) {
@@ -88,13 +89,13 @@ const std::vector<WaysOut::InTheWay>& WaysOut::blockers(Row& row, const PlacedPa
   return entry.blockers;
 }
 
-WaysOut::Along::Along(WaysOut& ways, const Eigen::Vector3d& direction)
-    : ways_(ways), row_(0), furthest_(kNowhere), second_(kNowhere) {
-  auto& rows = ways.rows_;
+DirectionalBlockers::Along::Along(DirectionalBlockers& all, const Eigen::Vector3d& direction)
+    : all_(all), row_(0), furthest_(kUnset), second_(kUnset) {
+  auto& rows = all.rows_;
   while (row_ < rows.size() && !(rounded_direction(rows[row_].direction) == rounded_direction(direction))) ++row_;
-  if (row_ == rows.size()) rows.push_back({direction, std::vector<Entry>(ways.boxes_.size())});
-  for (const PlacedPart& p : *ways.group_) {
-    const double ahead = ways.measured(rows[row_], p).ahead;
+  if (row_ == rows.size()) rows.push_back({direction, std::vector<Entry>(all.boxes_.size())});
+  for (const PlacedPart& p : *all.group_) {
+    const double ahead = all.measured(rows[row_], p).ahead;
     second_ = std::max(second_, std::min(ahead, furthest_));
     if (ahead > furthest_) {
       furthest_ = ahead;
@@ -103,22 +104,22 @@ WaysOut::Along::Along(WaysOut& ways, const Eigen::Vector3d& direction)
   }
 }
 
-double WaysOut::Along::thickness(const Placed& unit) const {
+double DirectionalBlockers::Along::thickness(const Placed& unit) const {
   double sum = 0;
   for (const PlacedPart& p : unit)
-    for (const InTheWay& q : ways_.blockers(ways_.rows_[row_], p))
-      if (ways_.present_[q.part] && !among(unit, q.part)) sum += q.thickness;
+    for (const Blocker& q : all_.blockers(all_.rows_[row_], p))
+      if (all_.present_[q.part] && !among(unit, q.part)) sum += q.thickness;
   return sum;
 }
 
-double WaysOut::Along::length(const Placed& unit) const {
-  Row& row = ways_.rows_[row_];
-  double ahead = among(unit, front_) ? second_ : furthest_, behind = kNowhere;
-  for (const PlacedPart& p : unit) behind = std::max(behind, ways_.measured(row, p).behind);
+double DirectionalBlockers::Along::length(const Placed& unit) const {
+  Row& row = all_.rows_[row_];
+  double ahead = among(unit, front_) ? second_ : furthest_, behind = kUnset;
+  for (const PlacedPart& p : unit) behind = std::max(behind, all_.measured(row, p).behind);
   if (unit.size() > 1 && among(unit, front_)) {  // the second may move along, too
-    ahead = kNowhere;
-    for (const PlacedPart& p : *ways_.group_)
-      if (!among(unit, p.part)) ahead = std::max(ahead, ways_.measured(row, p).ahead);
+    ahead = kUnset;
+    for (const PlacedPart& p : *all_.group_)
+      if (!among(unit, p.part)) ahead = std::max(ahead, all_.measured(row, p).ahead);
   }
   return std::max(0.0, ahead + behind);
 }

@@ -1,5 +1,5 @@
-// Who is in whose way: as if each pair were asked anew.
-#include "ways_out.h"
+// Cached blockers of parts along directions, against asking each pair anew.
+#include "directional_blockers.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ Vec3 random_direction(Rng& rng) {
   return Vec3(rng.normal(), rng.normal(), rng.normal()).normalized();
 }
 
-TEST(WaysOut, WhatMayNotMeetNeverDoes) {
+TEST(DirectionalBlockers, WhatMayNotMeetNeverDoes) {
   Rng rng(5);
   Question ask;
   int apart = 0;
@@ -64,7 +64,7 @@ TEST(WaysOut, WhatMayNotMeetNeverDoes) {
 }
 
 /// Parts leave one by one, now and then one is moved, now and then units leave together.
-TEST(WaysOut, AsIfEachPairWereAskedAnew) {
+TEST(DirectionalBlockers, AsIfEachPairWereAskedAnew) {
   Rng rng(7);
   for (int trial = 0; trial < 30; ++trial) {
     Question ask;
@@ -78,7 +78,7 @@ TEST(WaysOut, AsIfEachPairWereAskedAnew) {
     std::vector<Vec3> directions;
     for (int k = 0; k < 5; ++k) directions.push_back(random_direction(rng));
     std::size_t asked = 0;
-    WaysOut ways(
+    DirectionalBlockers blockers(
         ask.boxes, [&](const PlacedPart& p, const Vec3& d) { return ask.reach(p, d); },
         [&](const PlacedPart& p, const PlacedPart& q, const Vec3& d) {
           ++asked;
@@ -88,9 +88,9 @@ TEST(WaysOut, AsIfEachPairWereAskedAnew) {
       const bool moves = rng.uniform() < 0.2;
       if (moves) group[rng.below(group.size())].pose.t += 0.5 * random_direction(rng);
       const std::size_t before = asked;
-      ways.look_at(group);
+      blockers.set_group(group);
       for (const Vec3& d : directions) {
-        const WaysOut::Along along = ways.along(d);
+        const DirectionalBlockers::Along along = blockers.along(d);
         for (std::size_t k = 0; k < group.size(); ++k) {
           std::vector<PlacedPart> unit{group[k]};
           if (k + 2 < group.size() && rng.uniform() < 0.3) unit.push_back(group[k + 1]);
