@@ -25,7 +25,7 @@ constexpr double kHeld = -2;
 /// What a way from an anchor and its distance may be off: both are kept in single precision.
 double rounding_of(const Anchor& anchor) {
   constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
-  return kEpsilon * (anchor.point.lpNorm<1>() + anchor.distance);
+  return kEpsilon * (anchor.point.lpNorm<1>() + std::abs(anchor.distance));
 }
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
@@ -35,11 +35,16 @@ Aabb world_box(const Aabb& local, const Pose& pose) {
 }
 
 /// Is p where the distance is known to be linear?
-bool recall(const DirectedContacts& set, const SurfaceQuery& surface, std::uint32_t place, const Eigen::Vector3d& p,
-            Sample& sample) {
+bool is_linear_at(const DirectedContacts& set, std::uint32_t place, const Eigen::Vector3d& p) {
   if (place == 0) return false;
   const LinearDistance& known = set.known[place - 1];
-  if ((p - known.point).squaredNorm() >= known.squared_radius) return false;
+  return (p - known.point).squaredNorm() < known.squared_radius;
+}
+
+bool recall(const DirectedContacts& set, const SurfaceQuery& surface, std::uint32_t place, const Eigen::Vector3d& p,
+            Sample& sample) {
+  if (!is_linear_at(set, place, p)) return false;
+  const LinearDistance& known = set.known[place - 1];
   sample.value = surface.plane_distance(p, known.triangle);
   sample.normal = known.normal;
   sample.triangle = known.triangle;
@@ -130,6 +135,23 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   return rough;
 }
 
+/// Brings what the points' distances are measured with into the cache, for all of them at a time. Where the distance is
+/// linear nothing is read.
+void ContactScene::find_lists(const SurfaceQuery& surface, const DirectedContacts& set, std::span<AwakePoint> points) {
+  std::array<Eigen::Vector3d, SurfaceQuery::kMostPrefetched> at;
+  std::array<std::uint32_t, SurfaceQuery::kMostPrefetched> asked, hints;
+  std::array<const CandidateList*, SurfaceQuery::kMostPrefetched> lists;
+  std::size_t count = 0;
+  for (std::uint32_t n = 0; n < points.size(); ++n) {
+    if (points[n].linear) continue;
+    at[count] = points[n].at;
+    hints[count] = set.hint[points[n].index];
+    asked[count++] = n;
+  }
+  surface.prefetch({at.data(), count}, {hints.data(), count}, {lists.data(), count});
+  for (std::size_t n = 0; n < count; ++n) points[asked[n]].near.list = lists[n];
+}
+
 void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t owner, std::uint32_t surface,
                         double margin, double odometer, std::vector<ContactPoint>& out) {
   const Shape& points = *members_[owner].placed->shape;
@@ -212,7 +234,9 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     return best;
   };
 
-  for (std::size_t k = 0; k < points.points.blocks.size(); ++k) {
+  // First the points that may be near, of all blocks; then their distances, so that many wait for memory at a time.
+  awake_.clear();
+  for (std::uint32_t k = 0; k < points.points.blocks.size(); ++k) {
     if (set.wake[k] > odometer) continue;
     const PointBlock& block = points.points.blocks[k];
     const Eigen::Vector3d center = rotation * block.center + shift;
@@ -229,64 +253,60 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     }
     // A bound of zero may be inside, at any depth.
     double slack = lower > 0 ? lower + pair.everywhere - margin : -1.0;
-    if (slack <= 0) {
-      slack = kReach;
-      std::array<Eigen::Vector3d, ContactPoints::kBlockSize> at;
-      std::array<std::uint32_t, ContactPoints::kBlockSize> awake, hints;
-      std::array<Near, ContactPoints::kBlockSize> near{};
-      std::size_t count = 0;
-      for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
-        if (set.point_wake[i] > odometer) {
-          slack = std::min(slack, set.point_wake[i] - odometer);
+    if (slack > 0) {
+      set.wake[k] = odometer + slack;
+      continue;
+    }
+    slack = kReach;
+    for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
+      if (set.point_wake[i] > odometer) {
+        slack = std::min(slack, set.point_wake[i] - odometer);
+        continue;
+      }
+      AwakePoint point{i, k, false, rotation * points.points.points[i] + shift, {}};
+      // The odometer counts the way of the point that went furthest; this one may have stayed far enough away.
+      if (const Anchor& anchor = set.anchor[i]; anchor.is_known()) {
+        const double way = (point.at - anchor.point.cast<double>()).norm() + rounding_of(anchor);
+        const double beyond = anchor.distance - way + pair.everywhere - margin;
+        if (beyond > 0) {
+          set.point_wake[i] = odometer + beyond;
+          slack = std::min(slack, beyond);
           continue;
         }
-        at[count] = rotation * points.points.points[i] + shift;
-        // The odometer counts the way of the point that went furthest; this one may have stayed far enough away.
-        if (const Anchor& anchor = set.anchor[i]; anchor.distance > 0) {
-          const double way = (at[count] - anchor.point.cast<double>()).norm() + rounding_of(anchor);
-          const double beyond = anchor.distance - way + pair.everywhere - margin;
-          if (beyond > 0) {
-            set.point_wake[i] = odometer + beyond;
-            slack = std::min(slack, beyond);
-            continue;
-          }
-          near[count].surely = single && anchor.distance + way < near_enough;
-          // A point that goes on as far as it has come leaves a smaller radius. Who sees surroundings asks for all.
-          if (!surroundings_) near[count].way = way;
-        }
-        if (single && !near[count].surely) {
-          const double bound = target.solids.front().surface->known_bound(at[count]);
-          if (bound > near_enough) {
-            const double beyond = bound + pair.everywhere - margin;
-            set.point_wake[i] = odometer + beyond;
-            set.anchor[i] = {at[count].cast<float>(), static_cast<float>(bound)};
-            slack = std::min(slack, beyond);
-            continue;
-          }
-        }
-        hints[count] = set.hint[i * solids];
-        awake[count++] = i;
+        point.near.surely = single && std::abs(anchor.distance) + way < near_enough;
+        // A point that goes on as far as it has come leaves a smaller radius. Who sees surroundings asks for all.
+        if (!surroundings_) point.near.way = way;
       }
-      if (single) {
-        std::array<const CandidateList*, ContactPoints::kBlockSize> lists;
-        target.solids.front().surface->prefetch({at.data(), count}, {hints.data(), count}, {lists.data(), count});
-        for (std::size_t n = 0; n < count; ++n) near[n].list = lists[n];
-      }
-      for (std::size_t n = 0; n < count; ++n) {
-        const std::uint32_t i = awake[n];
-        const Eigen::Vector3d& p = at[n];
-        const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
-        const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed, near[n]);
-        const double beyond = touch.distance + allowed - margin;
-        set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
-        // Interpolated distances may change faster than the way.
-        if (model_ == DistanceModel::exact)
-          set.anchor[i] = {p.cast<float>(), static_cast<float>(std::max(touch.distance, 0.0))};
-        slack = std::min(slack, beyond);
-        if (touch.distance + allowed < margin) emit(p, touch, allowed);
-      }
+      point.linear = is_linear_at(set, set.linear[i * solids], point.at);
+      awake_.push_back(point);
     }
-    set.wake[k] = slack > 0 ? odometer + slack : kHeld;
+    set.wake[k] = odometer + slack;  // of points that are awake: below
+  }
+  for (std::size_t begin = 0; begin < awake_.size(); begin += SurfaceQuery::kMostPrefetched) {
+    const std::span chunk = std::span(awake_).subspan(begin).first(
+        std::min(SurfaceQuery::kMostPrefetched, awake_.size() - begin));
+    if (single) find_lists(*target.solids.front().surface, set, chunk);
+    for (const auto& [i, block, linear, p, near] : chunk) {
+      const double bound = near.list != nullptr && !near.surely ? near.list->lower_bound(p) : 0.0;
+      double beyond = bound + pair.everywhere - margin;
+      if (bound > near_enough) {
+        set.anchor[i] = {p.cast<float>(), static_cast<float>(bound)};
+      } else {
+        const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
+        const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed, near);
+        beyond = touch.distance + allowed - margin;
+        // Interpolated distances may change faster than the way.
+        if (model_ == DistanceModel::exact && (touch.distance > 0 || touch.sample.triangle != kNoTriangle))
+          set.anchor[i] = {p.cast<float>(), static_cast<float>(touch.distance)};
+        if (beyond < 0) emit(p, touch, allowed);
+      }
+      set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
+      double& wake = set.wake[block];
+      if (beyond <= 0)
+        wake = kHeld;
+      else if (wake != kHeld)
+        wake = std::min(wake, odometer + beyond);
+    }
   }
   set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
   for (std::size_t i = 0; i < set.extra.size(); ++i) {

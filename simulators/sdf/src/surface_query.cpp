@@ -268,7 +268,7 @@ double SurfaceQuery::lower_bound(const Eigen::Vector3d& p, std::uint32_t hint, c
   if (list == nullptr)
     list = &cells_->at(
         p, [&](const Eigen::Vector3d& center) { return candidates_of(center, hint < slot_.size() ? slot_[hint] : 0); });
-  return std::max(0.0, list->distance - (p - list->center).norm());
+  return list->lower_bound(p);
 }
 
 Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_t hint, const FlatnessWanted& flatness,

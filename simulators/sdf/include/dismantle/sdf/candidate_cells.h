@@ -39,6 +39,8 @@ class CandidateList {
   double reach;
   bool usable;
 
+  /// A distance that the true one is not below, for a point of the cell.
+  double lower_bound(const Eigen::Vector3d& p) const { return std::max(0.0, distance - (p - center).norm()); }
   std::span<const Candidate> candidates() const {
     return {std::launder(reinterpret_cast<const Candidate*>(this + 1)), count_};
   }

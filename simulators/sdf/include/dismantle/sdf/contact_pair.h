@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -41,7 +43,9 @@ struct LinearDistance {
 /// Where the distance of a point was last measured. It has changed by no more than the way from there.
 struct Anchor {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< frame of the surface
-  float distance = 0;                               ///< a lower bound; <= 0: not known
+  /// Signed; a lower bound. Not a number: not known.
+  float distance = std::numeric_limits<float>::quiet_NaN();
+  bool is_known() const { return !std::isnan(distance); }
 };
 
 /// Points of one member against the solids of another.

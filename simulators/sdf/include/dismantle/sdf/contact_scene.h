@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dismantle/sdf/contact_pair.h"
@@ -86,6 +87,14 @@ class ContactScene {
     double way = 0;       ///< from where it was last asked for
     const CandidateList* list = nullptr;
   };
+  /// A point whose distance has to be measured.
+  struct AwakePoint {
+    std::uint32_t index = 0, block = 0;
+    bool linear = false;  ///< is_linear_at()
+    Eigen::Vector3d at;   ///< frame of the surface
+    Near near;
+  };
+  static void find_lists(const SurfaceQuery& surface, const DirectedContacts& set, std::span<AwakePoint> points);
   Sample signed_distance(const SolidField& field, const Eigen::Vector3d& p, double limit,
                          const FlatnessWanted& flatness, std::uint32_t& hint, const Near& near);
 
@@ -98,6 +107,7 @@ class ContactScene {
   std::vector<Aabb> boxes_;       ///< world, now
   std::vector<double> odometer_;  ///< per moving body: way that its points may have travelled in all
   std::vector<ContactPair> pairs_;
+  std::vector<AwakePoint> awake_;  ///< of the set that is scanned
   RestContacts* rest_;  ///< nullptr once the scene has begun
   std::uint64_t queries_ = 0;
 };

@@ -63,13 +63,6 @@ class SurfaceQuery {
   double lower_bound(const Eigen::Vector3d& p, std::uint32_t hint = kNoTriangle,
                      const CandidateList* list = nullptr) const;
 
-  /// The same where p's cell has been asked for before, else 0: costs nothing but the way there.
-  double known_bound(const Eigen::Vector3d& p) const {
-    const CandidateCells::Place* place = cells_ ? cells_->place_of(p) : nullptr;
-    const CandidateList* list = place == nullptr ? nullptr : place->load(std::memory_order_acquire);
-    return list == nullptr ? 0.0 : std::max(0.0, list->distance - (p - list->center).norm());
-  }
-
   /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
   /// edge: the planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: none, the
   /// sample's own plane is all there is). Parts that stand flush make such contacts by the hundred, and a
@@ -94,7 +87,7 @@ class SurfaceQuery {
   /// memory more than it computes. `lists`: for each point the list to ask with, nullptr where there is none yet.
   void prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints,
                 std::span<const CandidateList*> lists) const;
-  static constexpr std::size_t kMostPrefetched = 16;  ///< points in one call
+  static constexpr std::size_t kMostPrefetched = 64;  ///< points in one call
 
   std::size_t triangle_count() const { return corners_.size(); }
 
