@@ -33,8 +33,9 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
         const PartId other = o->a == part ? o->b : o->a;
         const bool moves_along = std::find(step.parts.begin(), step.parts.end(), other) != step.parts.end();
         if (moves_along || group[other] != step.from) continue;
-        const auto found = meter.deepest({part}, {{other, poses[other]}}, column,
-                                         {verifier.options().max_penetration, kShare}, context, true);
+        MotionDepthOptions options{verifier.options().max_penetration, kShare};
+        options.at_most = o->allowed() + verifier.options().max_penetration;  // the step has been verified
+        const auto found = meter.deepest({part}, {{other, poses[other]}}, column, options, context, true);
         if (!found || found->depth <= 0) continue;
         const Normalization& to = assembly.normalization;
         PlanStepOverlap used{assembly.parts[part].name,

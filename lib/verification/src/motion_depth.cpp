@@ -66,15 +66,17 @@ struct MotionDepthMeter::Impl {
     };
     const auto interval = [&](const Sample& a, const Sample& b) {
       Interval made{a, b, screw_travel(pose_at(a.u), pose_at(b.u), center, radius), 0};
-      made.bound = 0.5 * (a.depth + b.depth + made.travel) - allowed;
+      made.bound = std::min(0.5 * (a.depth + b.depth + made.travel), options.at_most) - allowed;
       return made;
     };
     const auto meets = [&](const Interval& i) {
       return geometry::SweptBoxes({pose_at(i.a.u), pose_at(i.b.u)}, box).meets(there, 0);
     };
+    const auto is_settled = [&](double bound) { return bound <= worst->excess() + resolution(); };
     std::priority_queue<Interval> open;
     Sample before = measure(0);
     std::uint64_t measured = 1;
+    if (is_settled(options.at_most - allowed)) return true;
     for (std::size_t k = 1; k < way.size(); ++k) {
       const Interval whole{{static_cast<double>(k - 1), 0}, {static_cast<double>(k), 0}, 0, 0};
       if (!meets(whole)) {
@@ -84,12 +86,13 @@ struct MotionDepthMeter::Impl {
       const Sample after = measure(static_cast<double>(k));
       open.push(interval(before, after));
       before = after;
+      if (is_settled(options.at_most - allowed)) return true;
       if (context.should_stop() || ++measured > options.most_poses) return false;
       if (worst->excess() > options.stop_above) return false;
     }
     while (!open.empty()) {
       const Interval top = open.top();
-      if (top.bound <= worst->excess() + resolution()) return true;
+      if (is_settled(top.bound)) return true;
       if (worst->excess() > options.stop_above || context.should_stop() || ++measured > options.most_poses)
         return false;
       open.pop();

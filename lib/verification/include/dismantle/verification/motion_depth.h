@@ -30,6 +30,9 @@ struct MotionDepthOptions {
   double relative = 0.05;                                       ///< ... or this share of the depth, whichever is more
   double stop_above = std::numeric_limits<double>::infinity();  ///< an excess beyond this need not be exact
   std::uint64_t most_poses = 4000;                              ///< poses measured per pair; then not `proved`
+  /// Assembly units: no pair is deeper than this on the path, as another check has proved. Measuring ends where no
+  /// more can be found.
+  double at_most = std::numeric_limits<double>::infinity();
   bool known_invalid = false;  ///< no pair's motion is valid: that is not checked before it is measured
 };
 
