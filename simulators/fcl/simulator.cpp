@@ -6,7 +6,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
-#include "dismantle/sdf/shape.h"
+#include "dismantle/geometry/congruence.h"
 #include "world.h"
 
 namespace dismantle::mesh_collision {
@@ -26,7 +26,7 @@ std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& as
   for (std::size_t i = 0; i < n; ++i) {
     model[i] = i;
     for (const std::size_t d : distinct)
-      if (const auto pose = sdf::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSameShape)) {
+      if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSameShape)) {
         model[i] = d;
         prepared->placed[i].rest = *pose;
         break;

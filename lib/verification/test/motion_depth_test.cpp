@@ -14,7 +14,6 @@ namespace {
 using shapes::shift;
 using shapes::Vec3;
 
-
 MotionDepth deepest(const Assembly& assembly, const std::vector<PlacedPart>& fixed, const Path& path,
                     MotionDepthOptions options = {}) {
   const Verifier verifier(assembly, VerifyOptions{});
@@ -62,9 +61,8 @@ TEST(MotionDepth, ABoundThatIsKnownChangesNothingButTheEffort) {
   Rng rng(5);
   for (int i = 0; i < 12; ++i) {
     const double size = rng.uniform(0.2, 1), wall = rng.uniform(0.1, 1.5), depth = std::max(size, wall) / 2;
-    const Assembly assembly =
-        shapes::assembly_of({shapes::box(Vec3::Constant(-size / 2), Vec3::Constant(size / 2)),
-                             shapes::box({1, -3, -3}, {1 + wall, 3, 3})});
+    const Assembly assembly = shapes::assembly_of(
+        {shapes::box(Vec3::Constant(-size / 2), Vec3::Constant(size / 2)), shapes::box({1, -3, -3}, {1 + wall, 3, 3})});
     const Path path{{Pose{}}, {shift({3 + wall, 0, 0})}};
     MotionDepthOptions options{.absolute = 0.005, .relative = 0.01};
     const double free = deepest(assembly, {{1, Pose{}}}, path, options).depth;

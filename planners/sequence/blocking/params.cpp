@@ -23,6 +23,23 @@ void FreeGroupParams::describe(S& s) {
                    .doc = "Advanced. Groups that are proposed to the verifier before other strategies are tried."});
 }
 
+void RepeatedPathParams::describe(S& s) {
+  s.add<bool>("repeated_paths", &RepeatedPathParams::repeated_paths,
+              {.doc = "Strategy repeated_path: propose the path on which a part has left for its copies, displaced as "
+                      "they are (screws, legs, clips). Off: each copy is searched for."});
+  s.add<double>("repeated_similarity", &RepeatedPathParams::repeated_similarity,
+                {.unit = "1",
+                 .min = 0,
+                 .max = 1,
+                 .doc = "Advanced. Parts count as copies, too, when the edges of their boxes differ by less than this "
+                        "share of the box's diagonal. 0 = only where the triangles are the same."});
+  s.add<unsigned>("repeated_refusals", &RepeatedPathParams::repeated_refusals,
+                  {.unit = "1",
+                   .min = 1,
+                   .doc = "Advanced. Proposals for one part that the verifier may refuse before it is searched for as "
+                          "any other."});
+}
+
 void PartialTranslationParams::describe(S& s) {
   s.add<std::int64_t>(
       "translation_states", &PartialTranslationParams::translation_states,
@@ -187,6 +204,7 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
                     "Order in which parts are taken when several are free.");
   StraightParams::describe(schema);
   FreeGroupParams::describe(schema);
+  RepeatedPathParams::describe(schema);
   PartialTranslationParams::describe(schema);
   ImmobilityParams::describe(schema);
   RotationParams::describe(schema);

@@ -25,6 +25,13 @@ struct FreeGroupParams {
   static void describe(Schema<BlockingParams>& schema);
 };
 
+struct RepeatedPathParams {
+  bool repeated_paths = true;
+  double repeated_similarity = 0.02;
+  unsigned repeated_refusals = 3;
+  static void describe(Schema<BlockingParams>& schema);
+};
+
 struct PartialTranslationParams {
   std::int64_t translation_states = 60'000;
   unsigned translation_refusals = 12;
@@ -87,6 +94,7 @@ struct PathSearchParams {
 
 struct BlockingParams : blocking::StraightParams,
                         blocking::FreeGroupParams,
+                        blocking::RepeatedPathParams,
                         blocking::PartialTranslationParams,
                         blocking::ImmobilityParams,
                         blocking::RotationParams,

@@ -283,8 +283,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     set.wake[k] = odometer + slack;  // of points that are awake: below
   }
   for (std::size_t begin = 0; begin < awake_.size(); begin += SurfaceQuery::kMostPrefetched) {
-    const std::span chunk = std::span(awake_).subspan(begin).first(
-        std::min(SurfaceQuery::kMostPrefetched, awake_.size() - begin));
+    const std::span chunk =
+        std::span(awake_).subspan(begin).first(std::min(SurfaceQuery::kMostPrefetched, awake_.size() - begin));
     if (single) find_lists(*target.solids.front().surface, set, chunk);
     for (const auto& [i, block, linear, p, near] : chunk) {
       const double bound = near.list != nullptr && !near.surely ? near.list->lower_bound(p) : 0.0;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "dismantle/assembly.h"
@@ -45,8 +44,5 @@ struct ShapeOptions {
 /// One entry per part, in part order. Parts with the same triangles up to a rigid motion share one Shape.
 /// Shapes are built on context.threads threads; the result does not depend on their number.
 std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& options, RunContext& context);
-
-/// Rigid motion that takes mesh a onto mesh b (same indices, residual below `tolerance`), if there is one.
-std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance);
 
 }  // namespace dismantle::sdf

@@ -1,0 +1,77 @@
+#include "blocking/strategies/repeated_path.h"
+
+#include <algorithm>
+
+#include "dismantle/geometry/congruence.h"
+
+namespace dismantle::blocking {
+
+/// A path of two poses is straight, or a turn that a search finds at once.
+void RepeatedPath::on_group_changed(GroupState&, const GroupChange& change) {
+  if (proposes_ || change.kind != GroupChange::Kind::removed) return;
+  const Removal& removal = state_.removals().back();
+  if (removal.parts.size() == 1 && removal.attempt->result.path()->poses().size() > 2)
+    known_.push_back({removal.parts.front(), removal.attempt});
+}
+
+Result RepeatedPath::apply(GroupState& group) {
+  for (std::size_t k = 0; k < known_.size(); ++k)
+    for (const SubassemblyId id : Subassemblies(group.members)) {
+      if (state_.stop()) return Result::unchanged;
+      const PartId part = state_.part_of(id);
+      if (!state_.is_single(id) || !state_.may_leave(group, {id}) || is_refused(group, k, part)) continue;
+      if (refusals_[part] < params_.repeated_refusals && propose(group, k, id)) return Result::restart;
+    }
+  return Result::unchanged;
+}
+
+/// A refusal stands as long as one of the parts that were in the way is there.
+bool RepeatedPath::is_refused(const GroupState& group, std::size_t known, PartId part) const {
+  const auto refusal = refused_.find({known, part});
+  return refusal != refused_.end() &&
+         (refusal->second.empty() || std::any_of(refusal->second.begin(), refusal->second.end(), [&](PartId blocker) {
+            return group.contains(state_.subassembly_of(blocker));
+          }));
+}
+
+/// Copies that were tessellated or scaled each in its own way have boxes of about the same size.
+const std::optional<Pose>& RepeatedPath::displacement(PartId from, PartId to) {
+  const auto [entry, is_new] = displacements_.try_emplace({from, to});
+  if (!is_new) return entry->second;
+  const Mesh &a = *state_.assembly().parts[from].mesh, &b = *state_.assembly().parts[to].mesh;
+  entry->second = geometry::congruence(a, b, oracle_.tolerance());
+  const double difference = (a.box().size() - b.box().size()).cwiseAbs().maxCoeff();
+  if (!entry->second && difference < params_.repeated_similarity * a.box().size().norm())
+    entry->second = Pose{b.box().center() - a.box().center(), Eigen::Quaterniond::Identity()};
+  return entry->second;
+}
+
+bool RepeatedPath::propose(GroupState& group, std::size_t known, SubassemblyId id) {
+  const PartId part = state_.part_of(id);
+  const auto& to = displacement(known_[known].part, part);
+  if (!to) {
+    refused_[{known, part}] = {};
+    return false;
+  }
+  Path path;
+  for (const auto& instant : known_[known].answer->result.path()->poses())
+    path.push_back({*to * instant.front() * to->inverse()});
+  const Pose &first = path.front().front(), &here = state_.pose(part);
+  const double reach = state_.assembly().parts[part].mesh->box().size().norm();
+  if ((first.t - here.t).norm() + reach * angle_between(first.q, here.q) > oracle_.tolerance()) return false;
+  path.front().front() = here;
+  const Attempt attempt = state_.attempt_for(group, {id});
+  const AttemptResult& answer = oracle_.propose(attempt, path, state_.context());
+  if (!is_success(answer.result.outcome())) {
+    refused_[{known, part}] = answer.result.blocked_by;
+    ++refusals_[part];
+    return false;
+  }
+  proposes_ = true;
+  state_.commit(group, {id}, attempt, answer, GroupChange::Kind::removed);
+  proposes_ = false;
+  state_.count("repeated");
+  return true;
+}
+
+}  // namespace dismantle::blocking

@@ -1,0 +1,49 @@
+/// Tries the path on which a part has left on its copies: screws, legs, clips, each in a seat of the same shape.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "blocking/params.h"
+#include "blocking_graph/strategy.h"
+
+namespace dismantle::blocking {
+
+/// A copy is a part with the same triangles elsewhere, or with a box of about the same size. Its path is the known one,
+/// displaced as the part is: where the seats are copies too it is valid, and the verifier says whether it is. A
+/// proposal costs one verification; the search that it spares costs mostly more. Straight paths are left to free_part.
+class RepeatedPath final : public Strategy {
+ public:
+  RepeatedPath(DisassemblyState& state, PathOracle& oracle, const RepeatedPathParams& params)
+      : state_(state), oracle_(oracle), params_(params) {}
+  std::string_view name() const noexcept override { return "repeated_path"; }
+  Cost cost() const noexcept override { return Cost::pair_sweeps; }
+  Result apply(GroupState& group) override;
+  void on_group_changed(GroupState& group, const GroupChange& change) override;
+
+ private:
+  /// A part that has left on a path that was searched for.
+  struct Known {
+    PartId part = 0;
+    const AttemptResult* answer = nullptr;  ///< of the oracle, with the path
+  };
+  /// The displacement from one part to the other, both as assembled.
+  const std::optional<Pose>& displacement(PartId from, PartId to);
+  bool is_refused(const GroupState& group, std::size_t known, PartId part) const;
+  bool propose(GroupState& group, std::size_t known, SubassemblyId id);
+
+  DisassemblyState& state_;
+  PathOracle& oracle_;
+  const RepeatedPathParams& params_;
+  std::vector<Known> known_;
+  bool proposes_ = false;  ///< the change comes from this strategy
+  std::map<std::pair<PartId, PartId>, std::optional<Pose>> displacements_;
+  /// By path and part: what was in the way.
+  std::map<std::pair<std::size_t, PartId>, std::vector<PartId>> refused_;
+  std::map<PartId, unsigned> refusals_;  ///< proposals that the verifier refused
+};
+
+}  // namespace dismantle::blocking
