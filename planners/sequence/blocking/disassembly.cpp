@@ -46,7 +46,8 @@ void Disassembly::make_strategies() {
     list_.add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals));
   }
-  if (params_.repeated_paths && sweep_) list_.add(std::make_unique<RepeatedPath>(state_, oracle_, params_));
+  if (params_.repeated_paths && sweep_)
+    list_.add(std::make_unique<RepeatedPath>(state_, oracle_, *sweep_, params_));
   if (params_.translation_states > 0 && sweep_)
     list_.add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), *lookahead_, params_));
   if (immobility_) list_.add(std::make_unique<MergeImmobile>(*immobility_));

@@ -120,7 +120,7 @@ void Lookahead::add_round(const GroupState& group, Attempts& attempts) const {
   for (const SubassemblyId s : group.members)
     if (state_.is_single(s) && state_.may_leave(group, {s}) && history_.is_worthwhile(group, s, group.search_depth))
       list.push_back(s);
-  history_.sort_by_cost(list, group.search_depth);
+  history_.sort_by_cost(group, list, group.search_depth);
   add_searches(group, group.search_depth, list, attempts);
 }
 
@@ -134,7 +134,7 @@ void Lookahead::add_next_round(const GroupState& group, Attempts& attempts) cons
   Subassemblies again;
   for (const SubassemblyId s : group.members)
     if (history_.reached_depth_limit(s) && history_.last(s)->depth == group.search_depth) again.push_back(s);
-  history_.sort_by_cost(again, group.search_depth + 1);
+  history_.sort_by_cost(group, again, group.search_depth + 1);
   add_waiting(group, group.search_depth + 1, again, attempts);
 }
 

@@ -74,7 +74,8 @@ double SearchHistory::work_of(const std::vector<PartId>& moving, const PathResul
   return (1 + result.stats.cost) * triangles;
 }
 
-void SearchHistory::sort_by_cost(Subassemblies& ids, unsigned depth) const {
+void SearchHistory::sort_by_cost(const GroupState& group, Subassemblies& ids, unsigned depth) const {
+  const SubassemblyId housing = state_.housing_of(group);
   const auto cost = [&](SubassemblyId s) {
     const auto known = cost_.find(state_.part_of(s));
     return known == cost_.end() ? 0 : known->second;
@@ -84,6 +85,7 @@ void SearchHistory::sort_by_cost(Subassemblies& ids, unsigned depth) const {
     return search != nullptr && search->depth >= depth;
   };
   std::stable_sort(ids.begin(), ids.end(), [&](SubassemblyId a, SubassemblyId b) {
+    if ((a == housing) != (b == housing)) return b == housing;
     return again(a) != again(b) ? again(b) : cost(a) < cost(b);
   });
 }

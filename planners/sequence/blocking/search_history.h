@@ -55,9 +55,10 @@ class SearchHistory final : public GroupListener {
   /// Twice that of the last search of the pair, or 0, no limit: where no other pairs wait, or it is very deep.
   unsigned next_depth_of_pair(const GroupState& group, bool others_wait) const;
   /// Sorts by what the last search cost: what was cheap is mostly cheap to search a little deeper, and a part that
-  /// leaves makes room for others. Those that were searched to this depth before come last: more of what was in their
-  /// way may be gone by then.
-  void sort_by_cost(Subassemblies& ids, unsigned depth) const;
+  /// leaves makes room for others. Those that were searched to this depth before come later: more of what was in their
+  /// way may be gone by then. The housing comes last at any cost: it touches most parts, so that a search which ended
+  /// early says that it is held, not that the next one is cheap.
+  void sort_by_cost(const GroupState& group, Subassemblies& ids, unsigned depth) const;
   /// GroupState::waiting: those of `ids` that reached the depth limit.
   Subassemblies waiting_of(const Subassemblies& ids) const;
 

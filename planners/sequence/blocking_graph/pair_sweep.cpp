@@ -46,8 +46,8 @@ std::vector<geometry::PlacedHull> PairSweep::hulls(const std::vector<PlacedPart>
 }
 
 double PairSweep::distance_apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest,
-                                 const Eigen::Vector3d& direction, double most, int bisections) const {
-  return geometry::HullsApart(hulls(group), hulls(rest)).distance(direction, most, bisections);
+                                 const Eigen::Vector3d& direction, double most) const {
+  return geometry::HullsApart(hulls(group), hulls(rest)).distance(direction, most, 12);
 }
 
 }  // namespace dismantle::blocking

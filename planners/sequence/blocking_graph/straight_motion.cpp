@@ -303,11 +303,9 @@ double StraightMotion::length_out(const GroupState& group, const Subassemblies& 
                                   const Eigen::Vector3d& shift) const {
   Attempt attempt = state_.attempt_for(group, ids);
   for (PlacedPart& p : attempt.moving) p.pose.t += shift;
-  // Bisects the path to a 4096th of its length, and ends one tolerance further: poses are rounded when they are
-  // written.
+  // Ends one tolerance further: poses are rounded when they are written.
   const double most = path_length(group, ids, direction, shift) + 0.1 * sweep_.tolerance();
-  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most, 12) +
-         sweep_.tolerance();
+  return sweep_.distance_apart(attempt.moving, attempt.fixed, directions_.all[direction], most) + sweep_.tolerance();
 }
 
 bool StraightMotion::leave(GroupState& group, const Subassemblies& ids, std::size_t direction) {

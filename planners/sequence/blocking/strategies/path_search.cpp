@@ -31,7 +31,7 @@ bool PathSearch::round(GroupState& group) {
     else
       state_.count("postponed");
   }
-  history_.sort_by_cost(list, group.search_depth);
+  history_.sort_by_cost(group, list, group.search_depth);
   if (searcher_.search_each(group, list, group.search_depth)) return true;
   group.waiting = history_.waiting_of(candidates);
   const bool more_translations =

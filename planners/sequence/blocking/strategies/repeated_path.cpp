@@ -1,10 +1,25 @@
 #include "blocking/strategies/repeated_path.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 #include "dismantle/geometry/congruence.h"
 
 namespace dismantle::blocking {
+
+namespace {
+
+/// Unit vector in which a part with this box advances: along the axis if it turns more than it moves, as a screw does,
+/// else as its middle moves. Zero for no motion.
+Eigen::Vector3d direction_of(const Pose& from, const Pose& to, const Aabb& box) {
+  const Eigen::Vector3d way = to * box.center() - from * box.center();
+  const Eigen::Vector3d turn = rotation_vector(to.q * from.q.conjugate());
+  if (0.5 * box.size().norm() * turn.norm() < way.norm()) return way.stableNormalized();
+  return (turn.dot(way) * turn).stableNormalized();
+}
+
+}  // namespace
 
 /// A path of two poses is straight, or a turn that a search finds at once.
 void RepeatedPath::on_group_changed(GroupState&, const GroupChange& change) {
@@ -46,6 +61,24 @@ const std::optional<Pose>& RepeatedPath::displacement(PartId from, PartId to) {
   return entry->second;
 }
 
+/// Straight on until the part is apart from all others: these may reach farther where the copy leaves.
+void RepeatedPath::extend(PartId part, const std::vector<PlacedPart>& others, Path& path) const {
+  const Pose last = path.back().front();
+  const Eigen::Vector3d direction =
+      direction_of(path[path.size() - 2].front(), last, state_.assembly().parts[part].mesh->box());
+  if (direction.isZero()) return;
+  const auto extent = [&](const PlacedPart& placed, double sign) {  // the farthest corner along sign * direction
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Eigen::Vector3d& corner : sweep_.hull(placed.part))
+      most = std::max(most, sign * direction.dot(placed.pose * corner));
+    return most;
+  };
+  double most = 0;
+  for (const PlacedPart& other : others) most = std::max(most, extent(other, 1) + extent({part, last}, -1));
+  const double distance = sweep_.distance_apart({{part, last}}, others, direction, most);
+  if (distance > 0) path.push_back({Pose{last.t + (distance + oracle_.tolerance()) * direction, last.q}});
+}
+
 bool RepeatedPath::propose(GroupState& group, std::size_t known, SubassemblyId id) {
   const PartId part = state_.part_of(id);
   const auto& to = displacement(known_[known].part, part);
@@ -61,7 +94,12 @@ bool RepeatedPath::propose(GroupState& group, std::size_t known, SubassemblyId i
   if ((first.t - here.t).norm() + reach * angle_between(first.q, here.q) > oracle_.tolerance()) return false;
   path.front().front() = here;
   const Attempt attempt = state_.attempt_for(group, {id});
+  extend(part, attempt.fixed, path);
   const AttemptResult& answer = oracle_.propose(attempt, path, state_.context());
+  const auto& parts = state_.assembly().parts;
+  state_.context().log(LogLevel::debug, "path of '" + parts[known_[known].part].name + "' proposed for '" +
+                                            parts[part].name + "': " + std::string(to_string(answer.result.outcome())) +
+                                            " " + answer.result.message);
   if (!is_success(answer.result.outcome())) {
     refused_[{known, part}] = answer.result.blocked_by;
     ++refusals_[part];

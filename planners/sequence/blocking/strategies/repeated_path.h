@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "blocking/params.h"
+#include "blocking_graph/pair_sweep.h"
 #include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
@@ -17,8 +18,8 @@ namespace dismantle::blocking {
 /// proposal costs one verification; the search that it spares costs mostly more. Straight paths are left to free_part.
 class RepeatedPath final : public Strategy {
  public:
-  RepeatedPath(DisassemblyState& state, PathOracle& oracle, const RepeatedPathParams& params)
-      : state_(state), oracle_(oracle), params_(params) {}
+  RepeatedPath(DisassemblyState& state, PathOracle& oracle, const PairSweep& sweep, const RepeatedPathParams& params)
+      : state_(state), oracle_(oracle), sweep_(sweep), params_(params) {}
   std::string_view name() const noexcept override { return "repeated_path"; }
   Cost cost() const noexcept override { return Cost::pair_sweeps; }
   Result apply(GroupState& group) override;
@@ -33,10 +34,12 @@ class RepeatedPath final : public Strategy {
   /// The displacement from one part to the other, both as assembled.
   const std::optional<Pose>& displacement(PartId from, PartId to);
   bool is_refused(const GroupState& group, std::size_t known, PartId part) const;
+  void extend(PartId part, const std::vector<PlacedPart>& others, Path& path) const;
   bool propose(GroupState& group, std::size_t known, SubassemblyId id);
 
   DisassemblyState& state_;
   PathOracle& oracle_;
+  const PairSweep& sweep_;
   const RepeatedPathParams& params_;
   std::vector<Known> known_;
   bool proposes_ = false;  ///< the change comes from this strategy
