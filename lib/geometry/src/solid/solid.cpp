@@ -214,6 +214,15 @@ void Solid::measure_thickness(double reach) {
       if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < kAlmostOpposite;
       return facing < 0;  // an opposite side faces away
     };
+    // Most triangles have no opposite side within reach: one question for all rays of the triangle.
+    Aabb around;
+    for (int k = 0; k < 3; ++k) {
+      around.extend(mesh.vertex(t, k));
+      around.extend(Vec3(mesh.vertex(t, k) - reach * normals[t]));
+    }
+    bool any = false;
+    bvh.overlapping(around, [&](std::uint32_t other) { any = any || blocks(other); });
+    if (!any) continue;
     for (const auto& w : kSamples) {
       const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
       thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
