@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""How much plans depend on each parameter: varies one at a time, by half and by double, and prints what changes.
+
+    tools/sensitivity.py -o sensitivity             # samples, and assemblies of $DISMANTLE_DATA if it is set
+    tools/sensitivity.py -o sensitivity --random 200 --only sequence_planner.
+    tools/sensitivity.py -o sensitivity --table     # the table of what has been run so far, as Markdown
+
+A switch is turned. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
+OUT/runs.jsonl: a run that is there is not made again, so that the work can be ended and resumed at any time. Random
+assemblies are samples with random dimensions and rotations. An assembly that takes longer than --seconds with the
+defaults is left out; a run gets ten times what the defaults take, at least ten seconds, and counts as lost after that.
+"""
+import argparse
+import collections
+import hashlib
+import json
+import math
+import os
+import pathlib
+import random
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "verify")
+SEARCH_ONLY = ("path_planner.", "simulator.")
+ALWAYS_LEFT_OUT = {  # what the user asks for, no way of finding it
+    "verify.max_penetration", "immobility.deadline_share"}
+
+
+def call(command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def sample_parameters(program):
+    """By sample: name, default, least and largest value of its numbers."""
+    samples, current = collections.OrderedDict(), None
+    for line in call([program, "sample", "list"])[1].splitlines():
+        if head := re.match(r"(\w+): ", line):
+            current = samples.setdefault(head[1], [])
+        elif number := re.match(r"\s+(\w+) = ([-\d.e]+)(?: \w+)? in \[([-\d.e]+), ([-\d.e]+)\]", line):
+            current.append((number[1], float(number[2]), float(number[3]), float(number[4])))
+    return samples
+
+
+def make_samples(program, folder, count):
+    """The samples as they are, and `count` with random dimensions."""
+    samples, made = sample_parameters(program), []
+    for k in range(-len(samples), count):
+        name = list(samples)[k % len(samples)]
+        target = folder / (name if k < 0 else "random_%03d_%s" % (k, name))
+        settings = []
+        if k >= 0:
+            draw = random.Random(k)
+            for key, default, low, high in samples[name]:
+                value = min(max(default * 2 ** draw.uniform(-0.7, 0.7), low), high)
+                whole = default == int(default) and low == int(low)
+                settings += ["--set", "%s=%s" % (key, round(value) if whole else round(value, 4))]
+            settings += ["--set", "rotate_seed=%d" % draw.randrange(1, 10 ** 6)]
+        if not target.exists() and call([program, "sample", name, "-o", target, "-q", *settings])[0] != 0:
+            continue  # dimensions that do not go together
+        made.append(target)
+    return made
+
+
+def parameters_of(resolved, schema):
+    """Keys for --set with their values, from resolved.yaml, and the range of each from the schema."""
+    path, found = [], collections.OrderedDict()
+    for line in resolved.splitlines():
+        match = re.match(r"( *)(- )?([\w]+): *([^#]*)", line)
+        if not match or line.lstrip().startswith("#"):
+            continue
+        depth, item, key, value = len(match[1]) + (2 if match[2] else 0), match[2], match[3], match[4].strip()
+        path = [p for p in path if p[0] < depth]
+        if item and key == "type":  # plugins in a list are named by their type
+            path = [p for p in path if p[0] < depth - 1] + [(depth - 1, value)]
+            continue
+        if value == "":
+            path.append((depth, key))
+            continue
+        found[".".join([p[1] for p in path] + [key])] = value
+    return collections.OrderedDict((k, v) for k, v in found.items() if k.split(".")[0] in SECTIONS)
+
+
+def ranges_of(schema):
+    """By the name of a parameter: (least, largest, is whole), the widest of all plugins that have one of this name."""
+    ranges = {}
+
+    def visit(node):
+        if isinstance(node, dict):
+            for key, value in node.get("properties", {}).items():
+                if isinstance(value, dict) and value.get("type") in ("number", "integer"):
+                    low = value.get("minimum", value.get("exclusiveMinimum", -math.inf))
+                    high = value.get("maximum", value.get("exclusiveMaximum", math.inf))
+                    old = ranges.get(key, (math.inf, -math.inf, True))
+                    ranges[key] = (min(low, old[0]), max(high, old[1]), value["type"] == "integer" and old[2])
+            for value in node.values():
+                visit(value)
+        elif isinstance(node, list):
+            for value in node:
+                visit(value)
+
+    visit(schema)
+    return ranges
+
+
+def variations(key, value, ranges):
+    """What to put in its place: pairs of a name and a value."""
+    if value in ("true", "false"):
+        return [("turned", "false" if value == "true" else "true")]
+    try:
+        number = float(value)
+    except ValueError:
+        return []
+    name = key.split(".")[-1]
+    if number == 0 or name not in ranges:
+        return []
+    low, high, whole = ranges[name]
+    out = []
+    for label, factor in (("half", 0.5), ("double", 2.0)):
+        varied = number * factor
+        if whole:
+            varied = max(math.floor(varied) if factor < 1 else varied, low)
+        if low <= varied <= high and varied != number:
+            out.append((label, str(int(varied)) if whole else repr(varied)))
+    return out
+
+
+def plan(program, assembly, folder, settings, seconds):
+    """What came of one run."""
+    out = folder / "plan"
+    command = [program, "plan", assembly, "-o", out, "--threads", "1", "--format", "json", "-q"]
+    for setting in settings:
+        command += ["--set", setting]
+    if seconds:
+        command += ["--timeout", "%g" % seconds]
+    status, text, errors = call(command)
+    if status not in (0, 1):
+        return {"status": status, "error": errors.strip()[-200:]}
+    summary = json.loads(text.strip().splitlines()[-1])
+    written = json.loads((out / "plan.json").read_text())
+    moves = json.dumps([step["moves"] for step in written["disassembly"]])
+    return {"status": status, "removed": summary["removed"], "forced": summary["forced"], "steps": summary["steps"],
+            "seconds": summary["cpu_seconds"], "searches": summary["counters"].get("searches", 0), "moves": hashlib.sha256(moves.encode()).hexdigest()[:16]}
+
+
+def read_runs(file):
+    runs = {}
+    if file.exists():
+        for line in file.read_text().splitlines():
+            run = json.loads(line)
+            runs[run["key"], run["variation"], run["assembly"]] = run
+    return runs
+
+
+def write_table(runs):
+    """Markdown: a row for each parameter that was varied."""
+    base = {a: r for (k, _, a), r in runs.items() if k == ""}
+    rows = collections.OrderedDict()
+    for (key, label, assembly), run in runs.items():
+        if key and assembly in base:
+            rows.setdefault((key, run["default"]), collections.OrderedDict()).setdefault(label, []).append((base[assembly], run))
+    print("| parameter | default | value | assemblies | lost | gained | other plan | CPU time |")
+    print("|---|---|---|---|---|---|---|---|")
+    nothing = []
+    for (key, default), by_label in rows.items():
+        cells, changes = [], 0
+        for label, pairs in by_label.items():
+            def out(r):
+                return r.get("removed", -1) - r.get("forced", 0)
+            lost = sum(out(r) < out(b) for b, r in pairs)
+            gained = sum(out(r) > out(b) for b, r in pairs)
+            other = sum(r.get("moves") != b.get("moves") for b, r in pairs)
+            ratio = sum(r.get("seconds", 0) for _, r in pairs) / max(1e-9, sum(b["seconds"] for b, _ in pairs))
+            changes += other
+            cells.append("| %d | %d | %d | %d | %.2f |" % (len(pairs), lost, gained, other, ratio))
+        if changes == 0:
+            nothing.append((key, default, max((float(c.split("|")[5]) for c in cells), key=lambda x: abs(math.log(max(x, 1e-3))))))
+            continue
+        for (label, pairs), cell in zip(by_label.items(), cells):
+            print("| `%s` | %s | %s %s" % (key, default, pairs[0][1]["value"], cell))
+    print("\nNo plan of these assemblies depends on:\n")
+    for key, default, ratio in nothing:
+        print("- `%s` = %s (CPU time x %.2f)" % (key, default, ratio))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--output", type=pathlib.Path, required=True)
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/dismantle")
+    parser.add_argument("--random", type=int, default=200, help="random assemblies")
+    parser.add_argument("--only", default="", help="parameters whose key begins so")
+    parser.add_argument("--seconds", type=float, default=1.5, help="of CPU time that an assembly may take as it is")
+    parser.add_argument("--table", action="store_true", help="print the table of the runs so far, and run nothing")
+    options = parser.parse_args()
+    options.output.mkdir(parents=True, exist_ok=True)
+    file = options.output / "runs.jsonl"
+    runs = read_runs(file)
+    if options.table:
+        return write_table(runs)
+
+    assemblies = make_samples(options.program, options.output, options.random)
+    if data := os.environ.get("DISMANTLE_DATA"):
+        assemblies += sorted(p for group in ("two_part", "rotational", "threads", "burr", "cad")
+                             for p in (pathlib.Path(data) / group).iterdir() if p.is_dir() and list(p.glob("*.obj")))
+
+    def record(key, label, value, default, assembly, seconds):
+        if (key, label, assembly.name) in runs:
+            return runs[key, label, assembly.name]
+        result = plan(options.program, assembly, options.output, ["%s=%s" % (key, value)] if key else [], seconds)
+        result.update(key=key, variation=label, value=value, default=default, assembly=assembly.name)
+        with file.open("a") as stream:
+            stream.write(json.dumps(result) + "\n")
+        runs[key, label, assembly.name] = result
+        return result
+
+    used = []
+    for k, assembly in enumerate(assemblies):
+        base = record("", "", "", "", assembly, 10 * options.seconds)
+        if base["status"] in (0, 1) and base["seconds"] <= options.seconds:
+            used.append((assembly, base))
+    print("%d of %d assemblies are used" % (len(used), len(assemblies)), flush=True)
+    if not used:
+        sys.exit("no assembly is planned in %g s: %s plan %s" % (
+            options.seconds, shlex.quote(str(options.program)), shlex.quote(str(assemblies[0]) if assemblies else "")))
+
+    resolved = (options.output / "plan" / "resolved.yaml").read_text()
+    schema = json.loads((ROOT / "docs/reference/dismantle.schema.json").read_text())
+    ranges = ranges_of(schema)
+    todo = [(key, value, *v) for key, value in parameters_of(resolved, schema).items()
+            if key.startswith(options.only) and key not in ALWAYS_LEFT_OUT for v in variations(key, value, ranges)]
+    for k, (key, default, label, value) in enumerate(todo):
+        differ = asked = 0
+        for assembly, base in used:
+            if key.startswith(SEARCH_ONLY) and base["searches"] == 0:
+                continue  # nothing was searched for
+            run = record(key, label, value, default, assembly, max(10.0, 10 * base["seconds"]))
+            if run["status"] == 2:  # beyond its range
+                break
+            asked += 1
+            differ += run.get("moves") != base["moves"]
+        print("%4d of %d  %s = %s: %d of %d plans differ" % (k + 1, len(todo), key, value, differ, asked), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
