@@ -10,8 +10,8 @@ namespace {
 
 /// Beyond this distance a query gives up and the block sleeps for that long.
 constexpr double kReach = 0.5;
-/// Beyond so many margins, and so many units, a bound on the distance is as good as the distance.
-constexpr double kFarEnough = 2, kGoodBound = 0.05;
+/// Beyond so many margins a bound on the distance is as good as the distance.
+constexpr double kFarEnough = 2;
 /// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
 /// below what the verifier lets pass.
 constexpr double kOnEdge = 2e-4;
@@ -111,7 +111,7 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
     return rough;
   }
   // Clearly too far to matter: a bound will do, of the grid or of finer cells. Else the grid tells how far to search.
-  const double enough = std::max(kFarEnough * margin_, kGoodBound);
+  const double enough = kFarEnough * margin_;
   double bound = field.grid->lower_bound(p);
   if (bound <= enough) bound = std::max(bound, field.surface->lower_bound(p, hint, near.list));
   rough.value = std::min(bound, limit);
@@ -168,7 +168,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   }
   const bool local = pair.everywhere < pair.allowed, single = model_ == DistanceModel::exact && solids == 1;
   // What a bound on the distance has to exceed to be as good; below it distances were measured on triangles.
-  const double near_enough = std::max(kFarEnough * margin, kGoodBound);
+  const double near_enough = kFarEnough * margin;
   const Pose to_target = world_[surface].inverse() * world_[owner];
   const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
   const Eigen::Vector3d shift = to_target.t;
