@@ -141,6 +141,8 @@ def plan(program, assembly, folder, settings, seconds):
     if status not in (0, 1):
         return {"status": status, "error": errors.strip()[-200:]}
     summary = json.loads(text.strip().splitlines()[-1])
+    if summary["plan"] is None:  # the time was up before anything could be planned
+        return {"status": status, "removed": 0, "forced": 0, "seconds": math.inf, "searches": 0, "moves": "none"}
     written = json.loads((out / "plan.json").read_text())
     moves = json.dumps([step["moves"] for step in written["disassembly"]])
     return {"status": status, "removed": summary["removed"], "forced": summary["forced"], "steps": summary["steps"],
