@@ -1,4 +1,4 @@
-// The stream from the reader program of STEP files, in pieces whose sizes the first byte gives.
+// The stream from a reader program, in pieces whose sizes the first byte gives.
 #include <algorithm>
 
 #include "input_file.h"
@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::size_t piece = std::size_t{data[0]} + 1;
   const auto bytes = std::as_bytes(fuzz::Bytes(data + 1, size - 1));
-  step_import::StreamReader reader(100'000, [](const std::string&, std::size_t, std::size_t) {});
+  reader_process::StreamReader reader(100'000, [](const std::string&, std::size_t, std::size_t) {});
   for (std::size_t at = 0; at < bytes.size(); at += piece)
     if (!reader.feed(bytes.subspan(at, std::min(piece, bytes.size() - at)))) {
       FUZZ_EXPECT(!reader.problem().empty() && !reader.complete());

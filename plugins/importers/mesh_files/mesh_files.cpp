@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <utility>
 
-#include "assimp_reader.h"
 #include "dismantle/errors.h"
-#include "dismantle/plugin/late_library.h"
+#include "read_in_child.h"
 #include "readers.h"
 
 namespace dismantle::mesh_files {
@@ -20,11 +20,41 @@ std::string ending(const std::filesystem::path& file) {
   return e;
 }
 
+constexpr std::uint64_t kMaxTriangles = 100'000'000;  // a small file can name one mesh a million times
+
 }  // namespace
 
-std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) {
-  std::vector<RawPart> parts;
-  late_function<decltype(dismantle_read_scene)>(DISMANTLE_ASSIMP_READER, "dismantle_read_scene")(file, context, parts);
+void MeshFilesParams::describe(Schema<MeshFilesParams>& s) {
+  s.add("time_limit", &MeshFilesParams::time_limit,
+        {.unit = "s",
+         .min = 0,
+         .max = 1e6,
+         .doc = "Reading a glTF, 3MF or DAE file is given up after this time; 0 = no limit."});
+  s.add("memory_limit", &MeshFilesParams::memory_limit,
+        {.unit = "MiB",
+         .min = 0,
+         .max = 1e7,
+         .doc = "Address space of the process that reads a glTF, 3MF or DAE file; 0 = no limit."});
+}
+
+MeshFiles::MeshFiles(const MeshFilesParams& params)
+    : MeshFiles(params, reader_process::installed_reader("assimp_reader")) {}
+
+MeshFiles::MeshFiles(const MeshFilesParams& params, std::filesystem::path reader)
+    : params_(params), reader_(std::move(reader)) {}
+
+std::vector<RawPart> MeshFiles::read_with_assimp(const std::filesystem::path& file, const RunContext& context) const {
+  const reader_process::ReaderProgram program{.path = reader_,
+                                              .formats = "glTF, 3MF and DAE files",
+                                              .library = "assimp",
+                                              .instead = "export it again, or export the parts as OBJ or STL",
+                                              .missing = "install Dismantle again, or export the parts as OBJ or STL",
+                                              .parameters = "importers.mesh_files",
+                                              .coarser = ""};
+  const reader_process::ChildLimits limits{params_.time_limit,
+                                           static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
+  std::vector<RawPart> parts = read_in_child(file, program, {}, limits, kMaxTriangles, context);
+  for (RawPart& part : parts) part.file = file.filename().string();
   return parts;
 }
 

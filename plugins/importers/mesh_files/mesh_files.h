@@ -1,15 +1,34 @@
 /// The importer: chooses the reader by the file's ending.
 #pragma once
 
+#include <filesystem>
+
 #include "dismantle/importer.h"
+#include "dismantle/parameters.h"
 
 namespace dismantle::mesh_files {
 
+/// `importers: {mesh_files: ...}` in a configuration: of glTF, 3MF and DAE files, which another process reads.
+struct MeshFilesParams {
+  double time_limit = 600;
+  double memory_limit = 4096;
+  static void describe(Schema<MeshFilesParams>& s);
+};
+
 class MeshFiles : public Importer {
  public:
+  explicit MeshFiles(const MeshFilesParams& params = {});
+  /// `reader`: the program to start for glTF, 3MF and DAE files, which may be missing.
+  MeshFiles(const MeshFilesParams& params, std::filesystem::path reader);
   std::vector<std::string> extensions() const override;
   std::optional<std::uint64_t> count_triangles(const std::filesystem::path& file) const override;
   std::vector<RawPart> read(const std::filesystem::path& file, const RunContext& context) override;
+
+ private:
+  std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context) const;
+
+  MeshFilesParams params_;
+  std::filesystem::path reader_;
 };
 
 }  // namespace dismantle::mesh_files

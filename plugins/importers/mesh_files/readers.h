@@ -28,8 +28,4 @@ std::vector<RawPart> read_ply(const std::filesystem::path& file, const RunContex
 /// As the header states; polygons count as one.
 std::optional<std::uint64_t> count_ply_triangles(const std::filesystem::path& file);
 
-/// GLB/glTF, 3MF, DAE: one part per mesh node, node transforms applied, units of the file. Loads the library with
-/// assimp.
-std::vector<RawPart> read_with_assimp(const std::filesystem::path& file, const RunContext& context = {});
-
 }  // namespace dismantle::mesh_files

@@ -31,6 +31,10 @@
 namespace dismantle::step_import {
 namespace {
 
+using reader_process::Body;
+using reader_process::Failure;
+using reader_process::StreamWriter;
+
 struct Arguments {
   std::string file;
   double linear = 0, linear_of_assembly = 0, angular = 0;
@@ -242,7 +246,7 @@ int main(int argc, char** argv) {
   // Open CASCADE prints to standard output.
   const int stream = ::dup(STDOUT_FILENO);
   if (stream < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
-  StreamWriter out(stream);
+  dismantle::reader_process::StreamWriter out(stream);
   const int status = convert(arguments, out);
   // Taking the document apart takes time and can crash; the process ends anyway.
   std::_Exit(status);

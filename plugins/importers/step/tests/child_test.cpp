@@ -10,6 +10,9 @@
 namespace dismantle::step_import {
 namespace {
 
+using reader_process::ChildEnd;
+using reader_process::ChildLimits;
+using reader_process::run_child;
 using testing::input_error;
 using testing::Scratch;
 

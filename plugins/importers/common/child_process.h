@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 
 struct ChildLimits {
   double seconds = 0;        ///< of wall-clock time and of CPU time; 0 = no limit
@@ -36,4 +36,4 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
                    const ChildLimits& limits, const std::function<bool()>& should_stop,
                    const std::function<bool(std::span<const std::byte>)>& take);
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -1,33 +1,30 @@
 #include "stream_reader.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 
-#include "reader/stream_writer.h"
-#include "scratch.h"
+#include "stream_writer.h"
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// What the writer writes, as it stands in a file.
+/// What the writer writes.
 template <class Fill>
 std::string written(Fill fill) {
-  testing::Scratch scratch;
-  const auto file = scratch / "stream";
-  std::FILE* out = std::fopen(file.c_str(), "wb");
+  std::FILE* out = std::tmpfile();
   StreamWriter writer(::fileno(out));
   fill(writer);
+  std::string bytes(static_cast<std::size_t>(::lseek(::fileno(out), 0, SEEK_END)), '\0');
+  std::rewind(out);
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), out));
   std::fclose(out);
-  return bytes_of(file);
+  return bytes;
 }
 
 Body random_body(Rng& rng, std::size_t index) {
@@ -190,4 +187,4 @@ TEST(StepStream, CoordinatesAreFiniteAndCornersExist) {
 }
 
 }  // namespace
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 namespace {
 
 template <class T>
@@ -103,4 +103,4 @@ void StreamWriter::write_all(const char* data, std::size_t size) {
   }
 }
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

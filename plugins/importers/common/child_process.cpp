@@ -15,7 +15,7 @@
 #include <csignal>
 #include <utility>
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 namespace {
 
 constexpr int kPollMilliseconds = 50;
@@ -223,4 +223,4 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   return end;
 }
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "../stream_format.h"
+#include "stream_format.h"
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 
 struct Body {
   std::string name;
@@ -39,4 +39,4 @@ class StreamWriter {
   std::uint32_t bodies_ = 0;
 };
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -12,7 +12,7 @@
 #include "dismantle/importer.h"
 #include "stream_format.h"
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 
 class StreamReader {
  public:
@@ -55,4 +55,4 @@ class StreamReader {
   std::uint64_t vertices_left_ = 0, triangles_left_ = 0, triangles_ = 0;
 };
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

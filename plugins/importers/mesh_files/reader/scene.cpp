@@ -1,5 +1,4 @@
-// glTF, 3MF and DAE through assimp.
-#include "assimp_reader.h"
+#include "scene.h"
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
@@ -10,7 +9,6 @@
 
 #include <Eigen/LU>
 #include <assimp/Importer.hpp>
-#include <assimp/ProgressHandler.hpp>
 #include <cmath>
 #include <string_view>
 
@@ -18,13 +16,13 @@
 #include "dismantle/errors.h"
 #include "dismantle/referenced_file.h"
 #include "names_3mf.h"
-#include "text_scan.h"
 
 namespace dismantle::mesh_files {
 namespace {
 
 constexpr std::size_t kMaxTriangles = 100'000'000;  // a small file can name one mesh a million times
 constexpr std::size_t kMaxNodes = 1'000'000;
+constexpr std::uint32_t kUnused = static_cast<std::uint32_t>(-1);
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   Eigen::Matrix4d out;
@@ -46,16 +44,6 @@ std::optional<Rgba> colour_of(const aiMaterial& material, bool linear) {
               static_cast<double>(colour.a), linear);
 }
 
-/// Ends the reading when the run is to stop.
-class Polling : public Assimp::ProgressHandler {
- public:
-  explicit Polling(const RunContext& context) : context_(context) {}
-  bool Update(float) override { return !context_.should_stop(); }
-
- private:
-  const RunContext& context_;
-};
-
 /// Opens the file itself, and of those that it names the ones that may_read_referenced() allows.
 class ReferencedFiles : public Assimp::DefaultIOSystem {
  public:
@@ -76,6 +64,23 @@ class ReferencedFiles : public Assimp::DefaultIOSystem {
   std::filesystem::path file_;
   std::string& refused_;
 };
+
+/// Without vertices that no triangle has: those of points and lines.
+Mesh without_unused(const Mesh& mesh) {
+  Mesh used;
+  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
+  for (Triangle t : mesh.triangles) {
+    for (auto& corner : t) {
+      if (number[corner] == kUnused) {
+        number[corner] = static_cast<std::uint32_t>(used.vertices.size());
+        used.vertices.push_back(mesh.vertices[corner]);
+      }
+      corner = number[corner];
+    }
+    used.triangles.push_back(t);
+  }
+  return used;
+}
 
 class SceneReader {
  public:
@@ -136,6 +141,7 @@ class SceneReader {
     }
     part.colour = colour.get();
     if (part.mesh.empty()) return;
+    if (other_primitives_) part.mesh = without_unused(part.mesh);
     total_ += part.mesh.triangles.size();
     if (total_ > kMaxTriangles) fail(fmt::format("more than {} triangles", kMaxTriangles));
     parts_.push_back(std::move(part));
@@ -181,23 +187,22 @@ class SceneReader {
 
 }  // namespace
 
-std::vector<RawPart> read_scene(const std::filesystem::path& file, const RunContext& context) {
+std::vector<RawPart> read_scene(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   try {
     std::string refused;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ReferencedFiles(file, refused));  // the importer owns both
-    importer.SetProgressHandler(new Polling(context));
+    importer.SetIOHandler(new ReferencedFiles(file, refused));  // the importer owns it
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);
     const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
-    stop_if_told(context, file);
     if (!scene || !scene->mRootNode) {
       const std::string why = importer.GetErrorString();
       if (!refused.empty())
         throw InputError(file.string(), fmt::format("it names '{}', which is no file in its folder", refused));
+      if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // caught by assimp
       // What assimp says of a file whose begin it does not recognise.
       if (why.starts_with("No suitable reader found") || why.starts_with("Failed to open file"))
         throw InputError(file.string(), fmt::format("this is no {} file, or it is cut off", ending));
@@ -235,8 +240,3 @@ std::vector<RawPart> read_scene(const std::filesystem::path& file, const RunCont
 }
 
 }  // namespace dismantle::mesh_files
-
-void dismantle_read_scene(const std::filesystem::path& file, const dismantle::RunContext& context,
-                          std::vector<dismantle::RawPart>& parts) {
-  parts = dismantle::mesh_files::read_scene(file, context);
-}

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 namespace {
 
 struct Broken {
@@ -179,4 +179,4 @@ void StreamReader::finish_body() {
 
 std::vector<RawPart> StreamReader::take_parts() { return std::move(parts_); }
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-namespace dismantle::step_import {
+namespace dismantle::reader_process {
 
 inline constexpr char kMagic[8] = {'D', 'S', 'M', 'S', 'T', 'E', 'P', '1'};
 inline constexpr std::uint32_t kMaxPayload = 1u << 20;  ///< bytes of one record
@@ -30,4 +30,4 @@ enum class Tag : std::uint8_t {
 
 enum class Failure : std::uint8_t { unreadable = 1, out_of_memory = 2, too_many_triangles = 3 };
 
-}  // namespace dismantle::step_import
+}  // namespace dismantle::reader_process

@@ -1,0 +1,160 @@
+#include "read_in_child.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cstring>
+
+#include "dismantle/errors.h"
+#include "stream_reader.h"
+
+namespace dismantle::reader_process {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Plain text: libraries colour their messages, and quote the file, which may come from anybody, as it is.
+std::string without_control_characters(const std::string& text) {
+  std::string plain;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\x1b' && k + 1 < text.size() && text[k + 1] == '[') {  // up to the letter that ends the sequence
+      k += 2;
+      while (k < text.size() && !(text[k] >= '@' && text[k] <= '~')) ++k;
+      continue;
+    }
+    plain += std::iscntrl(static_cast<unsigned char>(text[k])) != 0 ? ' ' : text[k];
+  }
+  return plain;
+}
+
+/// The last lines that are worth showing.
+std::string last_words(const std::string& messages) {
+  std::string text = messages;
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  for (int lines = 0; lines < 2; ++lines) {
+    const auto at = text.rfind('\n', lines == 0 ? std::string::npos : text.find_last_of('\n') - 1);
+    if (at == std::string::npos || lines == 1) {
+      if (at != std::string::npos) text.erase(0, at + 1);
+      break;
+    }
+  }
+  text = without_control_characters(text);
+  if (text.size() > 300) text.erase(0, text.size() - 300);
+  return text;
+}
+
+/// What the loader and the libraries write when there is no memory left.
+bool out_of_memory(const ChildEnd& end) {
+  for (const char* text :
+       {"bad_alloc", "OutOfMemory", "annot allocate memory", "failed to map segment", "out of memory"})
+    if (end.messages.find(text) != std::string::npos) return true;
+  return false;
+}
+
+std::string said(const ChildEnd& end) {
+  const std::string words = last_words(end.messages);
+  return words.empty() ? "" : fmt::format(" ({})", words);
+}
+
+/// Throws what is to be told of a reading that failed.
+class Failures {
+ public:
+  Failures(const fs::path& file, const ReaderProgram& program, const ChildLimits& limits)
+      : file_(file), program_(program), limits_(limits) {}
+
+  void check_program() const {
+    if (::access(program_.path.c_str(), X_OK) != 0)
+      fail(fmt::format("{} cannot be read ({} is missing): {}", program_.formats, program_.path.string(),
+                       program_.missing));
+  }
+
+  void check(const ChildEnd& end, const StreamReader& stream) const {
+    switch (end.how) {
+      case ChildEnd::How::not_started:
+        fail(fmt::format("{} cannot be started: {}", program_.path.string(), std::strerror(end.code)));
+      case ChildEnd::How::timed_out:
+        fail(fmt::format("reading it took longer than {:g} s: raise {}.time_limit, or {}", limits_.seconds,
+                         program_.parameters, program_.instead));
+      case ChildEnd::How::crashed:
+        if (out_of_memory(end)) fail_for_memory();
+        fail(fmt::format("{} crashed on it (signal {}, {}): {}", program_.library, end.code, ::strsignal(end.code),
+                         program_.instead));
+      case ChildEnd::How::stopped:
+        fail(fmt::format("what the reader of {} sent cannot be used ({}): {}", program_.formats, stream.problem(),
+                         program_.instead));
+      case ChildEnd::How::exited:
+        break;
+    }
+    if (const auto& failure = stream.failure()) {
+      if (failure->kind == Failure::out_of_memory) fail_for_memory();
+      if (failure->kind == Failure::too_many_triangles)
+        fail(program_.coarser.empty() ? failure->text
+                                      : fmt::format("{}: raise {}.{} or {}.triangle_limit", failure->text,
+                                                    program_.parameters, program_.coarser, program_.parameters));
+      fail(fmt::format("{}{}", failure->text, said(end)));
+    }
+    if (stream.complete() && end.code == 0) return;
+    if (out_of_memory(end)) fail_for_memory();
+    if (end.code == 127)
+      fail(
+          fmt::format("{} cannot be started{}: install {} again", program_.path.string(), said(end), program_.library));
+    fail(fmt::format("the reader of {} ended early (status {}){}: {}", program_.formats, end.code, said(end),
+                     program_.instead));
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(file_.string(), problem); }
+
+  [[noreturn]] void fail_for_memory() const {
+    const std::string coarser =
+        program_.coarser.empty() ? "" : fmt::format("raise {}.{}, ", program_.parameters, program_.coarser);
+    fail(fmt::format("reading it takes more memory than {:g} MiB: raise {}.memory_limit, {}or {}",
+                     static_cast<double>(limits_.memory) / (1024 * 1024), program_.parameters, coarser,
+                     program_.instead));
+  }
+
+  const fs::path& file_;
+  const ReaderProgram& program_;
+  const ChildLimits& limits_;
+};
+
+}  // namespace
+
+fs::path installed_reader(const std::string& name) {
+  static const char anchor = 0;
+  Dl_info info = {};
+  if (::dladdr(&anchor, &info) == 0 || info.dli_fname == nullptr) return name;
+  std::error_code ec;
+  const fs::path found = fs::canonical(info.dli_fname, ec);
+  const fs::path above = (ec ? fs::path(info.dli_fname) : found).parent_path().parent_path();
+  const fs::path beside = above / "lib" / "dismantle" / name;
+  return fs::exists(above / name, ec) || !fs::exists(beside, ec) ? above / name : beside;
+}
+
+std::vector<RawPart> read_in_child(const fs::path& file, const ReaderProgram& program,
+                                   const std::vector<std::string>& arguments, const ChildLimits& limits,
+                                   std::uint64_t max_triangles, const RunContext& context) {
+  const std::string name = file.filename().string();
+  const Failures failures(file, program, limits);
+  failures.check_program();
+  StreamReader stream(max_triangles, [&](const std::string& phase, std::size_t done, std::size_t total) {
+    context.progress(phase, done, total, name);
+  });
+  std::vector<std::string> all = {fs::absolute(file).string()};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const ChildEnd end = run_child(
+      program.path, all, limits, [&] { return context.should_stop(); },
+      [&](std::span<const std::byte> bytes) { return stream.feed(bytes); });
+  if (context.should_stop()) throw Error("stopped while reading " + file.string());
+  failures.check(end, stream);
+  for (const auto& warning : stream.warnings()) context.log(LogLevel::warning, fmt::format("{}: {}", name, warning));
+  auto parts = stream.take_parts();
+  if (parts.empty())
+    throw InputError(file.string(), "there is no body in it: nothing but curves, points or empty products");
+  context.log(LogLevel::info, fmt::format("{}: {} bodies, lengths in {}", name, parts.size(), parts.front().unit));
+  return parts;
+}
+
+}  // namespace dismantle::reader_process
