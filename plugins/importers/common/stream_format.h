@@ -10,7 +10,7 @@
 
 namespace dismantle::reader_process {
 
-inline constexpr char kMagic[8] = {'D', 'S', 'M', 'S', 'T', 'E', 'P', '1'};
+inline constexpr char kMagic[8] = {'D', 'S', 'M', 'R', 'E', 'A', 'D', '1'};
 inline constexpr std::uint32_t kMaxPayload = 1u << 20;  ///< bytes of one record
 inline constexpr std::uint32_t kMaxText = 1u << 12;     ///< bytes of one string
 inline constexpr std::uint32_t kMaxParents = 64;        ///< names in a path through the product structure
