@@ -8,7 +8,7 @@
 A switch is turned. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
 OUT/runs.jsonl: a run that is there is not made again, so that the work can be ended and resumed at any time. Random
 assemblies are samples with random dimensions and rotations. An assembly that takes longer than --seconds with the
-defaults is left out; a run gets ten times what the defaults take, at least ten seconds, and counts as lost after that.
+defaults is left out; a run may take 40 times what the defaults take, at least a minute, and counts as lost after that.
 """
 import argparse
 import collections
@@ -30,8 +30,12 @@ ALWAYS_LEFT_OUT = {  # what the user asks for, no way of finding it
     "verify.max_penetration", "immobility.deadline_share"}
 
 
-def call(command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
+def call(command, seconds=None):
+    """Exit status, output and errors; status None when it takes longer."""
+    try:
+        done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=seconds)
+    except subprocess.TimeoutExpired:
+        return None, "", ""
     return done.returncode, done.stdout, done.stderr
 
 
@@ -135,14 +139,12 @@ def plan(program, assembly, folder, settings, seconds):
     command = [program, "plan", assembly, "-o", out, "--threads", "1", "--format", "json", "-q"]
     for setting in settings:
         command += ["--set", setting]
-    if seconds:
-        command += ["--timeout", "%g" % seconds]
-    status, text, errors = call(command)
+    status, text, errors = call(command, seconds)
+    if status is None:  # no --timeout: a plan that is cut short by the clock differs for that reason
+        return {"status": 1, "removed": 0, "forced": 0, "seconds": seconds, "searches": 0, "moves": "none"}
     if status not in (0, 1):
         return {"status": status, "error": errors.strip()[-200:]}
     summary = json.loads(text.strip().splitlines()[-1])
-    if summary["plan"] is None:  # the time was up before anything could be planned
-        return {"status": status, "removed": 0, "forced": 0, "seconds": math.inf, "searches": 0, "moves": "none"}
     written = json.loads((out / "plan.json").read_text())
     moves = json.dumps([step["moves"] for step in written["disassembly"]])
     return {"status": status, "removed": summary["removed"], "forced": summary["forced"], "steps": summary["steps"],
@@ -221,7 +223,7 @@ def main():
 
     used = []
     for k, assembly in enumerate(assemblies):
-        base = record("", "", "", "", assembly, 10 * options.seconds)
+        base = record("", "", "", "", assembly, 40 * options.seconds)
         if base["status"] in (0, 1) and base["seconds"] <= options.seconds:
             used.append((assembly, base))
     print("%d of %d assemblies are used" % (len(used), len(assemblies)), flush=True)
@@ -239,7 +241,7 @@ def main():
         for assembly, base in used:
             if key.startswith(SEARCH_ONLY) and base["searches"] == 0:
                 continue  # nothing was searched for
-            run = record(key, label, value, default, assembly, max(10.0, 10 * base["seconds"]))
+            run = record(key, label, value, default, assembly, max(60.0, 40 * base["seconds"]))
             if run["status"] == 2:  # beyond its range
                 break
             asked += 1
