@@ -40,7 +40,7 @@ constexpr std::uint64_t kLook = 100;
 /// VerifyOptions::max_penetration, assembly units.
 constexpr double kTolerance = 0.01;
 /// Enough for any of the small assemblies.
-constexpr std::uint64_t kPlenty = 30'000;
+constexpr std::uint64_t kPlenty = 10'000;
 
 class PathPlannerContract : public testing::TestWithParam<std::string> {
  protected:

@@ -115,7 +115,7 @@ TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
     const Scene closed = small.cast_of({part.id});
     Scene open = closed;
     std::erase_if(open.fixed, [&](const PlacedPart& p) { return p.part == small.leaves; });
-    const Budget little{.max_depth = 2, .max_steps = 3'000};
+    const Budget little{.max_depth = 2, .max_steps = 1'000};
     Run first, strangers, anew, again, same_again;
     plan(first, which, little, {}, {}, &closed);
     ASSERT_FALSE(is_success(first.result.outcome())) << part.name;
