@@ -146,7 +146,7 @@ LevelSearch::End LevelSearch::follow(std::int32_t from, const Action& action, co
   }
   std::vector<Contact> contacts;
   world_->contacts(end.state, contacts);
-  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving, query_.tolerance)) ++touched_[p];
   if (!ends_.has_similar(end.state)) levels_.next.push_back(add(std::move(end)));
   return End::searched;
 }

@@ -47,7 +47,8 @@ struct Parameters : push::SearchParameters {
   }
 
   push::Tactics tactics() const {
-    push::Tactics t = push::tactics_of(*this);
+    push::Tactics t;
+    static_cast<push::SearchParameters&>(t) = *this;
     t.translating = {push::Stage::axes};
     t.turning = {push::Stage::axes};
     if (diagonals) push::add_diagonals(t);

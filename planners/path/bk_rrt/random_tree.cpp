@@ -78,7 +78,7 @@ void RandomTree::record_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving, query_.tolerance)) ++touched_[p];
 }
 
 Path RandomTree::path_to(std::uint32_t node, std::vector<std::uint32_t>& node_of_instant) const {

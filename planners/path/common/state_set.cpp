@@ -37,6 +37,11 @@ void StateSet::add(const State& state, std::uint32_t label) {
   cells_[key(entries_.back().centers.front(), 0, 0, 0)].push_back(static_cast<std::uint32_t>(entries_.size() - 1));
 }
 
+void StateSet::clear() {
+  entries_.clear();
+  cells_.clear();
+}
+
 bool StateSet::similar(const State& a, const State& b) const { return close(entry(a, 0), entry(b, 0)); }
 
 template <class F>
@@ -60,9 +65,9 @@ bool StateSet::has_similar(const State& state, std::uint32_t ignore_first, std::
   return found;
 }
 
-std::size_t StateSet::count_similar(const State& state, std::size_t most) const {
+std::size_t StateSet::count_similar(const State& state) const {
   std::size_t count = 0;
-  if (most > 0) near(entry(state, 0), [&](const Entry&) { return ++count < most; });
+  near(entry(state, 0), [&](const Entry&) { return ++count > 0; });
   return count;
 }
 

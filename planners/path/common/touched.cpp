@@ -15,11 +15,11 @@ std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched,
   return parts;
 }
 
-std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving) {
-  constexpr double kTouching = -1e-3;  // assembly units: a tenth of the default tolerance, for rounding
+std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
+                                  double distance) {
   std::vector<PartId> parts;
   for (const Contact& c : contacts)
-    if (c.depth > kTouching && !contains(moving, c.other)) parts.push_back(c.other);
+    if (c.depth > -distance && !contains(moving, c.other)) parts.push_back(c.other);
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   return parts;

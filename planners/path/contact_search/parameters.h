@@ -5,7 +5,7 @@
 
 namespace dismantle::contact_search {
 
-struct Parameters : push::SearchParameters {
+struct Parameters : push::SearchParameters, push::ProposalParameters {
   bool proposals = true;
   bool twists = true;
   bool novelty = true;
@@ -23,10 +23,13 @@ struct Parameters : push::SearchParameters {
     s.add("novelty", &Parameters::novelty,
           {.doc = "Expand states first that are unlike the states expanded before. Off: first in, first out."});
     push::describe_effort(s);
+    push::describe_proposals(s);
   }
 
   push::Tactics tactics() const {
-    push::Tactics t = push::tactics_of(*this);
+    push::Tactics t;
+    static_cast<push::SearchParameters&>(t) = *this;
+    static_cast<push::ProposalParameters&>(t) = *this;
     t.own_axes = true;
     t.novelty = novelty;
     t.first_rank = 1;  // free directions and axes before screws

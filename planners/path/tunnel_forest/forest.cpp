@@ -133,7 +133,7 @@ void Forest::record_contacts(const State& state) {
   if (!sees_contacts_) return;
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  for (const PartId p : path::touched_parts(contacts, query_.scene.moving)) ++touched_[p];
+  for (const PartId p : path::touched_parts(contacts, query_.scene.moving, query_.tolerance)) ++touched_[p];
 }
 
 Forest::Index Forest::add_trajectory(Index from, const LocalPlanner::Trajectory& trajectory) {

@@ -12,19 +12,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Contacts further away than this (assembly units) do not constrain: about what is visible of a contact's
-/// surroundings.
-constexpr double kTouching = 0.02;
-/// Normals closer than this (cosine) count as one.
-constexpr double kSameNormal = 0.9994;  // 2 degrees
-constexpr double kSameDirection = 0.999;
-constexpr std::size_t kMostNormals = 16, kMostDirections = 8;
-/// A direction may lead into a contact by this much (sine): facets of round fits.
-constexpr double kInto = 0.02;
-/// Leaning: sideways share of the push, and how square to the way a wall has to be.
-constexpr double kLean = 0.5, kBeside = 0.3;
-constexpr std::size_t kMostLeaning = 32;
-
 /// `torque` for a body of unit torque arm.
 Action turn(const World& world, const Vec3& torque, const Vec3& force) {
   Action a;
@@ -120,37 +107,39 @@ std::vector<Action> diagonal_actions(const World& world, double force, const Eig
   return actions;
 }
 
-Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
-                   const Extents& extents) {
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Extents& extents,
+                   const ProposalParameters& parameters) {
+  const double same = std::cos(parameters.facet_angle), into = std::sin(parameters.facet_angle);
+  const auto most = static_cast<std::size_t>(parameters.free_directions);
   struct Cluster {
     Vec3 normal;
     std::size_t count;
   };
   std::vector<Cluster> clusters;
   for (const Contact& c : contacts) {
-    if (c.depth < -kTouching || c.on_edge || path::contains(moving, c.other)) continue;
-    const auto same = std::find_if(clusters.begin(), clusters.end(),
-                                   [&](const Cluster& k) { return k.normal.dot(c.normal) > kSameNormal; });
-    if (same != clusters.end())
-      ++same->count;
+    if (c.on_edge || path::contains(moving, c.other)) continue;
+    const auto known =
+        std::find_if(clusters.begin(), clusters.end(), [&](const Cluster& k) { return k.normal.dot(c.normal) > same; });
+    if (known != clusters.end())
+      ++known->count;
     else
       clusters.push_back({c.normal, 1});
   }
   std::stable_sort(clusters.begin(), clusters.end(),
                    [](const Cluster& a, const Cluster& b) { return a.count > b.count; });
-  if (clusters.size() > kMostNormals) clusters.resize(kMostNormals);
+  if (clusters.size() > 2 * most) clusters.resize(2 * most);  // two normals make a direction
   Freedom freedom;
   for (const Cluster& c : clusters) freedom.normals.push_back(c.normal);
 
   const auto& n = freedom.normals;
   const auto propose = [&](const Vec3& direction) {
     const double length = direction.norm();
-    if (length < 0.05) return;  // all but parallel: says nothing
+    if (length < into) return;  // parallel normals
     const Vec3 d = direction / length;
     for (const Vec3& normal : n)
-      if (normal.dot(d) < -kInto) return;
+      if (normal.dot(d) < -into) return;
     for (const Vec3& known : freedom.directions)
-      if (known.dot(d) > kSameDirection) return;
+      if (known.dot(d) > same) return;
     freedom.directions.push_back(d);
   };
   for (std::size_t i = 0; i < n.size(); ++i)
@@ -162,16 +151,16 @@ Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<Place
   for (const Vec3& normal : n) propose(normal);
   std::stable_sort(freedom.directions.begin(), freedom.directions.end(),
                    [&](const Vec3& a, const Vec3& b) { return extents.way_out(a) < extents.way_out(b) - 1e-9; });
-  if (freedom.directions.size() > kMostDirections) freedom.directions.resize(kMostDirections);
+  if (freedom.directions.size() > most) freedom.directions.resize(most);
   return freedom;
 }
 
-std::vector<Vec3> leaning(const Freedom& freedom) {
+std::vector<Vec3> leaning(const Freedom& freedom, double lean) {
   std::vector<Vec3> directions;
   for (const Vec3& d : freedom.directions)
     for (const Vec3& n : freedom.normals)
-      if (std::abs(d.dot(n)) < kBeside && directions.size() < kMostLeaning)
-        directions.push_back((d - kLean * n).normalized());
+      if (d.dot(n) < lean)  // else the push leads away from the wall
+        directions.push_back((d - lean * n).normalized());
   return directions;
 }
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "dismantle/path/placed_parts.h"
 #include "dismantle/push/screw_fit.h"
@@ -10,25 +9,6 @@
 
 namespace dismantle::push {
 namespace {
-
-/// Distance between two checks of penetration on a screw: as it begins, the longest that it grows to in the first turn,
-/// and the shortest tried before giving up (assembly units). What is thinner than a step may be jumped; the verifier
-/// sees it, and from then on steps do not grow.
-constexpr double kGlideStep = 0.1, kMostGlideStep = 2.4, kLeastGlideStep = 0.0125;
-/// Steps grow to this share of the way that was clear. After one full turn every
-/// side of the part has passed every side of its guide: from then on steps are shares of a turn, and the end of the motion is
-/// found to a share of it.
-constexpr double kGlideShare = 0.125, kTurnsShare = 0.25, kEndShare = 1.0 / 32;
-/// Penetration that counts as none, as a share of the tolerance.
-constexpr double kGlideDepthShare = 0.1;
-/// The room that a part is given before it glides on; assembly units.
-constexpr double kGlideClearance = 0.02;
-/// A glide that covers less is not worth another one.
-constexpr double kLeastGlide = 0.15;
-/// What is kept of a glide that got stuck.
-constexpr double kKept = 0.75;
-/// Distance between two checks of separation and of known states.
-constexpr double kGlideLook = 0.3;
 
 State moved(const State& start, const Twist& twist, const Eigen::Vector3d& center, double way) {
   State there = start;
@@ -43,40 +23,36 @@ Twist about(const Twist& twist, const Eigen::Vector3d& was, const Eigen::Vector3
 
 }  // namespace
 
-/// How far nothing is entered. `clear`: so far a screw much like this one was clear.
-Search::Stretch Search::glide(const Twist& twist, const State& start, double clear, std::uint32_t first) {
+/// Length over which the part penetrates nothing. `clear`: length that was clear on a similar screw.
+/// `origin`: state in which the run began; it is not known until the part has left it.
+Search::Stretch Search::glide(const Twist& twist, const State& start, const State& origin, double clear,
+                              std::uint32_t first) {
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
-  const double turn =
-      twist.angular.isZero(0) ? std::numeric_limits<double>::infinity() : 2 * std::numbers::pi / twist.angular.norm();
-  const auto longest_step = [&](double way) {
-    if (short_glides_) return kGlideStep;
-    return std::max(kGlideStep, way > turn ? kTurnsShare * way : std::min(kMostGlideStep, kGlideShare * way));
-  };
-  double way = 0, asked = 0, wall = std::numeric_limits<double>::infinity();
-  bool left_start = false;
+  // A step that grows may pass a thin obstacle; the verifier sees it, and from then on steps do not grow.
+  const double growth = short_glides_ ? 0 : tactics_.glide_growth;
+  double way = 0, wall = std::numeric_limits<double>::infinity();
+  bool left_origin = false;
   while (true) {
     if (out_of_budget()) return {GlideEnd::stop, way};
-    const double step = std::min(longest_step(std::max(way, clear)), 0.5 * (wall - way));
-    if (step < std::max(kLeastGlideStep, way > turn ? kEndShare * way : 0)) return {GlideEnd::blocked, way};
-    ++looks_;
+    const double step = std::min(std::max(glide_step(), growth * std::max(way, clear)), 0.5 * (wall - way));
+    if (step < query_.tolerance) return {GlideEnd::blocked, way};
+    ++state_checks_;
     if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min<std::uint64_t>(*limits_.steps_left, 1);
-    if (world_->penetration(moved(start, twist, center, way + step)) > kGlideDepthShare * query_.tolerance) {
+    if (world_->penetration(moved(start, twist, center, way + step)) > touch_distance()) {
       wall = way + step;
       continue;
     }
-    // All else is asked as often as if every step had been short.
-    const int pieces = std::max(1, static_cast<int>(std::ceil(step / kGlideLook - 1e-9)));
+    // Known states are searched for as often as if every step had been short.
+    const int pieces = static_cast<int>(std::ceil(step / glide_step()));
     for (int k = 1; k <= pieces; ++k) {
       const double along = way + k * step / pieces;
       const State there = moved(start, twist, center, along);
-      const bool ask = along >= asked + (way > turn ? kMostGlideStep : kGlideLook) * (1 - 1e-9);
-      if (ask) asked = along;
-      if (ask && world_->separated(there)) return {GlideEnd::out, along};
-      left_start = left_start || !seen_.similar(there, start);
-      if (left_start && seen_.has_similar(there, first, static_cast<std::uint32_t>(nodes_.size())))
+      left_origin = left_origin || !seen_.similar(there, origin);
+      if (left_origin && seen_.has_similar(there, first, static_cast<std::uint32_t>(nodes_.size())))
         return {GlideEnd::known, along};
     }
     way += step;
+    if (world_->separated(moved(start, twist, center, way))) return {GlideEnd::out, way};
   }
 }
 
@@ -85,14 +61,12 @@ void Search::record(const Twist& twist, double way, unsigned depth, Run& run) {
   const State start = run.state;
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
   State last = start;
-  double noted = 0;
-  const int instants = static_cast<int>(std::ceil(way / kGlideStep - 1e-9));
+  const int instants = static_cast<int>(std::ceil(way / glide_step()));
   for (int k = 1; k <= instants; ++k) {
     const double along = way * k / instants;
     run.state = moved(start, twist, center, along);
     run.way.push_back(path::poses_of(run.state));
-    if (along < noted + kGlideLook * (1 - 1e-9) || seen_.similar(run.state, last)) continue;
-    noted = along;
+    if (seen_.similar(run.state, last)) continue;
     last = run.state;
     run.last = add_node(run.last, depth, run.state, std::move(run.way), true);
     run.way.clear();
@@ -101,11 +75,10 @@ void Search::record(const Twist& twist, double way, unsigned depth, Run& run) {
   run.length += way;
 }
 
-/// Follows a screw. Where the way ends, the part is put in the middle of its room a little before, which tells the
-/// screw better, and it starts again from where it began: one screw for all of the way is what a thread is, and what
-/// the verifier proves with least effort. Where that leads no further the surface has no screw of its own, as a bent
-/// tube: the curve is followed from there by a screw for each piece. What remains is simulated with a wrench that turns
-/// along.
+/// Follows a screw. Where it is blocked, the part is moved away from its contacts a little before, the screw is fitted
+/// to that pose, and the part restarts from where it began: a thread is one screw, and the verifier proves one screw
+/// with the least effort. Where the new screw leads no further the surface has no single screw, as a bent tube: the
+/// curve is followed piece by piece. The rest is simulated with a wrench that rotates with the part.
 Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result) {
   const State origin = nodes_[static_cast<std::size_t>(from)].state;
   const auto travel = [&](const State& a, const State& b) {
@@ -116,14 +89,14 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   run.state = origin;
   run.last = from;
   const auto first = static_cast<std::uint32_t>(nodes_.size());
-  world_->project_to_clearance(run.state, kGlideClearance);
+  world_->project_to_clearance(run.state, clearance());
   run.way.push_back(path::poses_of(run.state));
   State room = run.state, stuck = run.state;
   twist = about(twist, center_of(origin), center_of(run.state));
   Twist best_twist = twist, from_room = twist;
   double best = 0;  // of all screws from run.state
   while (true) {
-    const Stretch glided = glide(twist, run.state, best, first);
+    const Stretch glided = glide(twist, run.state, origin, best, first);
     if (glided.end == GlideEnd::stop) return RunEnd::stop;
     if (glided.end != GlideEnd::blocked) {
       record(twist, glided.way, depth, run);
@@ -133,24 +106,25 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
       return verified;
     }
     const Eigen::Vector3d center = center_of(run.state);
-    if (glided.way > best + kLeastGlide) {
+    if (glided.way > best + std::max(glide_step(), tactics_.glide_growth * best)) {
       best = glided.way;
       best_twist = twist;
-      const State on_screw = moved(run.state, twist, center, kKept * best);
+      const State on_screw = moved(run.state, twist, center, tactics_.glide_kept * best);
       room = on_screw;
-      world_->project_to_clearance(room, kGlideClearance);
-      from_room = fitted_screw(about(twist, center, center_of(room)), run.state.bodies[0].pose, room.bodies[0].pose,
-                               bodies_[0].center, world_->torque_arm(0), kKept * best * twist.angular.norm());
+      world_->project_to_clearance(room, clearance());
+      from_room =
+          fitted_screw(about(twist, center, center_of(room)), run.state.bodies[0].pose, room.bodies[0].pose,
+                       bodies_[0].center, world_->torque_arm(0), tactics_.glide_kept * best * twist.angular.norm());
       twist = about(from_room, center_of(room), center);
-      // Where the screw was right, something else is in the way.
-      if (travel(on_screw, room) > kGlideDepthShare * query_.tolerance) continue;
+      // Without a correction the screw was right, and something else is in the way.
+      if (travel(on_screw, room) > touch_distance()) continue;
       break;
     }
     if (best == 0) best = glided.way;
     const State end = moved(run.state, best_twist, center, best);
-    if (travel(stuck, end) < kLeastGlide) break;
+    if (travel(stuck, end) < glide_step()) break;
     stuck = end;
-    record(best_twist, kKept * best, depth, run);
+    record(best_twist, tactics_.glide_kept * best, depth, run);
     run.state = room;
     run.way.push_back(path::poses_of(run.state));
     best = 0;

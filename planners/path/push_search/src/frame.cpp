@@ -13,13 +13,6 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using geometry::FaceAxis;
 
-/// So many of the largest triangles tell the axes: more add nothing but the facets of round faces.
-constexpr std::size_t kMostTriangles = 600;
-/// Normals closer than this (cosine) belong to one axis, whichever way they point.
-constexpr double kSameAxis = 0.9994;
-/// Sine within which two normals count as square to each other.
-constexpr double kSquare = 0.02;
-
 std::vector<FaceAxis> facings(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
   std::vector<FaceAxis> all;
   for (const PlacedPart& p : parts) {
@@ -30,15 +23,15 @@ std::vector<FaceAxis> facings(const Assembly& assembly, const std::vector<Placed
       if (const double size = n.norm(); size > 1e-12) all.push_back({n / size, size});
     }
   }
-  geometry::sort_by_area(all, kMostTriangles);
+  geometry::sort_by_area(all);
   return all;
 }
 
 /// The axis with most area among those that are square to `to` (zero: all); zero when there is none.
-Vec3 main_axis(const std::vector<FaceAxis>& all, const Vec3& to) {
+Vec3 main_axis(const std::vector<FaceAxis>& all, const Vec3& to, double facet_angle) {
   std::vector<FaceAxis> axes;
   for (const FaceAxis& f : all)
-    if (std::abs(f.axis.dot(to)) <= kSquare) geometry::add_face(axes, f, kSameAxis);
+    if (std::abs(f.axis.dot(to)) <= std::sin(facet_angle)) geometry::add_face(axes, f, std::cos(facet_angle));
   FaceAxis best{Vec3::Zero(), 0};
   for (const FaceAxis& a : axes)
     if (a.area > best.area * (1 + 1e-6)) best = a;
@@ -80,13 +73,13 @@ Aabb box_along(const Assembly& assembly, const std::vector<PlacedPart>& parts, c
 
 }  // namespace
 
-Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene) {
+Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene, double facet_angle) {
   const auto moving = facings(assembly, scene.moving);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const Vec3 first = main_axis(moving, Vec3::Zero());
+  const Vec3 first = main_axis(moving, Vec3::Zero(), facet_angle);
   if (first.isZero(0)) return axes;
-  Vec3 second = main_axis(moving, first);
-  if (second.isZero(0)) second = main_axis(facings(assembly, scene.fixed), first);
+  Vec3 second = main_axis(moving, first, facet_angle);
+  if (second.isZero(0)) second = main_axis(facings(assembly, scene.fixed), first, facet_angle);
   if (second.isZero(0)) second = furthest_from(assembly, scene.moving, first);
   second -= first * first.dot(second);
   if (second.norm() < 1e-9) second = first.unitOrthogonal();
@@ -98,6 +91,8 @@ Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene) {
 
 Extents::Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes)
     : axes_(axes), moving_(box_along(assembly, scene.moving, axes)), fixed_(box_along(assembly, scene.fixed, axes)) {}
+
+double Extents::longest_way_out() const { return (moving_.hi - moving_.lo).norm() + (fixed_.hi - fixed_.lo).norm(); }
 
 double Extents::way_out(const Vec3& direction) const {
   const Vec3 d = axes_.transpose() * direction;

@@ -9,8 +9,6 @@
 namespace dismantle::push {
 namespace {
 
-constexpr std::uint64_t kStepsPerLevel = 2000;  // of a depth limit: simulated, translating as well as turning
-
 /// The result of the later search, with what the earlier one has counted and touched.
 PathResult merged(const PathResult& earlier, PathResult later) {
   later.stats += earlier.stats;
@@ -41,8 +39,8 @@ Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, 
   return search;
 }
 
-/// It ended without a path, though it had all that it asked for.
-bool in_vain(const PathResult& result) {
+/// It ended without a path, but neither by a limit of time nor of steps.
+bool ended_without_path(const PathResult& result) {
   return result.outcome() == Outcome::exhausted || result.outcome() == Outcome::depth_limit;
 }
 
@@ -104,25 +102,22 @@ std::shared_ptr<const Reached> ByTurns::reached() const {
   return reached;
 }
 
-/// Under a depth limit somebody asks for all parts in turn: most of them are
-/// blocked, and have to be found soon. A part that slides or turns in its play
-/// can do so for long, so simulated steps are limited, too. Where parts move
-/// independently, a state has many more actions, so it is simulated steps alone
-/// that are counted, and some part mostly turns, so that is searched from the
-/// first level on.
+/// Under a depth limit the sequence planner asks for all parts in turn: most of them are blocked, and the search has to
+/// end soon. A part can slide or rotate in its play for long, so simulated steps are limited, too. Where parts move
+/// independently, a state has many more actions, so only simulated steps are counted, and rotation is searched from the
+/// first level on, because one of the parts mostly rotates.
 std::vector<ContactSearch::Leg> ContactSearch::legs_of(const PathQuery& query, const Tactics& tactics) {
   if (tactics.motion != Motion::automatic)
     return {{tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid}};
   const unsigned depth = query.budget.max_depth;
   const auto level = static_cast<std::uint64_t>(depth);
+  const std::uint64_t share = static_cast<std::uint64_t>(tactics.level_steps) * level;
   if (!query.goal.any_of.empty()) {
     const unsigned rank = 1 + depth / 2;  // one driven, and two along one axis;
                                           // from the second level on across, too
-    const std::uint64_t share = static_cast<std::uint64_t>(tactics.simultaneous_steps) * level;
     return {{MotionSpace::translation, rank, 0, share}, {MotionSpace::rigid, rank, 0, share}};
   }
   // The rank: at the first level what the contacts leave free, and the axes.
-  const std::uint64_t share = kStepsPerLevel * level;
   std::vector<Leg> legs{
       {MotionSpace::translation, depth, static_cast<std::uint64_t>(tactics.translation_nodes) * level, share}};
   if (depth > 1)
@@ -199,9 +194,8 @@ void ContactSearch::begin_leg(const Leg& leg, Search search) {
   if (leg.share) share_left_ = share_ = *leg.share - std::min(current_->spared(), *leg.share / 2);
 }
 
-/// What ends because it has had its share may go on another time. The work that
-/// an earlier search has spared counts, up to a half. `exhausted`: on to the
-/// next.
+/// A leg that ends because it has had its share may be resumed. The work that an earlier search has saved counts, up to
+/// a half. `exhausted`: the next leg follows.
 SearchStatus ContactSearch::run_leg(const Leg& leg, Search::Limits limits) {
   if (!current_) begin_leg(leg, begun(query_, leg.space, tactics_, context_));
   limits.rank = leg.rank;
@@ -235,7 +229,7 @@ void ContactSearch::keep_tree() {
 
 PathResult ContactSearch::result() {
   PathResult result = now_;
-  if (!in_vain(result) && result.outcome() != Outcome::timeout) return result;
+  if (!ended_without_path(result) && result.outcome() != Outcome::timeout) return result;
   if (!turns_) keep_tree();
   result.state = turns_ ? turns_->reached() : reached_;
   return result;

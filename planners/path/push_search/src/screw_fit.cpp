@@ -26,8 +26,7 @@ geometry::Twist fitted_screw(const geometry::Twist& rough, const Pose& from, con
   double half = std::atan2(q.vec().norm(), q.w());  // in [0, pi]
   Eigen::Vector3d about = q.vec().norm() > 1e-9 ? Eigen::Vector3d(q.vec().normalized()) : axis;
   if (about.dot(axis) < 0) about = -about, half = -half;
-  constexpr double kTurn = 2 * std::numbers::pi;
-  const double angle = 2 * half + kTurn * std::round((turned - 2 * half) / kTurn);
+  const double angle = 2 * half + 2 * std::numbers::pi * std::round((turned - 2 * half) / (2 * std::numbers::pi));
   if (std::abs(std::sin(half)) > kTellsAxis && about.dot(axis) > 0.9) {
     axis = about;
     const Eigen::Vector3d way = is - was, across = way - axis * axis.dot(way);

@@ -1,9 +1,12 @@
 #include "dismantle/push/search.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/path/candidates.h"
 #include "dismantle/path/placed_parts.h"
 #include "dismantle/path/touched.h"
@@ -11,27 +14,12 @@
 namespace dismantle::push {
 namespace {
 
-/// An end state that differs from a known one by less than this share of the similarity thresholds is the same.
-constexpr double kSameShare = 0.2;
-/// States nearer to each other than so many times the similarity thresholds are in the same place.
-constexpr double kPlaceShare = 5;
-/// Beyond this rank one state waits no longer than another.
-constexpr unsigned kMostRank = 4;
-/// States in the middle of runs wait until the ends have been given all their actions.
-constexpr unsigned kMiddleRank = 2;
-/// So do states in which only one part has moved, where each moves in its own way.
-constexpr unsigned kAloneRank = 2;
-/// Turns that lean end there, in rad.
-constexpr double kOnceRound = 6.5;
-/// Searches before overlap is granted everywhere; a strict world may leave a part room to wander.
-constexpr std::uint64_t kStrictNodes = 24;
-
 bool same_path(const Path& a, const Path& b) {
-  constexpr double kSame = 1e-6;
+  const double same = std::sqrt(geometry::kRounding);  // simulated twice, in the same way
   if (a.size() != b.size()) return false;
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].size(); ++i)
-      if ((a[k][i].t - b[k][i].t).norm() > kSame || angle_between(a[k][i].q, b[k][i].q) > kSame) return false;
+      if ((a[k][i].t - b[k][i].t).norm() > same || angle_between(a[k][i].q, b[k][i].q) > same) return false;
   return true;
 }
 
@@ -43,20 +31,19 @@ Search::Search(const PathQuery& query, MotionSpace space, const Tactics& tactics
       context_(context),
       world_(query.simulator.world(query.assembly, query.prepared, query.scene, space)),
       bodies_(path::balls_of(*world_)),
-      axes_(tactics.own_axes ? own_axes(query.assembly, query.scene) : Eigen::Matrix3d::Identity()),
+      axes_(tactics.own_axes ? own_axes(query.assembly, query.scene, tactics.facet_angle)
+                             : Eigen::Matrix3d::Identity()),
       extents_(query.assembly, query.scene, axes_),
       stages_(!query.goal.any_of.empty()          ? tactics.each_its_way
               : space == MotionSpace::translation ? tactics.translating
                                                   : tactics.turning),
       seen_(bodies_, tactics.similarity_translation, tactics.similarity_rotation),
-      fine_(bodies_, kSameShare * tactics.similarity_translation, kSameShare * tactics.similarity_rotation),
-      places_(bodies_, kPlaceShare * tactics.similarity_translation, tactics.similarity_rotation) {}
+      fine_(bodies_, tactics.end_similarity * tactics.similarity_translation,
+            tactics.end_similarity * tactics.similarity_rotation),
+      places_(bodies_, tactics.place_similarity * tactics.similarity_translation, tactics.similarity_rotation) {}
 
 void Search::clear() {
-  seen_ = path::StateSet(bodies_, tactics_.similarity_translation, tactics_.similarity_rotation);
-  fine_ =
-      path::StateSet(bodies_, kSameShare * tactics_.similarity_translation, kSameShare * tactics_.similarity_rotation);
-  places_ = path::StateSet(bodies_, kPlaceShare * tactics_.similarity_translation, tactics_.similarity_rotation);
+  for (path::StateSet* states : {&seen_, &fine_, &places_}) states->clear();
   nodes_.clear();
   waiting_.clear();
   beyond_limit_ = 0;
@@ -87,12 +74,13 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 }
 
 unsigned Search::rank(const Node& node) const {
-  unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? kMiddleRank : 0);
-  // What one part does alone there are other means for.
+  const auto lag = static_cast<unsigned>(tactics_.middle_lag);
+  unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? lag : 0);
+  // Motions of one part alone are the subject of other queries.
   if (!query_.goal.any_of.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
-    stage += kAloneRank;
+    stage += lag;
   if (!tactics_.novelty) return stage;
-  const auto near = static_cast<unsigned>(places_.count_similar(node.state, kMostRank));
+  const auto near = static_cast<unsigned>(places_.count_similar(node.state));
   // A state is in its own place once it has been searched from.
   return stage + near - (node.stage > 0 && near > 0 ? 1 : 0);
 }
@@ -122,7 +110,7 @@ Path Search::path_to(std::int32_t node) const {
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
-  std::vector<PartId> parts = path::touched_parts(contacts, query_.scene.moving);
+  std::vector<PartId> parts = path::touched_parts(contacts, query_.scene.moving, query_.tolerance);
   for (PartId p : parts) ++touched_[p];
   return parts;
 }
@@ -139,7 +127,7 @@ bool Search::out_of_budget() const {
          limits_.deadline.passed();
 }
 
-/// The state of node `last` is out: is the way there valid?
+/// Checks the path to node `last`, where the part is separated.
 Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult& result) {
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
@@ -172,7 +160,7 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
 Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsigned depth,
                               PathResult& result) {
   const auto first_of_run = static_cast<std::uint32_t>(nodes_.size());
-  // Who leans comes by places that were seen from the middle of their room: he goes on, but round only once.
+  // A part that leans passes places that were seen from the middle of their room: it goes on, but round only once.
   const bool leans = turning() && stage == Stage::leaning;
   const path::StateSet& known = leans ? fine_ : seen_;
   double turned = 0;
@@ -196,11 +184,11 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
     bool ended = report.stalled;
     if (turning()) {
       // The start of the run is a past state too, but only once the run has left it.
-      // So are its own: else a part that spins freely would do so for ever.
+      // So are states of the run itself: else a part that rotates freely would never stop.
       const auto size = static_cast<std::uint32_t>(nodes_.size());
       left_start = left_start || !known.similar(state, start);
       if (leans) {
-        ended = ended || turned > kOnceRound || (left_start && known.has_similar(state, first_of_run, size));
+        ended = ended || turned > 2 * std::numbers::pi || (left_start && known.has_similar(state, first_of_run, size));
       } else {
         while (left_behind < size && !known.similar(state, nodes_[left_behind].state)) ++left_behind;
         ended = ended || (left_start && known.has_similar(state, left_behind, size));
@@ -218,7 +206,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
   }
   const std::vector<PartId> touched = note_contacts(state);
   if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
-    // Nothing gained since the last recorded state: that one is the end of the run.
+    // Nothing is gained since the last recorded state: that one is the end of the run.
     note_touched(last, touched);
     if (last == from) return RunEnd::blocked;
     Node& end = nodes_[static_cast<std::size_t>(last)];
@@ -237,12 +225,12 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
 
 void Search::finish(PathResult& result) const {
   result.stats = {.steps = steps_,
-                  .state_checks = looks_,
+                  .state_checks = state_checks_,
                   .nodes = nodes_.size(),
                   .refused = refused_,
                   .resumed_nodes = resumed_,
                   .spared = spared_,
-                  .cost = static_cast<double>(steps_ + looks_),
+                  .cost = static_cast<double>(steps_ + state_checks_),
                   .extra = {{"expanded", static_cast<double>(expanded_before_ + expanded_)}}};
   result.blocked_by = path::most_touched(touched_, query_.scene.moving);
   result.best_pose = best_;
@@ -270,16 +258,16 @@ std::vector<Action> Search::actions_at(const Node& node, Stage stage) {
   if (turning()) return leaning_turns(node);
   std::vector<Contact> contacts;
   world_->contacts(node.state, contacts);
-  const Freedom freedom = freedom_of(contacts, query_.scene.moving, extents_);
-  for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom))
+  const Freedom freedom = freedom_of(contacts, query_.scene.moving, extents_, tactics_);
+  for (const auto& d : stage == Stage::free ? freedom.directions : leaning(freedom, tactics_.lean))
     actions.push_back(push(*world_, tactics_.force, d));
   return actions;
 }
 
-/// Gives a state its next stage of actions.
+/// Applies the next stage of actions to a state.
 Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   ++expanded_;
-  const std::uint64_t before = steps_ + looks_;
+  const std::uint64_t before = steps_ + state_checks_;
   const std::size_t stage = nodes_[static_cast<std::size_t>(id)].stage++;
   if (stage == 0) places_.add(nodes_[static_cast<std::size_t>(id)].state, 0);
   const auto over = [&](RunEnd end) {
@@ -297,7 +285,7 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
   }
   if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // a resumed search does the rest
   if (over(end)) return end == RunEnd::blocked ? RunEnd::refused : end;
-  nodes_[static_cast<std::size_t>(id)].work += steps_ + looks_ - before;
+  nodes_[static_cast<std::size_t>(id)].work += steps_ + state_checks_ - before;
   if (stage + 1 < stages_.size()) enqueue(id);
   return RunEnd::blocked;
 }
@@ -307,7 +295,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
     sweep_end_ = expanded_ + expansions - std::min(kept_, expansions / 2);
   while (!waiting_.empty() || take_up_middles()) {
     if (expansions > 0 && expanded_ >= sweep_end_) return RunEnd::blocked;
-    paused_ = limits_.pause_after > 0 && steps_ + looks_ >= pause_at_;
+    paused_ = limits_.pause_after > 0 && steps_ + state_checks_ >= pause_at_;
     sweep_paused_ = paused_ && limits_.expansions > 0;
     if (paused_) return RunEnd::blocked;
     const Waiting next = *waiting_.begin();
@@ -326,7 +314,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
   return RunEnd::blocked;
 }
 
-/// Nothing waits any more: search from the middle of the runs so far. False when nothing is new there.
+/// Enqueues the states in the middle of the runs so far, when no other state waits. False when none of them is new.
 bool Search::take_up_middles() {
   passed_before_ += passed_.size();
   for (Middle& m : std::exchange(passed_, {}))
@@ -336,7 +324,7 @@ bool Search::take_up_middles() {
 
 PathResult Search::run(const Limits& limits) {
   limits_ = limits;
-  pause_at_ = steps_ + looks_ + limits.pause_after;
+  pause_at_ = steps_ + state_checks_ + limits.pause_after;
   paused_ = false;
   PathResult result;
   if (nodes_.empty()) reset();
@@ -354,16 +342,18 @@ PathResult Search::run(const Limits& limits) {
     if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }
   while (end != RunEnd::solved) {
+    // A strict world may leave a part room to move far.
+    const auto strict_nodes = static_cast<std::uint64_t>(tactics_.translation_nodes);
     const bool overlapping = may_relax_ && world_->overlap_is_local();
-    end = sweep(overlapping ? std::min(limits.expansions - 1, kStrictNodes - 1) + 1 : limits.expansions, result);
+    end = sweep(overlapping ? std::min(limits.expansions - 1, strict_nodes - 1) + 1 : limits.expansions, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(tactics_.max_refusals)) {
-      reset();  // what was found so far may have leaked through the same place
+      reset();  // states found so far may have passed the same place
       continue;
     }
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->allow_overlap_everywhere();
     may_relax_ = false;
-    reset();  // once more, with all the overlap that the verifier allows
+    reset();  // the search restarts with all the overlap that the verifier allows
   }
   if (end == RunEnd::solved) {
     result.message.clear();

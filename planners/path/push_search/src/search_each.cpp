@@ -4,14 +4,6 @@
 #include "dismantle/push/search.h"
 
 namespace dismantle::push {
-namespace {
-
-/// Room that parts are given on their way out, where there is so much (assembly units).
-constexpr double kRoom = 0.02;
-/// How far the smoother path may be off what was simulated (assembly units).
-constexpr double kSmooth = 2e-3;
-
-}  // namespace
 
 /// Is one part separated from all others, or, without a goal of single parts, the group from the rest?
 bool Search::out(const State& state) {
@@ -42,11 +34,11 @@ double Search::way_from_start(const State& state) const {
 /// Parts that drive each other rub along their surfaces all the way, which is hard to prove harmless: the same path,
 /// smoother, with some room between them wherever there is any. Begin and end stay as they are.
 Path Search::with_room(const Path& rubbing) {
-  Path path = path::thin(rubbing, bodies_, kSmooth);
+  Path path = path::thin(rubbing, bodies_, touch_distance());
   for (std::size_t k = 1; k + 1 < path.size() && !out_of_budget(); ++k) {
     State state = world_->initial_state();
     for (std::size_t i = 0; i < bodies_.size(); ++i) state.bodies[i].pose = path[k][i];
-    world_->project_to_clearance(state, kRoom);
+    world_->project_to_clearance(state, clearance());
     for (std::size_t i = 0; i < bodies_.size(); ++i) path[k][i] = state.bodies[i].pose;
   }
   return path;

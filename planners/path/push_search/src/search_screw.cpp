@@ -10,30 +10,22 @@
 #include "dismantle/push/touching_surfaces.h"
 
 namespace dismantle::push {
-namespace {
-
-/// Distances along a screw at which the hulls are tested for separation: the first one (assembly units), the factor by which
-/// they grow, the most. In the first turn none of them is further than the share of a turn from the one before.
-constexpr double kFirstWayOut = 0.1, kWayOutFactor = 1.25, kMostWayOut = 2000, kWayOutShare = 1.0 / 16;
-constexpr double kFullTurn = 2 * std::numbers::pi;
-/// A push that feels goes on by this share of the planning step until something is as near as that (assembly units),
-/// or so many times.
-constexpr double kFeelShare = 0.08, kFelt = 2e-3;
-constexpr int kFeelLooks = 40;
-/// Share of turning from which on a screw is one, and the axial share of a push that leans.
-constexpr double kTurns = 0.3, kAslant = 0.5;
-}  // namespace
 
 /// How far along the screw the hulls are apart, were nothing in the way; roughly, infinite if they never are.
 double Search::way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center) {
-  const double most = twist.angular.isZero(0) ? kMostWayOut / 10 : kMostWayOut;
-  const double turn = twist.angular.isZero(0) ? most : kFullTurn / twist.angular.norm();
+  // A part that advances by less than the tolerance in a turn does not leave by that, but may be out for a part of the
+  // turn.
+  const bool turns = !twist.angular.isZero(0);
+  const double turn = turns ? 2 * std::numbers::pi / twist.angular.norm() : 0;
+  const double advance = turns ? std::abs(twist.linear.dot(twist.angular.normalized())) : twist.linear.norm();
+  const bool advances = !turns || advance * turn > query_.tolerance;
+  const double most = advances ? extents_.longest_way_out() / advance : turn;
   State there = from;
-  // A part that turns about its axis and does not advance is out for a part of the turn only, if it ever is.
   const auto next = [&](double way) {
-    return way < turn ? std::min(way * kWayOutFactor, way + kWayOutShare * turn) : way * kWayOutFactor;
+    const double step = std::max(glide_step(), tactics_.glide_growth * way);
+    return way + (way < turn ? std::min(step, tactics_.glide_growth * turn) : step);
   };
-  for (double way = kFirstWayOut; way < most; way = next(way)) {
+  for (double way = glide_step(); way < most; way = next(way)) {
     for (std::size_t i = 0; i < there.bodies.size(); ++i)
       there.bodies[i].pose = geometry::moved_along(from.bodies[i].pose, twist, center, way);
     if (world_->separated(there)) return way;
@@ -41,27 +33,22 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   return std::numeric_limits<double>::infinity();
 }
 
-/// What the bodies touch first when they are pushed, every way in turn, as if they did where they are: a part that
-/// stands free in its play touches nothing, though surfaces close by guide it.
-void Search::feel(const State& state, std::vector<Contact>& contacts) {
+/// What the bodies touch when they are pushed along each axis, as if they touched it where they are: a part that stands
+/// free in its play touches nothing, though the surfaces around guide it.
+void Search::add_contacts_of_pushes(const State& state, std::vector<Contact>& contacts) {
   std::vector<Contact> there;
   for (const Action& action : unit_actions(*world_, tactics_.force, false, axes_)) {
-    State moved_on = state;
-    StepReport report;
-    double nearest = -1;
-    for (int look = 0; look < kFeelLooks && nearest < -kFelt && report.finite && !report.stalled; ++look) {
-      if (out_of_budget()) return;
-      report = world_->advance(moved_on, action, kFeelShare * tactics_.time_step);
-      steps_ += report.steps;
-      if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
-      world_->contacts(moved_on, there);
-      for (const Contact& c : there) nearest = std::max(nearest, c.depth);
-    }
+    if (out_of_budget()) return;
+    State pushed = state;
+    const StepReport report = world_->advance(pushed, action, tactics_.time_step);
+    steps_ += report.steps;
+    if (limits_.steps_left != nullptr) *limits_.steps_left -= std::min(*limits_.steps_left, report.steps);
     if (!report.finite) continue;
+    world_->contacts(pushed, there);
     for (Contact& c : there) {
       for (std::size_t i = 0; i < state.bodies.size(); ++i) {
         if (query_.scene.moving[i].part != c.moving) continue;
-        const Pose back = state.bodies[i].pose * moved_on.bodies[i].pose.inverse();
+        const Pose back = state.bodies[i].pose * pushed.bodies[i].pose.inverse();
         c.point = back * c.point;
         c.normal = back.q * c.normal;
       }
@@ -78,7 +65,7 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   world_->contacts(node.state, contacts);
   std::vector<Twist> slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   if (slips.empty()) {
-    feel(node.state, contacts);
+    add_contacts_of_pushes(node.state, contacts);
     slips = geometry::slippable_motions(touching_surfaces(contacts, query_.scene.moving), center, arm);
   }
   std::vector<std::pair<double, Twist>> by_way;
@@ -128,9 +115,9 @@ bool Search::screw_leads_out() {
 std::vector<Action> Search::leaning_turns(const Node& node) {
   std::vector<Action> actions;
   for (const Twist& twist : twists_at(node)) {
-    if (twist.angular.norm() * world_->torque_arm(0) < kTurns) continue;
+    if (twist.angular.norm() * world_->torque_arm(0) < twist.linear.norm()) continue;
     const Eigen::Vector3d axis = twist.angular.normalized();
-    for (const double sign : {1.0, -1.0}) actions.push_back(along(twist, node.state, sign * kAslant * axis));
+    for (const double sign : {1.0, -1.0}) actions.push_back(along(twist, node.state, sign * tactics_.lean * axis));
   }
   return actions;
 }

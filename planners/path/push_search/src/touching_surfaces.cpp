@@ -3,18 +3,11 @@
 #include "dismantle/path/placed_parts.h"
 
 namespace dismantle::push {
-namespace {
-
-/// Contacts further away than this (assembly units) do not constrain.
-constexpr double kNearSurface = 0.05;
-
-}  // namespace
-
 std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact>& contacts,
                                                        const std::vector<PlacedPart>& moving) {
   std::vector<geometry::SurfaceSample> samples;
   for (const Contact& c : contacts) {
-    if (c.depth < -kNearSurface || c.on_edge) continue;
+    if (c.on_edge) continue;
     if (path::contains(moving, c.other)) continue;
     samples.push_back({c.point, c.normal});
   }

@@ -17,10 +17,10 @@ class StateSet {
   StateSet(std::vector<Ball> bodies, double translation, double rotation);
 
   void add(const State& state, std::uint32_t label);
+  void clear();
   /// True when a state is similar whose label lies outside [first, last) (own run: labels are given in order).
   bool has_similar(const State& state, std::uint32_t ignore_first = 0, std::uint32_t ignore_last = 0) const;
-  /// How many states are similar, counted up to `most`.
-  std::size_t count_similar(const State& state, std::size_t most) const;
+  std::size_t count_similar(const State& state) const;
   bool similar(const State& a, const State& b) const;
   std::size_t size() const { return entries_.size(); }
 

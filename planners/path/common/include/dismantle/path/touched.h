@@ -12,7 +12,8 @@ namespace dismantle::path {
 /// Fixed parts sorted by the number of touches, most first; equal ones by number.
 std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched, const std::vector<PlacedPart>& moving);
 
-/// Fixed parts of the contacts that touch, ascending, without repetition.
-std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving);
+/// Fixed parts of the contacts that are nearer than `distance`, ascending, without repetition.
+std::vector<PartId> touched_parts(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving,
+                                  double distance);
 
 }  // namespace dismantle::path

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dismantle/push/frame.h"
+#include "dismantle/push/tactics.h"
 #include "dismantle/simulator.h"
 
 namespace dismantle::push {
@@ -36,8 +37,9 @@ struct Freedom {
 
 /// Directions are the normals themselves and the lines along which two contacts slide, as far as all other contacts
 /// let them: extreme rays of the cone of feasible translations. Few, and they turn with the assembly.
-Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Extents& extents);
+Freedom freedom_of(const std::vector<Contact>& contacts, const std::vector<PlacedPart>& moving, const Extents& extents,
+                   const ProposalParameters& parameters);
 /// Slide along a free direction and lean on a wall: the way to find an opening in it.
-std::vector<Eigen::Vector3d> leaning(const Freedom& freedom);
+std::vector<Eigen::Vector3d> leaning(const Freedom& freedom, double lean);
 
 }  // namespace dismantle::push

@@ -1,4 +1,4 @@
-/// Parameters that all planners searching over pushes have.
+/// Declarations of the parameters that planners searching over pushes have.
 #pragma once
 
 #include "dismantle/parameters.h"
@@ -6,23 +6,6 @@
 #include "dismantle/push/tactics.h"
 
 namespace dismantle::push {
-
-/// A planner's own struct derives from this one.
-struct SearchParameters {
-  Motion motion = Motion::automatic;
-  // Table 6.
-  double time_step = 0.1;
-  double force = 100;
-  double similarity_translation = 0.05;
-  double similarity_rotation = 0.5;
-  // Beyond Algorithm 1; see the README of bfs.
-  bool diagonals = true;
-  std::int64_t intermediate = 256;
-  double thinning = 1e-4;
-  std::int64_t max_refusals = 8;
-  std::int64_t translation_nodes = 24;
-  std::int64_t rotation_nodes = 8;
-};
 
 /// Declares the first of them, for a struct that derives from SearchParameters.
 template <class P>
@@ -37,7 +20,7 @@ void describe_search(Schema<P>& s) {
         {.unit = "s",
          .min = 1e-3,
          .max = 10,
-         .doc = "Planning time step: an action runs so long between two looks (table 6)."});
+         .doc = "Planning time step: time for which an action runs before the state is examined (table 6)."});
   s.add("force", inherited<P>(&SearchParameters::force),
         {.unit = "N",
          .min = 0,
@@ -50,16 +33,18 @@ void describe_search(Schema<P>& s) {
          .min = 0,
          .max = 3.2,
          .min_open = true,
-         .doc = "... if turned by less than this, too (table 6)."});
+         .doc = "States are similar if their orientations also differ by less than this (table 6)."});
 }
 
 /// Declares the others; they come after the actions of the planner itself.
 template <class P>
 void describe_effort(Schema<P>& s) {
   using path::inherited;
-  s.add("diagonals", inherited<P>(&SearchParameters::diagonals),
-        {.doc =
-             "When the unit actions are exhausted, also push along the 20 diagonals; turning, turn and pull at once."});
+  s.add(
+      "diagonals", inherited<P>(&SearchParameters::diagonals),
+      {.doc =
+           "When the unit actions are exhausted, also push along the 20 diagonals; with rotation, apply a torque and a "
+           "force along its axis together."});
   s.add(
       "intermediate", inherited<P>(&SearchParameters::intermediate),
       {.unit = "1",
@@ -67,6 +52,18 @@ void describe_effort(Schema<P>& s) {
        .max = 1e6,
        .doc = "States in the middle of runs to search from when their ends are exhausted (turning: any number above 0 "
               "means all of them, after the ends of the same depth)."});
+  s.add("end_similarity", inherited<P>(&SearchParameters::end_similarity),
+        {.unit = "similarity",
+         .min = 1e-3,
+         .max = 1,
+         .doc = "Advanced. An end of a run is new unless it is nearer to a known state than this share of "
+                "`similarity_translation` and `similarity_rotation`. Smaller: more states are kept."});
+  s.add("middle_lag", inherited<P>(&SearchParameters::middle_lag),
+        {.unit = "1",
+         .min = 0,
+         .max = 100,
+         .doc = "Advanced. States in the middle of runs, and states in which one part alone has moved where each moves "
+                "in its own way, wait as long as states that have had this many stages of actions."});
   path::add_thinning(s, inherited<P>(&SearchParameters::thinning));
   s.add("max_refusals", inherited<P>(&SearchParameters::max_refusals),
         {.unit = "1", .min = 0, .doc = "Paths that the verifier may refuse before the search gives up."});
@@ -78,21 +75,76 @@ void describe_effort(Schema<P>& s) {
         {.unit = "1",
          .min = 1,
          .doc = "Under `motion: auto` and a depth limit: states searched with rotation per level of depth."});
+  s.add(
+      "level_steps", inherited<P>(&SearchParameters::level_steps),
+      {.unit = "1",
+       .min = 1,
+       .max = 1e12,
+       .doc = "Advanced. Under `motion: auto` and a depth limit: simulated steps and state checks per level of depth, "
+              "by translation and again with rotation. Larger: parts that can move far in their play are searched "
+              "longer."});
+  s.add("clearance", inherited<P>(&SearchParameters::clearance),
+        {.unit = "max_penetration",
+         .min = 0,
+         .max = 100,
+         .doc = "Advanced. Distance that a part is moved away from what it touches, where there is room, before it "
+                "follows a screw, and on a path on which parts drive each other. As a multiple of "
+                "verify.max_penetration."});
+  s.add("touch_distance", inherited<P>(&SearchParameters::touch_distance),
+        {.unit = "max_penetration",
+         .min = 1e-3,
+         .max = 0.9,
+         .doc = "Advanced. Surfaces that are nearer than this touch, and penetration up to this counts as none. As a "
+                "share of verify.max_penetration."});
 }
 
-inline Tactics tactics_of(const SearchParameters& p) {
-  Tactics t;
-  t.motion = p.motion;
-  t.time_step = p.time_step;
-  t.force = p.force;
-  t.similarity_translation = p.similarity_translation;
-  t.similarity_rotation = p.similarity_rotation;
-  t.intermediate = p.intermediate;
-  t.thinning = p.thinning;
-  t.max_refusals = p.max_refusals;
-  t.translation_nodes = p.translation_nodes;
-  t.rotation_nodes = p.rotation_nodes;
-  return t;
+/// Declares those of the actions that contacts propose.
+template <class P>
+void describe_proposals(Schema<P>& s) {
+  using path::inherited;
+  s.add("place_similarity", inherited<P>(&ProposalParameters::place_similarity),
+        {.unit = "similarity_translation",
+         .min = 1,
+         .max = 1000,
+         .doc = "Advanced. Under `novelty` states nearer to each other than this are alike, as a multiple of "
+                "`similarity_translation`."});
+  s.add(
+      "facet_angle", inherited<P>(&ProposalParameters::facet_angle),
+      {.unit = "rad",
+       .min = 1e-4,
+       .max = 0.5,
+       .doc = "Advanced. Normals and directions that differ by less than this angle are one, and a direction may lead "
+              "into a contact by it. Round fits consist of facets; more than half the angle between two of them."});
+  s.add("free_directions", inherited<P>(&ProposalParameters::free_directions),
+        {.unit = "1",
+         .min = 1,
+         .max = 1000,
+         .doc = "Advanced. Most directions per state along which contacts let the part slide, the shortest way out "
+                "first."});
+  s.add("lean", inherited<P>(&ProposalParameters::lean),
+        {.unit = "1",
+         .min = 0.01,
+         .max = 1,
+         .doc = "Advanced. Share of the force with which a part is pressed against a wall while it slides along it, or "
+                "along its axis while it turns."});
+  s.add("glide_step", inherited<P>(&ProposalParameters::glide_step),
+        {.unit = "max_penetration",
+         .min = 1,
+         .max = 1000,
+         .doc = "Advanced. First distance between two state checks along a screw, and distance of the poses of its "
+                "path, as a multiple of verify.max_penetration. Larger: fewer checks; thin obstacles are passed, which "
+                "the verifier refuses."});
+  s.add("glide_growth", inherited<P>(&ProposalParameters::glide_growth),
+        {.unit = "1",
+         .min = 0,
+         .max = 1,
+         .doc = "Advanced. Distance between two state checks along a screw as a share of the length that was clear. "
+                "0: always `glide_step`."});
+  s.add("glide_kept", inherited<P>(&ProposalParameters::glide_kept),
+        {.unit = "1",
+         .min = 0.01,
+         .max = 1,
+         .doc = "Advanced. Share of the clear length at which a screw that is blocked is fitted anew."});
 }
 
 /// The last stages of both kinds.

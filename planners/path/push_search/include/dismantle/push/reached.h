@@ -1,4 +1,4 @@
-/// What a search over pushes has reached, for one that goes on from there.
+/// What a search over pushes has reached, for one that resumes it.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,9 @@ struct Node {
   Path way{};                     ///< instants after the parent's, this one's last
   std::size_t stage = 0;          ///< the next to come
   bool middle = false;            ///< of a run
-  bool may_wait = false;          ///< to be searched from; else it only tells what is known
+  bool may_wait = false;          ///< may be expanded; otherwise it is only a known state
   std::vector<PartId> touched{};  ///< fixed parts that ended runs there; ascending
-  std::uint64_t work = 0;         ///< simulated steps and looks of the runs from it
+  std::uint64_t work = 0;         ///< simulated steps and state checks of the runs from it
 };
 
 /// A state in the middle of a run that is no node yet.

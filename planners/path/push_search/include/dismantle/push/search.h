@@ -21,46 +21,43 @@ using geometry::Twist;
 
 /// One search in one motion space. States form a tree; each knows the instants that lead to it.
 ///
-/// Translating, a run ends where the part stay fixed: under a constant push it cannot go round in circles. States
-/// in the middle of runs are looked at last. Turning, it can, and often must be stopped half-way: there every look is
-/// a state, and a run ends at states that are known.
+/// A translating run ends where the part stops: under a constant force it cannot move in circles, and states in the
+/// middle of runs are expanded last. A run with rotation can, and often has to be stopped half-way: the state after
+/// each planning time step is a node, and the run ends at states that are known.
 ///
-/// Breadth first, with what costs little and promises much before the rest: a state waits the longer, the more was
-/// searched from near it already, and the further-fetched the actions are that it is to be given next.
+/// Best first: the rank of a state grows with the number of similar states that were expanded and with the number of
+/// stages of actions that it has had. States of equal rank are expanded in order of depth.
 class Search {
  public:
   Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context);
 
-  /// Before the first run(): begins with the states of an earlier search of the same moving parts from the same places,
-  /// among these fixed parts and perhaps others. Where runs ended at those they are gone on with; no run is made again.
-  /// `tree` as tree() gave it.
+  /// Before the first run(): begins with the states of an earlier search of the same moving parts from the same poses,
+  /// among these fixed parts and perhaps others. States where runs ended at those others are expanded again; no run is
+  /// repeated. `tree` is what tree() returned.
   void resume(const Tree& tree);
   /// What has been reached so far.
   Tree tree() const;
-  /// Simulated steps and looks that need not be made again, thanks to resume().
+  /// Simulated steps and state checks that resume() saves.
   std::uint64_t spared() const { return spared_; }
 
-  /// A cheap question, of contacts alone: where the query begins, is every motion that they leave free a turn, and does
-  /// one of these lead out? Then translations are of no use.
+  /// True if every motion that the contacts of the start leave free is a rotation or screw, and one of these separates
+  /// the part: then translations are useless. Cheap.
   bool screw_leads_out();
 
   /// What one call of run() may use.
   struct Limits {
     Deadline deadline;
-    std::uint64_t* steps_left = nullptr;  ///< simulated steps and looks while gliding, counted down;
+    std::uint64_t* steps_left = nullptr;  ///< simulated steps and state checks, counted down;
                                           ///< nullptr = no limit
-    /// States given actions in this call and those that were paused before it;
-    /// 0 = no limit. What was taken over from an earlier search counts, up to a
-    /// half.
+    /// States expanded in this call and those that were paused before it; 0 = no limit. States of an earlier search
+    /// count, up to a half.
     std::uint64_t expansions = 0;
     unsigned rank = ~0U;            ///< states that wait longer than this are left waiting
-    std::uint64_t pause_after = 0;  ///< steps and looks of this call, rounded up
-                                    ///< to whole states; 0 = no pause
+    std::uint64_t pause_after = 0;  ///< steps and state checks of this call, rounded up to whole states; 0 = no pause
     std::function<void()> between;  ///< called before each state is given
                                     ///< actions, may wait; may be empty
   };
-  /// Goes on where the last call stopped. `depth_limit`: more can be searched, in greater depth or rank; `exhausted`:
-  /// no.
+  /// Continues where the last call stopped. `depth_limit`: states of greater depth or rank are left; `exhausted`: none.
   PathResult run(const Limits& limits);
   /// The last call ended because of `pause_after`.
   bool paused() const { return paused_; }
@@ -87,7 +84,7 @@ class Search {
   RunEnd expand(std::int32_t node, PathResult& result);
   std::vector<Action> actions_at(const Node& node, Stage stage);
   std::vector<Twist> twists_at(const Node& node);
-  void feel(const State& state, std::vector<Contact>& contacts);
+  void add_contacts_of_pushes(const State& state, std::vector<Contact>& contacts);
   Action along(const Twist& twist, const State& state, const Eigen::Vector3d& lean = Eigen::Vector3d::Zero()) const;
   std::vector<Action> leaning_turns(const Node& node);
   double way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center);
@@ -98,7 +95,7 @@ class Search {
     GlideEnd end;
     double way;
   };
-  Stretch glide(const Twist& twist, const State& start, double clear, std::uint32_t first);
+  Stretch glide(const Twist& twist, const State& start, const State& origin, double clear, std::uint32_t first);
   void record(const Twist& twist, double way, unsigned depth, Run& run);
   RunEnd verify(std::int32_t last, const State& start, PathResult& result);
   std::vector<PartId> note_contacts(const State& state);
@@ -108,6 +105,9 @@ class Search {
   void enqueue(std::int32_t node);
   void finish(PathResult& result) const;
   bool out_of_budget() const;
+  double glide_step() const { return tactics_.glide_step * query_.tolerance; }
+  double clearance() const { return tactics_.clearance * query_.tolerance; }
+  double touch_distance() const { return tactics_.touch_distance * query_.tolerance; }
   bool turning() const { return world_->space() == MotionSpace::rigid; }
 
   const PathQuery& query_;
@@ -146,7 +146,7 @@ class Search {
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;
-  std::uint64_t steps_ = 0, looks_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
+  std::uint64_t steps_ = 0, state_checks_ = 0, refused_ = 0, expanded_ = 0, expanded_before_ = 0;
 };
 
 }  // namespace dismantle::push
