@@ -46,8 +46,7 @@ void Disassembly::make_strategies() {
     list_.add(std::make_unique<FreePart>(state_, *straight_));
     if (params_.groups) list_.add(std::make_unique<FreeGroup>(state_, *straight_, params_.group_proposals));
   }
-  if (params_.repeated_paths && sweep_)
-    list_.add(std::make_unique<RepeatedPath>(state_, oracle_, *sweep_, params_));
+  if (params_.repeated_paths && sweep_) list_.add(std::make_unique<RepeatedPath>(state_, oracle_, *sweep_, params_));
   if (params_.translation_states > 0 && sweep_)
     list_.add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), *lookahead_, params_));
   if (immobility_) list_.add(std::make_unique<MergeImmobile>(*immobility_));
@@ -55,7 +54,7 @@ void Disassembly::make_strategies() {
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)
     list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, params_,
-                                                   params_.max_depth));
+                                                   params_.max_depth, params_.play * oracle_.tolerance()));
   list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, immobility_.get(), params_));
   list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, immobility_.get(), params_));
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));

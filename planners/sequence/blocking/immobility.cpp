@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace dismantle::blocking {
-namespace {
-
-constexpr double kInterlockedShare = 0.5;  // of the tolerance
-
-}  // namespace
-
 using Kind = ImmobilityQuestion::Kind;
 
 Immobility::Immobility(DisassemblyState& state, StraightMotion& straight, const SearchHistory& history,
@@ -18,7 +12,7 @@ Immobility::Immobility(DisassemblyState& state, StraightMotion& straight, const 
       history_(history),
       oracle_(oracle),
       params_(params),
-      answers_(oracle, state.context().executor) {}
+      answers_(oracle, params.late_share, state.context().executor) {}
 
 bool Immobility::limit_reached(Kind kind) const {
   const auto known = proofs_.find(kind);
@@ -108,14 +102,13 @@ Immobility::Questions Immobility::flat_questions(const GroupState& group) const 
 
 void Immobility::add_flat_questions(const GroupState& group, SubassemblyId id, Questions& questions) const {
   const auto size = [&](PartId part) { return state_.assembly().parts[part].mesh->box().size().norm(); };
-  constexpr double kEqual = 1 - 1e-6;  // equal parts, one of them turned
   if (!history_.was_searched(id)) return;
   const std::vector<PartId>& touched = group.is_pair() ? state_.parts_of(group.members[group.members[0] == id ? 1 : 0])
                                                        : state_.failure_of(state_.part_of(id))->blocked_by;
   for (const PartId part : state_.parts_of(id))
     for (const PartId other : touched) {
       const SubassemblyId s = state_.subassembly_of(other);
-      if (group.contains(s) && s != id && size(other) >= kEqual * size(part))
+      if (group.contains(s) && s != id && size(other) >= size(part) - oracle_.tolerance())
         questions.push_back({Kind::flat, part, other});
     }
 }
@@ -149,7 +142,7 @@ bool Immobility::merge_interlocked(GroupState& group) {
     return false;
   if (!interlocked_.insert(parts).second) return false;
   state_.show_progress(parts.front());
-  const Certificate* proof = oracle_.prove({parts, ProofEffort::high, kInterlockedShare}, state_.context());
+  const Certificate* proof = oracle_.prove({parts, ProofEffort::high, params_.late_share}, state_.context());
   if (proof == nullptr) return false;
   state_.merge(group, parts, *proof);
   return true;

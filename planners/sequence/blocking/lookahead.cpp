@@ -6,8 +6,7 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr std::size_t kPerThread = 4;            // attempts that are hinted
-constexpr unsigned kDepthForProofInAdvance = 2;  // of an unsuccessful search
+constexpr std::size_t kPerThread = 4;  // attempts that are hinted; results do not depend on it
 
 }  // namespace
 
@@ -182,8 +181,7 @@ std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) 
   add_pairs(true);
   for (const GroupState* g : groups)
     for (const SubassemblyId s : g->members) {
-      if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth < kDepthForProofInAdvance)
-        continue;
+      if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth <= 1) continue;
       if (const auto blocker = immobility_->only_blocker(*g, s))
         immobility_->add_questions(ImmobilityQuestion::Kind::confined_full, s, *blocker, all);
     }

@@ -66,15 +66,25 @@ void PartialTranslationParams::describe(S& s) {
                  .min_open = true,
                  .max_open = true,
                  .doc = "Advanced. Share of the verifier's tolerance by which the search takes parts to be thinner."});
-  s.add<double>("translation_least_step", &PartialTranslationParams::translation_least_step,
-                {.unit = "assembly units",
-                 .min = 0,
-                 .min_open = true,
-                 .doc = "Advanced. Shortest translation; the largest edge of an assembly is 10."});
-  s.add<double>("translation_play", &PartialTranslationParams::translation_play,
-                {.unit = "assembly units",
-                 .min = 0,
-                 .doc = "Advanced. Translations up to contact that are shorter only use up play, and are not made."});
+  s.add<double>(
+      "translation_least_step", &PartialTranslationParams::translation_least_step,
+      {.unit = "max_penetration",
+       .min = 1e-3,
+       .max = 1e4,
+       .doc = "Advanced. Shortest translation, as a multiple of verify.max_penetration. Smaller: more states."});
+  s.add<double>(
+      "play", &PartialTranslationParams::play,
+      {.unit = "max_penetration",
+       .min = 0,
+       .max = 1e4,
+       .doc = "Advanced. Shorter motions up to contact only use up play: such a translation is not made, and a "
+              "part that has moved by less has not moved. As a multiple of verify.max_penetration."});
+  s.add<unsigned>(
+      "translation_edges", &PartialTranslationParams::translation_edges,
+      {.unit = "1",
+       .min = 6,
+       .doc = "Advanced. Largest number of edges between flat faces of a part for which the search is made. "
+              "The effort grows with the square."});
   s.add<unsigned>("translation_axes", &PartialTranslationParams::translation_axes,
                   {.unit = "1", .min = 1, .max = 32, .doc = "Advanced. Axes along which parts move, at most."});
 }
@@ -117,6 +127,12 @@ void ImmobilityParams::describe(S& s) {
                   {.unit = "1",
                    .doc = "Advanced. Largest group that is proved immobile as a whole; the effort grows with the cube "
                           "of the number of parts."});
+  s.add<double>("late_share", &ImmobilityParams::late_share,
+                {.unit = "1",
+                 .min = 0.01,
+                 .max = 1,
+                 .doc = "Advanced. Share of verify.max_penetration that motions may use in proofs about confined pairs "
+                        "after all searches, and about whole groups. Smaller: more is proved, of less."});
 }
 
 void RotationParams::describe(S& s) {
@@ -132,6 +148,20 @@ void RotationParams::describe(S& s) {
                   {.unit = "1", .max = 30, .doc = "Advanced. Bisections to find where a rotating part meets another."});
   s.add<unsigned>("rotation_sweeps", &RotationParams::rotation_sweeps,
                   {.unit = "1", .doc = "Advanced. Sweeps of pairs for one group as it is, at most."});
+  s.add<unsigned>(
+      "round_facets", &RotationParams::round_facets,
+      {.unit = "1",
+       .min = 5,
+       .max = 1000,
+       .doc = "Advanced. A surface is round if it has this number of facets per full turn at least. Smaller: "
+              "axes of more parts are found, also of prisms."});
+  s.add<double>(
+      "round_share", &RotationParams::round_share,
+      {.unit = "1",
+       .min = 1e-4,
+       .max = 0.5,
+       .doc = "Advanced. Least share of a part's surface that is round about an axis. A part with no more than "
+              "this share that is not round about it is a body of revolution, and is not rotated."});
 }
 
 void SimultaneousMotionParams::describe(S& s) {

@@ -38,8 +38,9 @@ struct PartialTranslationParams {
   double translation_work = 5e8;
   double translation_work_growth = 4;
   double translation_inset = 0.3;
-  double translation_least_step = 0.05;
-  double translation_play = 0.25;
+  double translation_least_step = 5;
+  double play = 25;
+  unsigned translation_edges = 3000;
   unsigned translation_axes = 9;
   static void describe(Schema<BlockingParams>& schema);
 };
@@ -54,6 +55,7 @@ struct ImmobilityParams {
   unsigned late_confinement_proofs = 8;
   unsigned proof_depth = 4;
   unsigned interlocked_parts = 8;
+  double late_share = 0.5;
   static void describe(Schema<BlockingParams>& schema);
 };
 
@@ -63,6 +65,8 @@ struct RotationParams {
   unsigned rotation_stops = 24;
   unsigned rotation_halvings = 4;
   unsigned rotation_sweeps = 300;
+  unsigned round_facets = 9;
+  double round_share = 0.02;
   static void describe(Schema<BlockingParams>& schema);
 };
 

@@ -10,16 +10,19 @@
 #include <utility>
 
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::blocking {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kFlat = 1 - 1e-9;  // cosine between normals of one plane
-constexpr double kPlane = 1e-6;     // distance between planes that are one
-constexpr double kGlance = 1e-9;    // cosine below which a face is parallel to the way
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using Limits = std::numeric_limits<double>;
+using geometry::kRounding;
+
+/// Neighbours and edges closer than this continue each other. Nearly flat surfaces stay apart: their facets would add
+/// up.
+bool continues(const Vec3& a, const Vec3& b) { return a.dot(b) > 1 - kRounding; }
 
 struct Adjacent {
   std::uint32_t face;
@@ -64,7 +67,7 @@ void corners_to_faces(const std::vector<Vec3>& corners, const Vec3& offset, cons
                       double tolerance, double& best) {
   for (const auto& face : target.faces()) {
     const double rate = face.normal.dot(d);
-    if (rate > -kGlance) continue;
+    if (rate > -kRounding) continue;
     for (const Vec3& c : corners) {
       const Vec3 p = c + offset;
       const double t = (face.offset - face.normal.dot(p)) / rate;
@@ -88,7 +91,7 @@ void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset
       const Vec3 p = e.a + by, w = e.b - e.a;
       const double dx = w.dot(u), dy = w.dot(v);
       const double length = std::hypot(dx, dy);
-      if (length > 1e-9) out.push_back({p.dot(u), p.dot(v), p.dot(d), dx, dy, w.dot(d), length});
+      if (length > kRounding) out.push_back({p.dot(u), p.dot(v), p.dot(d), dx, dy, w.dot(d), length});
     }
     return out;
   };
@@ -101,7 +104,7 @@ void edges_to_edges(const Polyhedron& a, const Polyhedron& b, const Vec3& offset
           std::max(f.y, f.y + f.dy) < ey0)
         continue;
       const double det = cross2(e.dx, e.dy, f.dx, f.dy);
-      if (std::abs(det) < 1e-9 * e.length * f.length) continue;  // parallel: corners and faces see them
+      if (std::abs(det) < kRounding * e.length * f.length) continue;  // parallel: corners and faces see them
       const double s = cross2(f.x - e.x, f.y - e.y, f.dx, f.dy) / det;
       const double q = cross2(f.x - e.x, f.y - e.y, e.dx, e.dy) / det;
       if (s < -tolerance / e.length || s > 1 + tolerance / e.length || q < -tolerance / f.length ||
@@ -132,10 +135,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   for (std::uint32_t t = 0; t < count; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t n = neighbour(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      if (n == count || normals[t].dot(normals[n]) < kFlat) continue;
-      if (std::abs(normals[t].dot(mesh.vertex(n, 0) - mesh.vertex(t, 0))) > kPlane ||
-          std::abs(normals[t].dot(mesh.vertex(n, 1) - mesh.vertex(t, 0))) > kPlane)
-        continue;
+      if (n == count || !continues(normals[t], normals[n])) continue;
       parent[root_of(parent, t)] = root_of(parent, n);
     }
 
@@ -143,7 +143,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
   std::vector<std::vector<Vec3>> planes(mesh.vertices.size());
   for (std::uint32_t t = 0; t < count; ++t)
     for (const std::uint32_t v : mesh.triangles[t])
-      if (std::none_of(planes[v].begin(), planes[v].end(), [&](const Vec3& n) { return n.dot(normals[t]) > kFlat; }))
+      if (std::none_of(planes[v].begin(), planes[v].end(), [&](const Vec3& n) { return continues(n, normals[t]); }))
         planes[v].push_back(normals[t]);
   std::vector<Vec3> moved = mesh.vertices;
   for (std::size_t v = 0; v < moved.size(); ++v)
@@ -180,7 +180,7 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
     std::vector<Piece> merged;
     for (const Piece& p : pieces) {
       const bool goes_on = !merged.empty() && merged.back().to == p.from &&
-                           (mesh.vertices[p.to] - mesh.vertices[p.from]).normalized().dot(along) > kFlat &&
+                           continues((mesh.vertices[p.to] - mesh.vertices[p.from]).normalized(), along) &&
                            planes[p.from].size() <= 2;
       if (goes_on)
         merged.back().to = p.to;
@@ -203,18 +203,18 @@ Polyhedron::Polyhedron(const Mesh& mesh, double inset) {
 double distance_until_contact(const Polyhedron& a, const Polyhedron& b, const Vec3& offset, const Vec3& d,
                               double tolerance) {
   // By boxes first, across each axis that the way has no part in.
-  double past = kInfinity;
+  double past = Limits::infinity();
   for (int k = 0; k < 3; ++k) {
     const double lo = a.box().lo[k] + offset[k], hi = a.box().hi[k] + offset[k];
-    if (d[k] > kGlance)
+    if (d[k] > kRounding)
       past = std::min(past, (b.box().hi[k] + tolerance - lo) / d[k]);
-    else if (d[k] < -kGlance)
+    else if (d[k] < -kRounding)
       past = std::min(past, (b.box().lo[k] - tolerance - hi) / d[k]);
     else if (lo > b.box().hi[k] + tolerance || hi < b.box().lo[k] - tolerance)
-      return kInfinity;
+      return Limits::infinity();
   }
-  if (past < 0) return kInfinity;
-  double best = kInfinity;
+  if (past < 0) return Limits::infinity();
+  double best = Limits::infinity();
   corners_to_faces(a.corners(), offset, d, b, tolerance, best);
   corners_to_faces(b.corners(), -offset, -d, a, tolerance, best);
   edges_to_edges(a, b, offset, d, tolerance, best);

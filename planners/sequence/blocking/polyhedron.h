@@ -29,10 +29,6 @@ class Polyhedron {
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Face>& faces() const { return faces_; }
   const Aabb& box() const { return box_; }
-  /// False for what is not made of flat faces to any useful degree: more edges than is worth it.
-  bool simple() const { return edges_.size() <= kMostEdges; }
-
-  static constexpr std::size_t kMostEdges = 3000;
 
  private:
   std::vector<Eigen::Vector3d> corners_;

@@ -9,26 +9,22 @@ namespace {
 
 using Kind = ImmobilityQuestion::Kind;
 
-/// Of what ways may cut in.
-constexpr double kFullShare = 1, kHalfShare = 0.5;
-constexpr std::size_t kAtATime = 4;
-
 }  // namespace
 
-/// What costs little is asked first.
+/// Cheap proofs are tried first.
 const Certificate* ProofsAhead::ask(const ImmobilityQuestion& q, const RunContext& context) const {
   const std::vector<PartId> pair{q.a, q.b};
   if (const Certificate* found = oracle_.prove({pair, ProofEffort::low, 1}, context)) return found;
   if (q.kind == Kind::cage) return nullptr;
   if (const Certificate* found = oracle_.prove({pair, ProofEffort::medium, 1}, context)) return found;
   if (q.kind == Kind::flat) return nullptr;
-  return oracle_.prove({pair, ProofEffort::high, q.kind == Kind::confined_full ? kFullShare : kHalfShare}, context);
+  return oracle_.prove({pair, ProofEffort::high, q.kind == Kind::confined_full ? 1 : late_share_}, context);
 }
 
 void ProofsAhead::begin(std::span<const ImmobilityQuestion> wanted, const RunContext& context) {
   std::deque<Known::Sequence> first;
   for (const ImmobilityQuestion& question : wanted) {
-    if (first.size() >= kAtATime) break;
+    if (first.size() >= context.threads) break;
     if (known_.is_computed(question)) continue;
     first.push_back({{question, [this, question](const RunContext& c) { return ask(question, c); }}});
   }

@@ -30,9 +30,9 @@ struct ImmobilityQuestion {
 /// caller.
 class ProofsAhead {
  public:
-  /// All must outlive this; `executor` may be null.
-  ProofsAhead(PathOracle& oracle, std::shared_ptr<Executor> executor)
-      : oracle_(oracle), known_(std::move(executor), Executor::Priority::speculative) {}
+  /// `late_share`: share of the tolerance for Kind::confined_half. All must outlive this; `executor` may be null.
+  ProofsAhead(PathOracle& oracle, double late_share, std::shared_ptr<Executor> executor)
+      : oracle_(oracle), late_share_(late_share), known_(std::move(executor), Executor::Priority::speculative) {}
 
   /// Idle threads work on the first few of `wanted`, the likeliest to be asked first, that are not known. What is not
   /// among them any more is cancelled.
@@ -46,6 +46,7 @@ class ProofsAhead {
   const Certificate* ask(const ImmobilityQuestion& question, const RunContext& context) const;
 
   PathOracle& oracle_;
+  double late_share_;
   Known known_;
 };
 

@@ -5,35 +5,30 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "blocking_graph/directions.h"
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::blocking {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr std::size_t kDirections = 4;  // of axes that are looked for
-constexpr double kAcross = 2e-3;        // cosine: a facet along the axis
-constexpr double kFlat = 0.9999;        // cosine between neighbours: less bend (0.8 degrees) is none
-constexpr double kMostBend = 0.75;      // more (41 degrees) is an edge
-constexpr double kSamePlace = 0.01;     // assembly units: between axes
-constexpr double kLeastRound = 0.02;    // share of the surface
-constexpr double kAllRound = 0.98;      // share of the surface: a body of revolution
-constexpr double kRoundFacet = 0.08;    // sine of the angle by which a facet of such a body may look past the axis
-
-/// Share of the surface that turning about the axis moves within itself.
-double share_round(const Mesh& mesh, const Vec3& point, const Vec3& axis) {
+/// Share of the surface that rotation about the axis moves within itself.
+double share_round(const Mesh& mesh, const Vec3& point, const Vec3& axis, const RoundSurface& round_surface) {
+  // The centroid of a facet is off its middle by up to a third of its half.
+  const double off = std::sin(std::numbers::pi / (3 * round_surface.facets));
   double total = 0, round = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = mesh.vertex(t, 0), b = mesh.vertex(t, 1), c = mesh.vertex(t, 2);
     const Vec3 twice = (b - a).cross(c - a);
     const Vec3 around = axis.cross((a + b + c) / 3 - point);
     total += twice.norm();
-    if (around.norm() < kSamePlace || std::abs(twice.dot(around)) < kRoundFacet * twice.norm() * around.norm())
+    if (around.norm() < round_surface.tolerance || std::abs(twice.dot(around)) < off * twice.norm() * around.norm())
       round += twice.norm();
   }
   return total > 0 ? round / total : 1;
@@ -51,7 +46,8 @@ struct Facets {
   std::vector<std::pair<std::size_t, std::size_t>> neighbours;  // that bend like round surfaces do
 };
 
-Facets facets_of(const Mesh& mesh) {
+Facets facets_of(const Mesh& mesh, const RoundSurface& round_surface) {
+  const double most_bend = std::cos(2 * std::numbers::pi / round_surface.facets);  // more is an edge
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> by_edge;
   std::vector<Vec3> twice(count);
@@ -65,9 +61,9 @@ Facets facets_of(const Mesh& mesh) {
     const auto other = by_edge.find({ends.second, ends.first});
     if (ends.first > ends.second || other == by_edge.end()) continue;
     const double bend = twice[t].dot(twice[other->second]) / (twice[t].norm() * twice[other->second].norm());
-    if (bend > kFlat)
+    if (bend > geometry::kSameDirection)
       sets.join(t, other->second);
-    else if (bend > kMostBend)
+    else if (bend > most_bend)
       bent.emplace_back(t, other->second);
   }
   Facets facets;
@@ -90,12 +86,13 @@ Facets facets_of(const Mesh& mesh) {
 
 }  // namespace
 
-std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most) {
-  const Facets facets = facets_of(mesh);
+std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most, const RoundSurface& round_surface) {
+  const Facets facets = facets_of(mesh, round_surface);
+  const double across = std::sqrt(1 - geometry::kSameDirection * geometry::kSameDirection);
   double total = 0;
   for (const Facet& f : facets.all) total += f.area;
   std::vector<RotationAxis> found;
-  for (const Vec3& d : axes_of(mesh, kDirections)) {
+  for (const Vec3& d : axes_of(mesh, most)) {
     const auto middle = [&](const Facet& f) {  // of the chord as which the facet is seen along d
       const Vec3 along = d.cross(f.normal);
       double lo = std::numeric_limits<double>::infinity(), hi = -lo;
@@ -108,7 +105,7 @@ std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most) {
     std::vector<RotationAxis> here;
     for (const auto& [i, j] : facets.neighbours) {
       const Facet &a = facets.all[i], &b = facets.all[j];
-      if (std::abs(a.normal.dot(d)) > kAcross || std::abs(b.normal.dot(d)) > kAcross) continue;
+      if (std::abs(a.normal.dot(d)) > across || std::abs(b.normal.dot(d)) > across) continue;
       const Vec3 p = middle(a), q = middle(b);
       // p - s * a.normal is on the line that halves the other chord, too.
       const Vec3 along = d.cross(b.normal);
@@ -117,8 +114,9 @@ std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most) {
       const Vec3 on_axis = p - (p - q).dot(along) / rate * a.normal;
       const Vec3 point = on_axis - on_axis.dot(d) * d;
       const double area = a.area + b.area;
-      const auto same = std::find_if(here.begin(), here.end(),
-                                     [&](const RotationAxis& k) { return (k.point - point).norm() < kSamePlace; });
+      const auto same = std::find_if(here.begin(), here.end(), [&](const RotationAxis& k) {
+        return (k.point - point).norm() < round_surface.tolerance;
+      });
       if (same == here.end()) {
         here.push_back({point, d, area});
       } else {
@@ -128,12 +126,12 @@ std::vector<RotationAxis> rotation_axes(const Mesh& mesh, std::size_t most) {
     }
     found.insert(found.end(), here.begin(), here.end());
   }
-  std::erase_if(found, [&](const RotationAxis& a) { return a.area < kLeastRound * total; });
+  std::erase_if(found, [&](const RotationAxis& a) { return a.area < round_surface.share * total; });
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.area > b.area; });
   std::vector<RotationAxis> axes;
   for (const RotationAxis& a : found) {
     if (axes.size() == most) break;
-    if (share_round(mesh, a.point, a.direction) < kAllRound) axes.push_back(a);
+    if (share_round(mesh, a.point, a.direction, round_surface) < 1 - round_surface.share) axes.push_back(a);
   }
   return axes;
 }

@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "blocking_graph/directions.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::blocking {
 namespace {
@@ -14,12 +15,6 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Tolerances: what counts as meeting (below the inset), and how far from a part that it meets another stops.
-constexpr double kMeets = 0.1, kStandOff = 0.2;
-constexpr double kGrid = 1e-4;          // assembly units: places that differ by less are the same
-constexpr std::size_t kMostParts = 64;  // bits of a Set
-
-std::int64_t grid(double x) { return std::llround(x / kGrid); }
 
 using Set = std::uint64_t;  // of parts, by their index in the group
 
@@ -40,14 +35,20 @@ struct PlacesHash {
   }
 };
 
-std::vector<std::int64_t> key_of_places(const std::vector<Vec3>& at) {
+}  // namespace
+
+/// Parts are thinner by the inset: half of it is left between them where they stop, and what passes closer meets.
+double TranslationSearch::gap() const { return 0.5 * params_.translation_inset * tolerance_; }
+
+/// Places that differ by less than the gap are the same.
+std::int64_t TranslationSearch::grid(double x) const { return std::llround(x / gap()); }
+
+std::vector<std::int64_t> TranslationSearch::key_of_places(const std::vector<Vec3>& at) const {
   std::vector<std::int64_t> key;
   for (std::size_t i = 1; i < at.size(); ++i)
     for (int k = 0; k < 3; ++k) key.push_back(grid(at[i][k] - at[0][k]));
   return key;
 }
-
-}  // namespace
 
 std::size_t TranslationSearch::Hash::operator()(const Key& k) const {
   std::uint64_t h = k.pair;
@@ -61,29 +62,34 @@ TranslationSearch::TranslationSearch(const Assembly& assembly, double tolerance,
 
 const TranslationSearch::Shape& TranslationSearch::shape(PartId part) { return shapes_.at(part); }
 
+/// True for a body that consists of flat faces, so that comparing edges is worth while.
+bool TranslationSearch::is_simple(const Polyhedron& body) const {
+  return body.edges().size() <= params_.translation_edges;
+}
+
 /// Shapes and directions for a group. False when it is not for this search.
 bool TranslationSearch::prepare(const Places& places) {
-  if (places.size() > kMostParts) return false;
+  if (places.size() > std::numeric_limits<Set>::digits) return false;
   for (const auto& [part, at] : places) {
     const auto known = shapes_.find(part);
     if (known != shapes_.end()) {
-      if (!known->second.body.simple()) return false;
+      if (!is_simple(known->second.body)) return false;
       continue;
     }
     const Mesh& mesh = *assembly_.parts[part].mesh;
-    if (mesh.triangles.size() > 200 * Polyhedron::kMostEdges) return false;
     const auto [entry, is_new] =
         shapes_.emplace(part, Shape{Polyhedron(mesh, params_.translation_inset * tolerance_), {}});
-    if (!entry->second.body.simple()) return false;
+    if (!is_simple(entry->second.body)) return false;
   }
   if (directions_.empty()) {
     // Axes along which much of the surface of the parts looks, of all parts of the assembly: indices stay the same.
     std::vector<std::pair<Vec3, double>> axes;
     for (const auto& part : assembly_.parts) {
       double weight = 1;
-      for (const Vec3& axis : axes_of(*part.mesh, 6)) {
-        const auto same = std::find_if(axes.begin(), axes.end(),
-                                       [&](const auto& a) { return std::abs(a.first.dot(axis)) > 1 - 1e-6; });
+      for (const Vec3& axis : axes_of(*part.mesh, params_.translation_axes)) {
+        const auto same = std::find_if(axes.begin(), axes.end(), [&](const auto& a) {
+          return std::abs(a.first.dot(axis)) > geometry::kSameDirection;
+        });
         if (same == axes.end())
           axes.emplace_back(axis, weight);
         else
@@ -103,10 +109,11 @@ bool TranslationSearch::prepare(const Places& places) {
     shape.planes.resize(directions_.size());
     for (const auto& face : shape.body.faces())
       for (std::size_t d = 0; d < directions_.size(); ++d)
-        if (face.normal.dot(directions_[d]) > 1 - 1e-6) shape.planes[d].push_back(face.offset);
+        if (face.normal.dot(directions_[d]) > geometry::kSameDirection) shape.planes[d].push_back(face.offset);
     for (auto& list : shape.planes) {
       std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end(), [](double a, double b) { return b - a < kGrid; }), list.end());
+      list.erase(std::unique(list.begin(), list.end(), [this](double a, double b) { return b - a < gap(); }),
+                 list.end());
     }
   }
   return true;
@@ -127,14 +134,14 @@ double TranslationSearch::free_distance(PartId moving, PartId fixed, const Vec3&
   if (known != free_.end()) return known->second;
   work_ +=
       static_cast<double>(shape(moving).body.edges().size()) * static_cast<double>(shape(fixed).body.edges().size());
-  const double length = distance_until_contact(shape(moving).body, shape(fixed).body, offset, directions_[direction],
-                                               kMeets * tolerance_);
+  const double length =
+      distance_until_contact(shape(moving).body, shape(fixed).body, offset, directions_[direction], gap());
   return free_.emplace(key, length).first->second;
 }
 
 void TranslationSearch::forbid(PartId moving, PartId fixed, const Vec3& offset, const Vec3& direction) {
   for (std::size_t d = 0; d < directions_.size(); ++d) {
-    if (directions_[d].dot(direction) < 1 - 1e-9) continue;
+    if (directions_[d].dot(direction) < geometry::kSameDirection) continue;
     double sign = 1;
     free_[key_of(moving, fixed, offset, d, sign)] = 0;
   }
@@ -163,9 +170,10 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
     id.push_back(part);
     first.at.push_back(at);
   }
-  const Set everyone = n == 64 ? ~Set{0} : (Set{1} << n) - 1;
+  const Set everyone = n == std::numeric_limits<Set>::digits ? ~Set{0} : (Set{1} << n) - 1;
 
-  const double stand_off = kStandOff * tolerance_;
+  const double play = params_.play * tolerance_;
+  const double stand_off = gap();
   std::vector<Node> nodes{first};
   std::unordered_set<std::vector<std::int64_t>, PlacesHash> seen{key_of_places(first.at)};
   std::vector<double> free(n * n);
@@ -253,14 +261,13 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
             for (const double a : shape(id[i]).planes[side])
               for (const double b : shape(id[j]).planes[side]) {
                 const double length = sign * (b - a) + along;
-                if (length > params_.translation_least_step && length < next) next = length;
+                if (length > params_.translation_least_step * tolerance_ && length < next) next = length;
               }
           }
         }
         std::vector<double> lengths;
         if (next < kInfinity) lengths.push_back(next);
-        if (to_contact && meets < next && meets - stand_off > params_.translation_play &&
-            next - meets > params_.translation_play)
+        if (to_contact && meets < next && meets - stand_off > play && next - meets > play)
           lengths.push_back(meets - stand_off);
         for (const double length : lengths) {
           const Set set = taken_along(i, length);

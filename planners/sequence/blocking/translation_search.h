@@ -57,6 +57,10 @@ class TranslationSearch {
     std::vector<std::vector<double>> planes;  ///< by direction: offsets of the faces that look along it, ascending
   };
   Answer search(const Places& places, std::size_t most_states, bool to_contact, const RunContext& context);
+  double gap() const;
+  std::int64_t grid(double x) const;
+  std::vector<std::int64_t> key_of_places(const std::vector<Eigen::Vector3d>& at) const;
+  bool is_simple(const Polyhedron& body) const;
   const Shape& shape(PartId part);
   double free_distance(PartId moving, PartId fixed, const Eigen::Vector3d& offset, std::size_t direction);
   bool prepare(const Places& places);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::blocking {
 namespace {
-
-constexpr double kSameDirection = 1e-9;  // 1 - cosine
 
 bool is_translation(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0; }
 
@@ -32,7 +32,7 @@ Result PartialTranslation::apply(GroupState& group) {
   return Result::unchanged;
 }
 
-/// Makes the slides that are found; what the verifier refuses is not tried again, and the search is.
+/// Makes the translations that are found. After a refusal the search is repeated without the refused one.
 bool PartialTranslation::search(GroupState& group) {
   const auto suits = [&](SubassemblyId s) {
     return state_.is_single(s) && is_translation(state_.pose(state_.part_of(s)));
@@ -65,10 +65,11 @@ TranslationSearch::Answer PartialTranslation::find(GroupState& group) {
   std::string& note = progress_[group].note;
   if (found.end == End::exhausted)
     note = std::to_string(found.states) +
-           " arrangements can be reached by straight slides between places where faces are flush, and in none of them "
+           " arrangements can be reached by translations between places where faces are flush, and in none of them "
            "a part or group is free";
   if (found.end == End::limit || found.end == End::too_long)
-    note = "slides that leave parts part-way were given up after " + std::to_string(found.states) + " arrangements";
+    note =
+        "translations to intermediate placements were given up after " + std::to_string(found.states) + " arrangements";
   if (found.end == End::found) note.clear();
   return found;
 }
@@ -91,8 +92,9 @@ PartialTranslation::Made PartialTranslation::make(GroupState& group, const Trans
   }
   if (straight_ == nullptr || !state_.may_leave(group, ids)) return Made::impossible;
   const auto& directions = straight_->directions().all;
-  const auto known = std::find_if(directions.begin(), directions.end(),
-                                  [&](const Eigen::Vector3d& d) { return d.dot(direction) > 1 - kSameDirection; });
+  const auto known = std::find_if(directions.begin(), directions.end(), [&](const Eigen::Vector3d& d) {
+    return d.dot(direction) > geometry::kSameDirection;
+  });
   if (known == directions.end()) return Made::impossible;
   if (straight_->leave(group, ids, static_cast<std::size_t>(known - directions.begin()))) return Made::removed;
   forbid(group, ids, direction, nullptr);
@@ -116,7 +118,7 @@ bool PartialTranslation::translate(GroupState& group, const Subassemblies& ids, 
   return true;
 }
 
-/// From now on the search takes it that the moving parts meet those that the refusal names, or all.
+/// From now on the moving parts meet those that the refusal names, or all, as far as the search is concerned.
 void PartialTranslation::forbid(const GroupState& group, const Subassemblies& ids, const Eigen::Vector3d& direction,
                                 const AttemptResult* refusal) {
   const bool named = refusal != nullptr && !refusal->result.blocked_by.empty();

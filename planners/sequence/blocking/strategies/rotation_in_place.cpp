@@ -5,12 +5,6 @@
 #include <numbers>
 
 namespace dismantle::blocking {
-namespace {
-
-constexpr double kLeastShare = 0.1;  // of a step; a part that cannot go so far is not rotated any further
-
-}  // namespace
-
 Pose RotationInPlace::Rotation::at(double angle) const {
   const Eigen::Vector3d point = start * axis.point, direction = start.q * axis.direction;
   const Eigen::Quaterniond q(Eigen::AngleAxisd(sense * angle, direction));
@@ -31,7 +25,9 @@ bool RotationInPlace::rotate_any(GroupState& group) {
   for (const SubassemblyId id : Subassemblies(group.members)) {
     if (!state_.is_single(id) || state_.is_base(state_.part_of(id))) continue;
     const auto [entry, is_new] = axes_.try_emplace(state_.part_of(id));
-    if (is_new) entry->second = rotation_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.rotation_axes);
+    if (is_new)
+      entry->second = rotation_axes(*state_.assembly().parts[state_.part_of(id)].mesh, params_.rotation_axes,
+                                    {params_.round_facets, params_.round_share, oracle_.tolerance()});
     for (const RotationAxis& axis : entry->second)
       if (rotate(group, id, axis)) return true;
   }
@@ -76,7 +72,7 @@ bool RotationInPlace::step(const GroupState& group, const Rotation& rotation, un
     const double middle = 0.5 * (clear + blocked);
     (sweeps_clear(group, rotation.id, last, rotation.at((stop - 1) * arc() + middle)) ? clear : blocked) = middle;
   }
-  if (clear >= kLeastShare * arc()) path.push_back({rotation.at((stop - 1) * arc() + clear)});
+  if (clear > 0) path.push_back({rotation.at((stop - 1) * arc() + clear)});
   return false;
 }
 

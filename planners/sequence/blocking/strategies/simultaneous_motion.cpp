@@ -6,7 +6,6 @@ namespace dismantle::blocking {
 namespace {
 
 constexpr unsigned kRounds = 3;
-constexpr double kMoved = 0.1;  // assembly units; less is play
 
 /// How far the part has come from where it was, rotation included, as seen on its box.
 double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
@@ -18,13 +17,14 @@ double travel(const Mesh& mesh, const Pose& from, const Pose& to) {
 
 SimultaneousMotion::SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight,
                                        const Lookahead& lookahead, const SearchHistory& history,
-                                       const SimultaneousMotionParams& params, unsigned max_depth)
+                                       const SimultaneousMotionParams& params, unsigned max_depth, double play)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
       lookahead_(lookahead),
       history_(history),
       params_(params),
+      play_(play),
       max_depth_(max_depth) {}
 
 /// What it has cost is measured by what the searches for single parts have; nothing waits for good, for these end.
@@ -149,7 +149,7 @@ bool SimultaneousMotion::several_moved(const Attempt& attempt, const std::vector
   std::size_t moved = 0;
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const PlacedPart& p = attempt.moving[i];
-    if (travel(*state_.assembly().parts[p.part].mesh, p.pose, reached[i]) > kMoved) ++moved;
+    if (travel(*state_.assembly().parts[p.part].mesh, p.pose, reached[i]) > play_) ++moved;
   }
   return moved > 1;
 }

@@ -19,8 +19,10 @@ namespace dismantle::blocking {
 /// costs no more than a share of what they have cost: a set that is too early for that waits.
 class SimultaneousMotion final : public Strategy {
  public:
+  /// `play`: parts that have moved by less have not moved; assembly units.
   SimultaneousMotion(DisassemblyState& state, PathOracle& oracle, StraightMotion& straight, const Lookahead& lookahead,
-                     const SearchHistory& history, const SimultaneousMotionParams& params, unsigned max_depth);
+                     const SearchHistory& history, const SimultaneousMotionParams& params, unsigned max_depth,
+                     double play);
   std::string_view name() const noexcept override { return "simultaneous_motion"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
   Result apply(GroupState& group) override;
@@ -53,6 +55,7 @@ class SimultaneousMotion final : public Strategy {
   const Lookahead& lookahead_;
   const SearchHistory& history_;
   const SimultaneousMotionParams& params_;
+  double play_;
   unsigned max_depth_;
   PerGroup<Progress> progress_;
   std::map<Subassemblies, PastMotion> last_;

@@ -163,7 +163,7 @@ TEST(TurningAxes, AreThoseOfRoundSurfacesWhereverTheyAre) {
     const Pose at{Vec3(rng.normal(), rng.normal(), rng.normal()),
                   Eigen::Quaterniond(rng.normal(), rng.normal(), rng.normal(), rng.normal()).normalized()};
     for (auto& v : mesh.vertices) v = at * v;
-    const auto axes = rotation_axes(mesh, 3);
+    const auto axes = rotation_axes(mesh, 3, {});
     ASSERT_FALSE(axes.empty());
     const Vec3 true_axis = at.q * Vec3::UnitZ();
     EXPECT_GT(std::abs(axes[0].direction.dot(true_axis)), 1 - 1e-6);
@@ -172,8 +172,8 @@ TEST(TurningAxes, AreThoseOfRoundSurfacesWhereverTheyAre) {
 }
 
 TEST(TurningAxes, NoneWhereTurningChangesNothingOrNothingIsRound) {
-  for (const int corners : {24, 48, 97}) EXPECT_TRUE(rotation_axes(rod(corners, 2, 3), 3).empty());
-  EXPECT_TRUE(rotation_axes(fake::boxes({{{0, 0, 0}, {1, 2, 3}}, {{4, 0, 0}, {5, 1, 1}}}), 3).empty());
+  for (const int corners : {24, 48, 97}) EXPECT_TRUE(rotation_axes(rod(corners, 2, 3), 3, {}).empty());
+  EXPECT_TRUE(rotation_axes(fake::boxes({{{0, 0, 0}, {1, 2, 3}}, {{4, 0, 0}, {5, 1, 1}}}), 3, {}).empty());
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ TEST(ProofsAhead, LessEffortIsAskedFirstAndMoreOnlyWhereItFailed) {
     for (const ProofEffort proves : {kLow, kMedium, kHigh, ProofEffort::trivial}) {
       OneEffortOracle oracle(proves);
       RunContext context;
-      const bool found = blocking::ProofsAhead(oracle, nullptr).answer(Question::of_pair(kind, 0, 1), {}, context);
+      const bool found = blocking::ProofsAhead(oracle, 0.5, nullptr).answer(Question::of_pair(kind, 0, 1), {}, context);
       std::vector<ProofEffort> expected;
       for (const ProofEffort effort : {kLow, kMedium, kHigh}) {
         if (effort > most) break;
@@ -233,7 +233,7 @@ TEST(ProofsAhead, AnswerAsTheOracleDoes) {
     RunContext context;
     context.threads = 1 + static_cast<unsigned>(trial % 3);
     if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
-    blocking::ProofsAhead ahead(oracle, context.executor);
+    blocking::ProofsAhead ahead(oracle, 0.5, context.executor);
     for (int k = 0; k < 20; ++k) {
       std::vector<Question> wanted;
       for (const Question& q : all)
