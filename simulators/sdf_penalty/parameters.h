@@ -16,7 +16,7 @@ enum class Dynamics {
   acceleration,  ///< second order, a wrench is an acceleration: the same for every part
 };
 
-struct Parameters {
+struct Parameters : sdf::ContactParameters {
   // Table 5.
   double contact_stiffness = 1e6;
   double contact_damping = 0;
@@ -29,10 +29,10 @@ struct Parameters {
   double max_travel = 0.02;
   bool adaptive = false;
   double rest_share = 0;
+  double stall_share = 0.1;
   sdf::DistanceModel distance = sdf::DistanceModel::exact;
   double cell = 0.05;
   std::int64_t cells_per_edge = 20;
-  double contact_spacing = 0.1;
 
   static void describe(Schema<Parameters>& s) {
     s.add("contact_stiffness", &Parameters::contact_stiffness,
@@ -97,6 +97,12 @@ struct Parameters {
            .min = 1,
            .max = 1000,
            .doc = "At least so many cells along each edge of the part's box under `distance: grid` (appendix A)."});
+    s.add("stall_share", &Parameters::stall_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 0.5,
+           .doc = "Advanced. A part that moves by less than this share of the free way has stalled; under `dynamics: "
+                  "quasi_static` the advance ends after three such steps."});
     sdf::describe_points(s);
   }
 };

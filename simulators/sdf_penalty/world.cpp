@@ -11,13 +11,7 @@ namespace {
 
 /// Contacts within this share of a step's travel beyond it are seen in advance, so that nothing is jumped.
 constexpr double kMarginFactor = 1.25;
-/// Deeper than this after a step means that the linearised contact was too far off: solve again in place.
-constexpr double kSettleDepth = 2e-4;
-/// A step that covers less than this share of a free one counts as standing fixed.
-constexpr double kStallShare = 0.1;
 constexpr int kStallSteps = 3;
-/// ... and less than this share is standing still for good: there is no inertia that could change it.
-constexpr double kStuckShare = 2e-3;
 
 sdf::ContactOptions contact_options(const Parameters& p) {
   return {.distance = p.distance,
@@ -196,9 +190,10 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
     }
   *travel = displace<Dof>(state, x);
   follow_contacts<Dof>(state, x, *travel);
-  if (*travel < kStuckShare * free_travel) return Moved::not_at_all;
-  if (fixed_water) settle<Dof>(state, kSettleDepth + largest_force / parameters_.contact_stiffness);
-  return *travel < kStallShare * free_travel ? Moved::stalled : Moved::freely;
+  // Without inertia the next step would be the same.
+  if (fixed_water && *travel < contact_depth()) return Moved::not_at_all;
+  if (fixed_water) settle<Dof>(state, contact_depth() + largest_force / parameters_.contact_stiffness);
+  return *travel < parameters_.stall_share * free_travel ? Moved::stalled : Moved::freely;
 }
 
 StepReport PenaltyWorld::advance(State& state, const Action& action, double duration, Trace* trace) {
@@ -260,8 +255,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // To and fro in place is standing fixed, too.
-  if (report.travel < kStallShare * free) report.stalled = true;
+  // A part that moves to and fro has stalled, too.
+  if (report.travel < parameters_.stall_share * free) report.stalled = true;
   return report;
 }
 

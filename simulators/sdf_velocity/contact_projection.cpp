@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::sdf_velocity {
 namespace {
 
-/// A face that a point is behind of by more than this is not where it can pass an edge (assembly units).
-constexpr double kBehind = 2e-4;
 constexpr int kRounds = 24;
-/// What is nearer to a face lies on it.
-constexpr double kOnFace = 1e-6;
 /// A lift that leads away from what was wanted by more than so many times the depth is a squeeze.
 constexpr double kSqueeze = 4;
 
@@ -41,7 +39,7 @@ bool ContactProjection::exchange(const std::vector<sdf::ContactRow>& rows, int p
     Group& g = groups_[static_cast<std::size_t>(i)];
     if (turn >= g.count) continue;
     const std::size_t other = g.first + (g.chosen - g.first + turn) % g.count;
-    if (rows[other].gap < g.least || rows[other].gap_at(x, per_body) < -kOnFace) continue;
+    if (rows[other].gap < g.least || rows[other].gap_at(x, per_body) < -geometry::kRounding) continue;
     g.chosen = other;
     any = true;
   }
@@ -61,12 +59,13 @@ bool ContactProjection::solve(const std::vector<sdf::ContactRow>& rows, int per_
     const double length = normal.norm();
     normal /= length;
     double least = -row.gap;
-    if (row.gap < 0) least = below == Below::lift ? std::min(least, kMostLift) : 0.0;
+    if (row.gap < 0) least = below == Below::lift ? std::min(least, most_lift_) : 0.0;
     nearest_.offset(i) = least / length;
   }
   target_ = wanted.cwiseProduct(scale_);
   if (nearest_.solve(target_, y_) != NearestPoint::Outcome::solved) return false;
-  if (below == Below::lift && (y_ - target_).norm() > target_.norm() + kSqueeze * deepest_ + 1e-9) return false;
+  if (below == Below::lift && (y_ - target_).norm() > target_.norm() + kSqueeze * deepest_ + geometry::kRounding)
+    return false;
   x = y_.cwiseQuotient(scale_);
   return true;
 }
@@ -83,7 +82,7 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
     const auto count = 1 + static_cast<std::size_t>(rows[i].alternatives);
     double gap = rows[i].gap;
     for (std::size_t k = 1; k < count; ++k) gap = std::max(gap, rows[i + k].gap);
-    groups_.push_back({i, count, i, std::min(gap, -kBehind)});
+    groups_.push_back({i, count, i, std::min(gap, -behind_)});
     deepest_ = std::max(deepest_, -gap);
     most = std::max(most, count);
     i += count;
@@ -106,7 +105,7 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
   for (int round = 0; turn < most && round < kRounds; ++round) {
     const std::vector<Group> before = groups_;
     if (exchange(rows, per_body, x, turn) && solve(rows, per_body, Below::lift, wanted, better) &&
-        cost(better) < cost(x) * (1 - 1e-9)) {
+        cost(better) < cost(x) * (1 - geometry::kRounding)) {
       x = better;
       holding_ = nearest_.active();
       turn = 1;

@@ -12,7 +12,7 @@ namespace dismantle::sdf_velocity {
 /// Of all displacements x of the bodies (see sdf::BodyWorld) the one nearest to `wanted`, in the norm that weighs
 /// shifts with 1 and rotation vectors with the body's radius, under which each contact ends with
 ///   gap + J x >= 0.
-/// Contacts that are below the surface already are to be lifted out of it, by kMostLift at most; where that cannot be
+/// Contacts that are below the surface already are to be lifted out of it, by `most_lift` at most; where that cannot be
 /// done, for being squeezed from several sides, nothing gets deeper. So x = 0 is always possible at worst.
 ///
 /// At a convex edge it is enough to be outside of one of the faces: each contact takes that which the wanted
@@ -22,7 +22,9 @@ class ContactProjection {
  public:
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, sdf::kMaxDof, 1>;
 
-  static constexpr double kMostLift = 0.01;  ///< assembly units, in one step
+  /// A face that a point is behind of by more than `behind` is not where it can pass an edge. `most_lift`: in one step.
+  /// Assembly units.
+  ContactProjection(double behind, double most_lift) : behind_(behind), most_lift_(most_lift) {}
 
   /// `radii`: one per body. `per_body`: 3 or 6.
   void project(const std::vector<sdf::ContactRow>& rows, int per_body, const std::vector<double>& radii,
@@ -39,6 +41,7 @@ class ContactProjection {
   bool exchange(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x, std::size_t turn);
   bool solve(const std::vector<sdf::ContactRow>& rows, int per_body, Below below, const Vector& wanted, Vector& x);
 
+  double behind_, most_lift_;
   NearestPoint nearest_;
   Vector scale_;  ///< per coordinate of x
   std::vector<Group> groups_;

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::sdf_velocity {
-namespace {
-
-/// A normal with less than this outside of the span of the active ones depends on them.
-constexpr double kDependent = 1e-7;
-
-}  // namespace
-
 void NearestPoint::reset(Eigen::Index dimensions) {
   count_ = 0;
   if (dimensions == dimensions_) return;
@@ -66,7 +61,7 @@ NearestPoint::Outcome NearestPoint::solve(const Eigen::VectorXd& target, Eigen::
     Eigen::Index worst = 0;
     if (count_ == 0) return Outcome::solved;
     violation_.noalias() = offsets_.head(count_) - normals_.leftCols(count_).transpose() * y;
-    if (violation_.maxCoeff(&worst) <= kTolerance) return Outcome::solved;
+    if (violation_.maxCoeff(&worst) <= geometry::kRounding) return Outcome::solved;
     const auto a = normals_.col(worst);
     double force = 0;
     for (bool added = false; !added && iterations_ < most; ++iterations_) {
@@ -80,8 +75,8 @@ NearestPoint::Outcome NearestPoint::solve(const Eigen::VectorXd& target, Eigen::
       change_ = triangle_.topLeftCorner(q, q).template triangularView<Eigen::Upper>().solve(along_);
       const double length = rest_.norm();
       // How far until the violation is gone, and until an active constraint no longer pushes.
-      const double full = length > kDependent ? (offsets_[worst] - a.dot(y)) / (length * length)
-                                              : std::numeric_limits<double>::infinity();
+      const double full = length > geometry::kRounding ? (offsets_[worst] - a.dot(y)) / (length * length)
+                                                       : std::numeric_limits<double>::infinity();
       double partial = std::numeric_limits<double>::infinity();
       std::size_t leaves = 0;
       for (Eigen::Index k = 0; k < q; ++k) {
@@ -91,7 +86,7 @@ NearestPoint::Outcome NearestPoint::solve(const Eigen::VectorXd& target, Eigen::
       }
       const double t = std::max(0.0, std::min(full, partial));
       if (t == std::numeric_limits<double>::infinity()) return Outcome::infeasible;
-      if (length > kDependent) y += t * rest_;
+      if (length > geometry::kRounding) y += t * rest_;
       for (Eigen::Index k = 0; k < q; ++k) {
         double& f = forces_[static_cast<std::size_t>(k)];
         f = std::max(0.0, f - t * change_[k]);

@@ -11,6 +11,7 @@ namespace dismantle::sdf_velocity {
 /// constraint violated most until none is; holds at most as many as there are dimensions, so that what counts is how
 /// many constraints hold the solution, not how many there are. Ties go to the lower index: the same input gives the
 /// same bits. Allocates only while it grows.
+/// A constraint is met when it is violated by no more than geometry::kRounding (units of y).
 class NearestPoint {
  public:
   enum class Outcome {
@@ -18,8 +19,6 @@ class NearestPoint {
     infeasible,  ///< no point satisfies all constraints
     unfinished,  ///< gave up; y means nothing
   };
-  /// A constraint is met when it is violated by no more than this (units of y).
-  static constexpr double kTolerance = 1e-10;
 
   /// Forgets all constraints; y has `dimensions` coordinates.
   void reset(Eigen::Index dimensions);

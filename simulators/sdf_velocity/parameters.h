@@ -6,12 +6,12 @@
 
 namespace dismantle::sdf_velocity {
 
-struct Parameters {
+struct Parameters : sdf::ContactParameters {
   double drag = 40;
   double max_travel = 0.05;
-  double depth = 2e-4;
   double contact_threshold = 0;
-  double contact_spacing = 0.1;
+  double blind_travel = 2;
+  double stall_share = 0.02;
 
   static void describe(Schema<Parameters>& s) {
     s.add("drag", &Parameters::drag,
@@ -21,11 +21,6 @@ struct Parameters {
            .min = 1e-3,
            .max = 0.1,
            .doc = "Largest way of any point of a part in one step; contacts are seen as far ahead."});
-    s.add("depth", &Parameters::depth,
-          {.unit = "unit",
-           .min = 1e-6,
-           .max = 0.01,
-           .doc = "What a step that turned out to enter a surface deeper than this did is put right in place."});
     s.add(
         "contact_threshold", &Parameters::contact_threshold,
         {.unit = "unit",
@@ -33,6 +28,18 @@ struct Parameters {
          .max = 0.1,
          .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap: for fits that have to "
                 "give. What it allows, the verifier has to allow too."});
+    s.add(
+        "blind_travel", &Parameters::blind_travel,
+        {.unit = "max_penetration",
+         .min = 0.1,
+         .max = 100,
+         .doc = "Advanced. Largest way of a point in one step where it is not known what it may meet, as a multiple of "
+                "verify.max_penetration: less than half the thickness of a wall that is to hold."});
+    s.add("stall_share", &Parameters::stall_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 0.5,
+           .doc = "Advanced. A part that moves by less than this share of the free way has stalled."});
     sdf::describe_points(s);
   }
 };

@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/plugin/finite.h"
 
 namespace dismantle::sdf_velocity {
 namespace {
-
-/// An advance that gets less far than this share of the free way counts as standing fixed.
-constexpr double kStallShare = 0.02;
-/// A step that covers less than this share of the free one leads nowhere: without inertia the next would be the same.
-constexpr double kStuckShare = 2e-3;
-/// A point goes no further than this (assembly units) where it is not certain what it may meet: less than half the
-/// thickness of a wall that is to hold.
-constexpr double kBlindWay = 0.02;
-/// A step that enters a surface deeper than this, and cannot be put right in place, is taken back and halved down to
-/// kLeastStep.
-constexpr double kTooDeep = 1e-3, kLeastStep = 2e-3;
 
 sdf::ContactOptions contact_options(const Parameters& p) {
   return {.surroundings = true, .margin = p.max_travel, .threshold = p.contact_threshold, .max_travel = p.max_travel};
@@ -27,7 +17,10 @@ sdf::ContactOptions contact_options(const Parameters& p) {
 
 VelocityWorld::VelocityWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
                              const Parameters& parameters)
-    : BodyWorld(prepared, scene, space, contact_options(parameters)), parameters_(parameters) {
+    : BodyWorld(prepared, scene, space, contact_options(parameters)),
+      parameters_(parameters),
+      blind_travel_(parameters.blind_travel * prepared.tolerance),
+      projection_(contact_depth(), prepared.tolerance) {
   for (const auto& body : bodies()) radii_.push_back(body.radius);
 }
 
@@ -47,14 +40,14 @@ VelocityWorld::Vector VelocityWorld::free_motion(const State& state, const Actio
   return motion;
 }
 
-/// The largest share of x that leads no point further than it is certain what it may meet, and kBlindWay.
+/// The largest share of x that leads no point further than it is certain what it may meet, and blind_travel_.
 double VelocityWorld::certain_share(const State& state, const Vector& x) const {
   double share = 1;
   for (const auto& c : touching()) {
     const double way =
         (shift_of<Eigen::Dynamic>(c.owner, c.point, state, x) - shift_of<Eigen::Dynamic>(c.surface, c.point, state, x))
             .norm();
-    const double certain = c.certain + kBlindWay;
+    const double certain = c.certain + blind_travel_;
     if (way * share > certain) share = certain / way;
   }
   return share;
@@ -75,7 +68,7 @@ VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, doub
   Step done;
   done.free = free_way;
   done.way = try_way(done.free);
-  if (done.way < kStuckShare * done.free) return {done.free, 0};
+  if (done.way < geometry::kRounding * done.free) return {done.free, 0};
   if (done.way > limit && done.free > limit) {
     done.free = std::max(limit, done.free * limit / done.way);
     done.way = try_way(done.free);
@@ -101,14 +94,14 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
   const std::size_t begin_trace = trace != nullptr ? trace->size() : 0;
   const double free = duration * travel_of<Eigen::Dynamic>(free_motion(state, action));
   if (!std::isfinite(free)) return not_finite();  // a force beyond all measure
-  if (!(free > 0)) {  // no force: nothing happens
+  if (!(free > 0)) {                              // no force: nothing happens
     report.stalled = true;
     return report;
   }
   double left = free, limit = parameters_.max_travel;
   while (left > 1e-9 * free) {
     const State before = state;
-    const double allowed = std::max(kTooDeep, deepest());
+    const double allowed = std::max(contact_depth(), deepest());
     const Step done = step(state, action, left, limit);
     ++report.steps;
     if (!std::isfinite(done.way) || !is_finite(state)) {
@@ -118,12 +111,13 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     }
     report.stalled = done.way == 0;
     if (report.stalled) break;
-    settle<Eigen::Dynamic>(state, parameters_.depth);
+    settle<Eigen::Dynamic>(state, contact_depth());
+    // A step that enters a surface, and cannot be corrected in place, is taken back and halved.
     if (deepest() > allowed) {
       state = before;
       update_contacts(state);
       limit = 0.5 * std::min(limit, done.way);
-      report.stalled = limit < kLeastStep;
+      report.stalled = limit < contact_depth();
       if (report.stalled) break;
       continue;
     }
@@ -139,8 +133,8 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // To and fro in place is standing fixed, too.
-  if (report.travel < kStallShare * free) report.stalled = true;
+  // A part that moves to and fro has stalled, too.
+  if (report.travel < parameters_.stall_share * free) report.stalled = true;
   return report;
 }
 

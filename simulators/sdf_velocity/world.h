@@ -31,6 +31,7 @@ class VelocityWorld final : public sdf::BodyWorld {
 
   Parameters parameters_;
   std::vector<double> radii_;
+  double blind_travel_;  // of a point where it is not certain what it may meet
   ContactProjection projection_;
 };
 

@@ -6,24 +6,14 @@
 #include <stdexcept>
 #include <string>
 
-#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/numerics.h"
+#include "dismantle/plugin/finite.h"
 
 namespace dismantle::sdf {
 namespace {
 
 constexpr int kSettleRounds = 3, kRetreatRounds = 6;
-/// Of a clearance that is asked for: what is worth trying, and what is as good as all of it.
-constexpr double kLeastClearance = 0.02, kFairShare = 0.6;
-/// Way over which contacts are followed by their own linear model before distances are asked for again. The error is
-/// of second order: at a corner a thousandth away 1e-4, over anything smoother far less.
-constexpr double kFollow = 5e-4;
-/// What only asks for penetration need not see further than this.
-constexpr double kSensorMargin = 1e-4;
-/// Corrections below this (assembly units) get a body nowhere.
-constexpr double kSettleTravel = 1e-7;
-/// Hulls count as apart from this gap on: above rounding, below any path step.
-constexpr double kSeparationGap = 1e-4;
 
 bool same_poses(const std::vector<Pose>& a, const std::vector<Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
@@ -42,8 +32,10 @@ ContactScene make_scene(const PreparedShapes& prepared, const Scene& scene, cons
           options.distance,
           options.margin,
           [&](PartId a, PartId b) { return prepared.allowed(a, b); },
-          options.threshold,
-          prepared.facet_allowance,
+          {.threshold = options.threshold,
+           .everywhere = prepared.tolerance,
+           .slack = prepared.facet_allowance,
+           .contact = prepared.contact_depth},
           &prepared.rest};
 }
 
@@ -51,7 +43,11 @@ ContactScene make_scene(const PreparedShapes& prepared, const Scene& scene, cons
 
 BodyWorld::BodyWorld(const PreparedShapes& prepared, const Scene& scene, MotionSpace space,
                      const ContactOptions& options)
-    : scene_(scene), space_(space), options_(options), contact_scene_(make_scene(prepared, scene, options)) {
+    : scene_(scene),
+      space_(space),
+      options_(options),
+      contact_depth_(prepared.contact_depth),
+      contact_scene_(make_scene(prepared, scene, options)) {
   if (scene.moving.empty() || scene.moving.size() > kMaxBodies)
     throw std::invalid_argument("1 to " + std::to_string(kMaxBodies) + " parts can move simultaneously, not " +
                                 std::to_string(scene.moving.size()));
@@ -61,7 +57,7 @@ BodyWorld::BodyWorld(const PreparedShapes& prepared, const Scene& scene, MotionS
     const Placed& placed = prepared.placed[scene.moving[i].part];
     MovingBody body;
     body.center = contact_scene_.center(i);
-    body.radius = std::max(placed.shape->radius, 1e-9);
+    body.radius = std::max(placed.shape->radius, geometry::kRounding);
     for (const auto& corner : placed.shape->hull) body.hull.push_back(placed.rest * corner);
     bodies_.push_back(std::move(body));
   }
@@ -132,8 +128,9 @@ Eigen::Vector3d BodyWorld::shift_of(int body, const Eigen::Vector3d& point, cons
 
 template <int Dof>
 void BodyWorld::follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel) {
+  // The error of the linear model of the contacts is of second order in the way.
   since_update_ += travel;
-  if (since_update_ > kFollow) {
+  if (since_update_ > contact_depth_) {
     touching_at_.clear();
     return update_contacts(state);
   }
@@ -260,7 +257,7 @@ void BodyWorld::settle(State& state, double depth) {
     if (!x.allFinite()) return;
     // A correction larger than a step would be a jump, not a correction.
     const double travel = travel_of<Dof>(x);
-    if (travel < kSettleTravel) return;  // squeezed from both sides
+    if (travel < geometry::kRounding * bodies_.front().radius) return;  // squeezed from both sides
     if (travel > options_.max_travel) x *= options_.max_travel / travel;
     follow_contacts<Dof>(state, x, displace<Dof>(state, x));
   }
@@ -277,7 +274,7 @@ void BodyWorld::keep_off(State& state, double clearance) {
     rows_current_ = false;
     typename Solver::Vector x(n);
     Solver(columns_).solve(stay_put<Dof>(1e-2 * options_.stiffness), Solver::Vector::Zero(n), rows_, per_body_, x);
-    if (!x.allFinite() || displace<Dof>(state, x) < kSettleTravel) return;
+    if (!x.allFinite() || displace<Dof>(state, x) < geometry::kRounding * bodies_.front().radius) return;
   }
 }
 
@@ -296,7 +293,7 @@ double BodyWorld::room(const State& state, double most) {
 /// all alike only as far as all can have it. What is still deep inside something is left there.
 void BodyWorld::project_to_clearance(State& state, double clearance) {
   double most = room(state, clearance);
-  for (double wanted = clearance; most < wanted && wanted > kLeastClearance * clearance; wanted /= 2) {
+  for (double wanted = clearance; most < wanted && wanted > contact_depth_; wanted /= 2) {
     State there = state;
     if (bodies_.size() > 1)
       keep_off<Eigen::Dynamic>(there, wanted);
@@ -306,7 +303,7 @@ void BodyWorld::project_to_clearance(State& state, double clearance) {
       keep_off<6>(there, wanted);
     const double has = room(there, wanted);
     if (has > most) state = there, most = has;
-    if (most > kFairShare * wanted || most < -clearance) return;
+    if (2 * most > wanted || most < -clearance) return;
   }
 }
 
@@ -314,7 +311,7 @@ double BodyWorld::penetration(const State& state) {
   if (!is_finite(state)) return std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < bodies_.size(); ++i) poses_[i] = state.bodies[i].pose;
   if (!same_poses(poses_, touching_at_)) {
-    if (!sensor_) sensor_ = std::make_unique<ContactScene>(contact_scene_.with_margin(kSensorMargin));
+    if (!sensor_) sensor_ = std::make_unique<ContactScene>(contact_scene_.with_margin(0));
     sensor_->update(poses_, sensed_);
   }
   double depth = 0;
@@ -348,7 +345,7 @@ bool BodyWorld::separated(const State& state) {
   std::vector<Eigen::Vector3d> moving;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (const auto& corner : bodies_[i].hull) moving.push_back(state.bodies[i].pose * corner);
-  return separate(moving, rest_hull_, kSeparationGap).has_value();
+  return separate(moving, rest_hull_, contact_depth_).has_value();
 }
 
 bool BodyWorld::body_separated(const State& state, std::size_t body) {
@@ -356,7 +353,7 @@ bool BodyWorld::body_separated(const State& state, std::size_t body) {
   std::vector<Eigen::Vector3d> alone, others = rest_hull_;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     for (const auto& corner : bodies_[i].hull) (i == body ? alone : others).push_back(state.bodies[i].pose * corner);
-  return others.empty() || separate(alone, others, kSeparationGap).has_value();
+  return others.empty() || separate(alone, others, contact_depth_).has_value();
 }
 
 #define DISMANTLE_BODY_WORLD(DOF)                                                                      \

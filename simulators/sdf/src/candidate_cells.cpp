@@ -4,11 +4,12 @@
 #include <memory>
 #include <type_traits>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::sdf {
 namespace {
 
 constexpr std::align_val_t kAligned{64};  // to the lines of the cache
-constexpr double kOff = 1e-9;             // cells by which rounding may find a point in a neighbour of its cell
 
 }  // namespace
 
@@ -36,7 +37,7 @@ CandidateCells::CandidateCells(const Aabb& box, double cell)
     : box_(box),
       cell_(cell),
       inverse_cell_(1 / cell),
-      half_diagonal_((0.5 + kOff) * std::sqrt(3.0) * cell),
+      half_diagonal_((0.5 + geometry::kRounding) * std::sqrt(3.0) * cell),
       cells_((box.size() / cell).array().ceil().cast<int>().max(1)),
       blocks_((cells_ + kBlock - 1) / kBlock),
       table_(static_cast<std::size_t>(blocks_.prod())) {}

@@ -11,7 +11,7 @@ float ContactScene::assembled_depth(const ContactPair& pair, const Member& owner
   double depth = 0;
   for (const SolidField& s : surface.placed->shape->solids)
     if (s.box.contains(p) && s.grid->lower_bound(p) <= 0) depth = std::max(depth, -s.surface->sample(p).value);
-  depth += std::min(0.5 * depth, slack_) + threshold_;
+  depth += std::min(0.5 * depth, depths_.slack) + depths_.threshold;
   return depth > pair.everywhere ? static_cast<float>(std::min(depth, pair.allowed)) : 0.0F;
 }
 

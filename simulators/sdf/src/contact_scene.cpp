@@ -8,24 +8,14 @@
 namespace dismantle::sdf {
 namespace {
 
-/// Beyond this distance a query gives up and the block sleeps for that long.
-constexpr double kReach = 0.5;
 /// Beyond so many margins a bound on the distance is as good as the distance.
 constexpr double kFarEnough = 2;
-/// Closer than this to a convex edge a contact counts as on it: above the sink of penalty contact, far
-/// below what the verifier lets pass.
-constexpr double kOnEdge = 2e-4;
-/// A point that can go this share of the margin for certain need not look around.
-constexpr double kEnoughCertain = 0.6;
-/// Distances that are linear over less than this are not worth remembering.
-constexpr double kLeastFlat = 5e-4;
 /// Odometer reading at which a block wakes that has a point within the margin: immediately.
 constexpr double kHeld = -2;
 
 /// What a way from an anchor and its distance may be off: both are kept in single precision.
 double rounding_of(const Anchor& anchor) {
-  constexpr double kEpsilon = std::numeric_limits<float>::epsilon();
-  return kEpsilon * (anchor.point.lpNorm<1>() + std::abs(anchor.distance));
+  return std::numeric_limits<float>::epsilon() * (anchor.point.lpNorm<1>() + std::abs(anchor.distance));
 }
 
 Aabb world_box(const Aabb& local, const Pose& pose) {
@@ -100,7 +90,7 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
                                      const FlatnessWanted& flatness, std::uint32_t& hint, const Near& near) {
   ++queries_;
   // A query with the last closest triangle needs no bound.
-  if (near.surely && hint != kNoTriangle) {
+  if (near.surely && hint != geometry::kNoIndex) {
     const Sample s = field.surface->sample(p, limit, hint, flatness, near.list);
     hint = s.triangle;
     return s;
@@ -117,10 +107,10 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
   rough.value = std::min(bound, limit);
   if (bound > enough) return rough;
   const double first =
-      hint == kNoTriangle ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
+      hint == geometry::kNoIndex ? std::min(limit, std::abs(field.grid->value(p)) + field.grid->cell().norm()) : limit;
   Sample s = field.surface->sample(p, first, hint, flatness, near.list);
-  if (s.triangle == kNoTriangle && first < limit) s = field.surface->sample(p, limit, hint, flatness);
-  if (s.triangle != kNoTriangle) {
+  if (s.triangle == geometry::kNoIndex && first < limit) s = field.surface->sample(p, limit, hint, flatness);
+  if (s.triangle != geometry::kNoIndex) {
     hint = s.triangle;
     return s;
   }
@@ -161,7 +151,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     set.wake.assign(points.points.blocks.size(), -1.0);
     set.point_wake.assign(points.points.points.size(), -1.0);
     set.anchor.assign(points.points.points.size(), {});
-    set.hint.assign(points.points.points.size() * solids, kNoTriangle);
+    set.hint.assign(points.points.points.size() * solids, geometry::kNoIndex);
     set.linear.assign(points.points.points.size() * solids, 0);
     if (pair.everywhere < pair.allowed) measure_own_depths(pair, set, members_[owner], members_[surface]);
     set.ready = true;
@@ -175,7 +165,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   const Eigen::Matrix3d to_world = world_[surface].q.toRotationMatrix();
 
   struct Touch {
-    double distance = kReach;
+    double distance = 0;
     std::size_t solid = 0;
     Sample sample;
   };
@@ -189,14 +179,14 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     c.surface = surface < moving_ ? static_cast<int>(surface) : -1;
     c.owner_part = members_[owner].part;
     c.surface_part = members_[surface].part;
-    if (touch.sample.triangle != kNoTriangle && touch.sample.flat_radius == 0) {
-      c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, kOnEdge + allowed, c.planes);
+    if (touch.sample.triangle != geometry::kNoIndex && touch.sample.flat_radius == 0) {
+      c.plane_count = target.solids[touch.solid].surface->planes(p, touch.sample, depths_.contact + allowed, c.planes);
       for (int i = 0; i < c.plane_count; ++i) {
         c.planes[i].normal = to_world * c.planes[i].normal;
         c.planes[i].gap += allowed;
       }
     }
-    if (!surroundings_ || c.certain >= kEnoughCertain * margin || touch.sample.triangle == kNoTriangle || allowed > 0) {
+    if (!surroundings_ || c.certain >= margin || touch.sample.triangle == geometry::kNoIndex || allowed > 0) {
       out.push_back(c);
       return;
     }
@@ -205,8 +195,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     fronts[0] = {touch.sample.normal, touch.distance};
     for (int i = 0; i < c.plane_count; ++i)
       fronts[1 + i] = {to_world.transpose() * c.planes[i].normal, c.planes[i].gap};
-    c.certain = std::max(
-        c.certain, target.solids[touch.solid].surface->surroundings(p, fronts, 1 + c.plane_count, margin, more, count));
+    c.certain = std::max(c.certain, target.solids[touch.solid].surface->surroundings(
+                                        p, fronts, 1 + c.plane_count, margin, depths_.contact, more, count));
     out.push_back(c);
     c.plane_count = 0;
     for (int i = 0; i < count; ++i) {
@@ -217,16 +207,17 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
   };
   const auto nearest = [&](const Eigen::Vector3d& p, std::uint32_t* hint, std::uint32_t* linear, double allowed,
                            const Near& near) {
-    const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, kOnEdge + allowed,
-                                  std::max(kLeastFlat, near.way)};
+    const FlatnessWanted flatness{linear != nullptr ? 2 * margin : 0.0, depths_.contact + allowed,
+                                  std::max(depths_.contact, near.way)};
     Touch best;
+    best.distance = reach_;
     for (std::size_t s = 0; s < solids; ++s) {
       // Box distance bounds the signed distance from below outside: most solids drop out here.
       const Aabb& box = target.solids[s].box;
       if (best.distance <= 0 ? !box.contains(p) : box.squared_distance(p) >= best.distance * best.distance) continue;
       Sample sample;
       if (linear == nullptr || !recall(set, *target.solids[s].surface, linear[s], p, sample)) {
-        sample = signed_distance(target.solids[s], p, kReach, flatness, hint[s], near);
+        sample = signed_distance(target.solids[s], p, reach_, flatness, hint[s], near);
         if (linear != nullptr && sample.flat_radius > 0) remember(set, linear[s], p, sample);
       }
       if (sample.value < best.distance) best = {sample.value, s, sample};
@@ -244,7 +235,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     const bool held = set.wake[k] == kHeld;
     double lower = held ? 0.0 : std::sqrt(target.box.squared_distance(center)) - block.radius;
     if (!held && lower + pair.everywhere < margin) {
-      double free = kReach * 4;
+      double free = 4 * reach_;
       for (const SolidField& s : target.solids) {
         const double outside = std::sqrt(s.box.squared_distance(center));
         free = std::min(free, std::max(outside, s.grid->lower_bound(center)));
@@ -257,7 +248,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       set.wake[k] = odometer + slack;
       continue;
     }
-    slack = kReach;
+    slack = reach_;
     for (std::uint32_t i = block.first; i < block.first + block.count; ++i) {
       if (set.point_wake[i] > odometer) {
         slack = std::min(slack, set.point_wake[i] - odometer);
@@ -296,7 +287,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed, near);
         beyond = touch.distance + allowed - margin;
         // Interpolated distances may change faster than the way.
-        if (model_ == DistanceModel::exact && (touch.distance > 0 || touch.sample.triangle != kNoTriangle))
+        if (model_ == DistanceModel::exact && (touch.distance > 0 || touch.sample.triangle != geometry::kNoIndex))
           set.anchor[i] = {p.cast<float>(), static_cast<float>(touch.distance)};
         if (beyond < 0) emit(p, touch, allowed);
       }
@@ -308,7 +299,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         wake = std::min(wake, odometer + beyond);
     }
   }
-  set.extra_hint.resize(set.extra.size() * solids, kNoTriangle);
+  set.extra_hint.resize(set.extra.size() * solids, geometry::kNoIndex);
   for (std::size_t i = 0; i < set.extra.size(); ++i) {
     const Eigen::Vector3d p = rotation * set.extra[i] + shift;
     const double allowed = local ? std::max<double>(pair.everywhere, set.extra_own[i]) : pair.everywhere;
@@ -336,7 +327,7 @@ void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
     const Member &a = members_[pair.a], &b = members_[pair.b];
     const auto& known = rest_->of(a.part, b.part, [&](RestContacts::Entry& entry) {
       ContactScene alone(
-          {a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - threshold_; }, threshold_, slack_);
+          {a}, {b}, model_, margin_, [&](PartId, PartId) { return pair.allowed - depths_.threshold; }, depths_);
       alone.surroundings_ = surroundings_;
       alone.update({a.pose}, entry.points);
       entry.pair = std::move(alone.pairs_.front());

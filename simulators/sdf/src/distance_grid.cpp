@@ -53,7 +53,7 @@ void DistanceGrid::fill(const SurfaceQuery& surface) {
   for (int k = 0; k < nodes_[2]; ++k)
     for (int j = 0; j < nodes_[1]; ++j) {
       double limit = std::numeric_limits<double>::infinity();
-      std::uint32_t hint = kNoTriangle;
+      std::uint32_t hint = geometry::kNoIndex;
       for (int i = 0; i < nodes_[0]; ++i) {
         const Sample s = surface.sample(origin_ + Eigen::Vector3d(i, j, k).cwiseProduct(cell_), limit, hint);
         values_[index(i, j, k)] = static_cast<float>(s.value);
@@ -96,7 +96,7 @@ void DistanceGrid::fill_band(const Solid& solid, const SurfaceQuery& surface) {
           if (exact_[at] != 0) continue;
           const Eigen::Vector3d p(origin_[0] + i * cell_[0], y, z);
           const Sample s = surface.sample(p, band_, t);
-          if (s.triangle == kNoTriangle) continue;
+          if (s.triangle == geometry::kNoIndex) continue;
           values_[at] = static_cast<float>(s.value);
           exact_[at] = 1;
         }
@@ -207,9 +207,9 @@ double DistanceGrid::value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) 
     gradient = gradient * std::max(value, 0.0) + beyond;
     value += beyond.norm();
   }
-  // Slopes of distances are at most some units: nothing overflows, and below the least the direction is noise.
-  constexpr double kNoSlope = 1e-30;
-  if (const double squared = gradient.squaredNorm(); squared > kNoSlope) gradient *= 1 / std::sqrt(squared);
+  // Slopes of distances are at most some units, so nothing overflows.
+  if (const double squared = gradient.squaredNorm(); squared > std::numeric_limits<float>::min())
+    gradient *= 1 / std::sqrt(squared);
   return value;
 }
 

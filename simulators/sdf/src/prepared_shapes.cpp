@@ -7,7 +7,9 @@ namespace dismantle::sdf {
 std::shared_ptr<PreparedShapes> prepare_shapes(const Assembly& assembly, const ShapeOptions& options, double tolerance,
                                                RunContext& context) {
   auto prepared = std::make_shared<PreparedShapes>();
-  prepared->facet_allowance = kFacetShare * tolerance;
+  prepared->facet_allowance = options.facet_share * tolerance;
+  prepared->tolerance = tolerance;
+  prepared->contact_depth = options.contact_depth * tolerance;
   prepared->placed = build_shapes(assembly, options, context);
   if (context.should_stop()) return prepared;
   for (const InitialOverlap& o : assembly.overlaps)

@@ -10,6 +10,7 @@
 #include "dismantle/geometry/congruence.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::sdf {
 namespace {
@@ -19,7 +20,8 @@ Eigen::Quaterniond box_frame(const Mesh& mesh) {
   std::vector<geometry::FaceAxis> directions;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3d c = geometry::area_vector(mesh, t);
-    if (const double area = c.norm(); area > 0) geometry::add_face(directions, {c / area, area}, 0.99999, 64);
+    if (const double area = c.norm(); area > 0)
+      geometry::add_face(directions, {c / area, area}, geometry::kSameDirection, 64);
   }
   geometry::sort_by_area(directions, 8);
   const auto volume = [&](const Eigen::Matrix3d& r) {  // of the box in the frame whose axes are r's rows
@@ -64,7 +66,7 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
   for (const Solid& solid : split_solids(mesh)) {
     SolidField field;
     field.box = solid.mesh.box();
-    field.surface = std::make_unique<SurfaceQuery>(solid);
+    field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing);
     field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, options.grid);
     shape->solids.push_back(std::move(field));
   }
@@ -79,15 +81,16 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
 }  // namespace
 
 std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& options, RunContext& context) {
-  constexpr double kSame = 1e-7;  // assembly units: far below any clearance, above the noise of printed coordinates
   const std::size_t n = assembly.parts.size();
   std::vector<std::size_t> model(n);  // part whose shape is used
   std::vector<Pose> from_model(n);
   std::vector<std::size_t> distinct;
   for (std::size_t i = 0; i < n; ++i) {
     model[i] = i;
+    // Coordinates of files are in single precision.
+    const double same = std::numeric_limits<float>::epsilon() * assembly.parts[i].mesh->box().size().norm();
     for (std::size_t d : distinct)
-      if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSame)) {
+      if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, same)) {
         model[i] = d;
         from_model[i] = *pose;
         break;

@@ -2,28 +2,23 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 
 #include "dismantle/sdf/surface_query.h"
 
 namespace dismantle::sdf {
-namespace {
-
-/// Corners that are less than this off a plane lie in it: what single precision leaves of a flat face.
-constexpr double kCoplanar = 2e-6;
-
-}  // namespace
-
 void SurfaceQuery::find_faces(const Solid& solid) {
   const Mesh& mesh = solid.mesh;
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
   for (std::uint32_t t = 0; t < n; ++t)
     for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
-  face_of_.assign(n, kNoTriangle);
+  face_of_.assign(n, geometry::kNoIndex);
   std::vector<std::uint32_t> todo;
   for (std::uint32_t seed = 0; seed < n; ++seed) {
-    if (face_of_[seed] != kNoTriangle) continue;
+    if (face_of_[seed] != geometry::kNoIndex) continue;
     const auto id = static_cast<std::uint32_t>(planes_.size());
     const Plane plane{face_[seed], face_[seed].dot(mesh.vertex(seed, 0))};
     planes_.push_back(plane);
@@ -34,10 +29,10 @@ void SurfaceQuery::find_faces(const Solid& solid) {
       todo.pop_back();
       for (const std::uint32_t v : mesh.triangles[t])
         for (const std::uint32_t u : around[v]) {
-          if (face_of_[u] != kNoTriangle || face_[u].dot(plane.normal) < 0.5) continue;
+          if (face_of_[u] != geometry::kNoIndex || face_[u].dot(plane.normal) < 0.5) continue;
           bool flat = true;
           for (int k = 0; k < 3 && flat; ++k)
-            flat = std::abs(plane.normal.dot(mesh.vertex(u, k)) - plane.offset) <= kCoplanar;
+            flat = std::abs(plane.normal.dot(mesh.vertex(u, k)) - plane.offset) <= coplanar_;
           if (!flat) continue;
           face_of_[u] = id;
           todo.push_back(u);
@@ -47,11 +42,11 @@ void SurfaceQuery::find_faces(const Solid& solid) {
 }
 
 void SurfaceQuery::find_convex_features(const Solid& solid) {
-  constexpr double kFlat = 1e-6;
+  const double flat = std::numeric_limits<float>::epsilon();  // sine of a bend that rounding makes
   const Mesh& mesh = solid.mesh;
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::size_t>> open;
-  neighbor_.assign(n, {kNoTriangle, kNoTriangle, kNoTriangle});
+  neighbor_.assign(n, {geometry::kNoIndex, geometry::kNoIndex, geometry::kNoIndex});
   std::vector<bool> convex(mesh.vertices.size(), true);
   for (std::uint32_t t = 0; t < n; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -66,10 +61,10 @@ void SurfaceQuery::find_convex_features(const Solid& solid) {
       const Eigen::Vector3d along = (mesh.vertices[to] - mesh.vertices[from]).stableNormalized();
       // Positive where the surface bends away from the viewer outside.
       const double bend = face_[t].cross(face_[u]).dot(along);
-      if (bend > kFlat || (std::abs(bend) <= kFlat && face_[t].dot(face_[u]) < 0)) {
+      if (bend > flat || (std::abs(bend) <= flat && face_[t].dot(face_[u]) < 0)) {
         neighbor_[t][k] = u;
         neighbor_[u][j] = t;
-      } else if (bend < -kFlat) {
+      } else if (bend < -flat) {
         convex[from] = convex[to] = false;
       }
     }
@@ -108,7 +103,7 @@ int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double 
   const Eigen::Vector3d corner[3] = {c.a, c.a + c.ab, c.a + c.ac};
   const Eigen::Vector3d q = p - sample.offset;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (neighbor_[t][k] == kNoTriangle) continue;
+    if (neighbor_[t][k] == geometry::kNoIndex) continue;
     const Eigen::Vector3d along = corner[(k + 1) % 3] - corner[k];
     const bool on_edge = f == k + 1;
     if (!on_edge && (q - corner[k]).cross(along).squaredNorm() > near * near * along.squaredNorm()) continue;
@@ -119,10 +114,8 @@ int SurfaceQuery::planes(const Eigen::Vector3d& p, const Sample& sample, double 
 }
 
 double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach,
-                                  FacePlane* out, int& count) const {
-  // A point this far behind a face is still taken to be in front of it; a corner this far in front of one sticks out.
-  constexpr double kBehind = 2e-4, kSticksOut = 1e-6;
-  constexpr double kSmooth = 0.87, kBeside = 0.6, kFacing = 0.87;
+                                  double behind, FacePlane* out, int& count) const {
+  const double smooth = std::cos(std::numbers::pi / 6);
   if (!cells_ || !cells_->covers(p)) return 0;
   const CandidateList& list = cells_->at(p, [this](const Eigen::Vector3d& center) { return candidates_of(center, 0); });
   if (!list.usable) return 0;
@@ -131,26 +124,27 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
   const auto meet = [&](std::uint32_t slot) {
     const Plane& plane = planes_[face_of_[triangle_[slot]]];
     const double gap = plane.normal.dot(p) - plane.offset;
-    if (gap < -kBehind || gap >= certain) return;
+    if (gap < -behind || gap >= certain) return;
     // What lies behind all fronts is out of reach.
     const Corner& k = corners_[slot];
     bool in_reach = false;
     for (int i = 0; i < front_count && !in_reach; ++i) {
       const double here = fronts[i].gap + fronts[i].normal.dot(k.a - p);
       const double highest = here + std::max({0.0, fronts[i].normal.dot(k.ab), fronts[i].normal.dot(k.ac)});
-      in_reach = highest > kSticksOut;
+      in_reach = highest > coplanar_;
     }
     if (!in_reach) return;
     bool known = false;
     for (int i = 0; i < count && !known; ++i)
-      known = (out[i].normal - plane.normal).squaredNorm() < 1e-8 && std::abs(out[i].gap - std::max(gap, 0.0)) < 1e-6;
+      known =
+          (out[i].normal - plane.normal).squaredNorm() < 1e-8 && std::abs(out[i].gap - std::max(gap, 0.0)) < coplanar_;
     if (known) return;
     const Closest c = closest(p, k.a, k.ab, k.ac);
     if (c.squared >= certain * certain) return;
     const double distance = std::sqrt(c.squared);
     // Where the surface goes on, only a little bent.
-    if (plane.normal.dot(fronts[0].normal) > kSmooth && gap < kBeside * distance) return;
-    if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > kFacing * distance))
+    if (plane.normal.dot(fronts[0].normal) > smooth && gap < smooth * distance) return;
+    if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > smooth * distance))
       out[count++] = {plane.normal, std::max(gap, 0.0)};
     else
       certain = distance;

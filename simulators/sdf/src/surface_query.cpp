@@ -11,20 +11,19 @@ float below(double x) { return std::nextafter(static_cast<float>(x), -std::numer
 float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 constexpr std::uint32_t kLeafSize = 4;
-
-/// Cells of the candidate lists, assembly units: a few steps of motion, a few triangles.
-constexpr double kCell = 0.05, kLeastCell = 0.01, kCellsPerEdge = 24;
-/// Lists serve points that are nearer than this to the surface.
-constexpr double kNearSurface = 0.12;
-/// More candidates than this are better looked for in the tree. Few of a long list are looked at: it is sorted.
+/// Cells of the candidate lists along the longest edge of a small part.
+constexpr double kCellsPerEdge = 24;
+/// Where there are more candidates the tree is faster. Few of a long list are examined: it is sorted.
 constexpr std::size_t kMostCandidates = 256;
-/// Largest flat radius that is looked for.
-constexpr double kMostFlat = 0.1;
 
 }  // namespace
 
-SurfaceQuery::SurfaceQuery(const Solid& solid)
-    : indices_(solid.mesh.triangles), face_(solid.face_normal), vertex_(solid.vertex_normal), edge_(solid.edge_normal) {
+SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
+    : near_(near),
+      indices_(solid.mesh.triangles),
+      face_(solid.face_normal),
+      vertex_(solid.vertex_normal),
+      edge_(solid.edge_normal) {
   const auto n = static_cast<std::uint32_t>(solid.mesh.triangles.size());
   std::vector<Aabb> boxes(n);
   for (std::uint32_t t = 0; t < n; ++t)
@@ -38,7 +37,8 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
   corners_.resize(n);
   slabs_.reserve(n);
   Aabb reach = solid.mesh.box();
-  reach.inflate(kNearSurface);
+  coplanar_ = std::numeric_limits<float>::epsilon() * reach.size().norm();
+  reach.inflate(near_);
   bounded_within_ = 2 * reach.lo.cwiseAbs().cwiseMax(reach.hi.cwiseAbs()).norm();
   for (std::uint32_t s = 0; s < n; ++s) {
     slot_[ids[s]] = s;
@@ -49,7 +49,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid)
   find_faces(solid);
   find_convex_features(solid);
   if (n == 0) return;
-  const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, kLeastCell, kCell);
+  const double cell = std::min(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, 0.5 * near_);
   cells_ = std::make_unique<CandidateCells>(reach, cell);
 }
 
@@ -58,7 +58,7 @@ inline void SurfaceQuery::look_at(const Eigen::Vector3d& p, std::uint32_t slot, 
   const Corner& k = corners_[slot];
   const Closest c = closest(p, k.a, k.ab, k.ac);
   if (c.squared < nearest.squared ||
-      (c.squared == nearest.squared && nearest.slot != kNoTriangle && slot < nearest.slot))
+      (c.squared == nearest.squared && nearest.slot != geometry::kNoIndex && slot < nearest.slot))
     nearest = {c.squared, slot, c};
 }
 
@@ -74,7 +74,7 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
   const double reach = std::sqrt(nearest.squared) + 2 * cells_->half_diagonal();
   list.reach = reach;
   // No point of the cell is near the surface.
-  list.usable = std::abs(list.distance) <= kNearSurface + cells_->half_diagonal();
+  list.usable = std::abs(list.distance) <= near_ + cells_->half_diagonal();
   if (!list.usable) return list;
   const PointLanes at(center);
   const float filter = TriangleSlabs::filter(reach * reach);
@@ -164,7 +164,7 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& near
   const double distance = std::sqrt(c.squared);
   const bool inside = c.offset.dot(pseudo) < 0;
   s.value = inside ? -distance : distance;
-  if (distance > 1e-9)
+  if (distance > geometry::kRounding)
     s.normal = (inside ? -1.0 : 1.0) / distance * c.offset;
   else
     s.normal = pseudo.stableNormalized();
@@ -178,7 +178,7 @@ double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample,
   if (sample.feature != Feature::face) return 0;
   const double distance = std::abs(sample.value), off = (p - list.center).norm();
   const auto alone = [&](double other) { return 0.5 * (other - distance) - wanted.from_edge; };
-  double radius = std::min(kMostFlat, alone(list.reach - off));
+  double radius = std::min(near_, alone(list.reach - off));
   double limit = distance + 2 * (radius + wanted.from_edge);
   const PointLanes at(p);
   const std::uint32_t own = face_of_[sample.triangle];
@@ -276,7 +276,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
   if (nodes_.empty()) return {};
   Nearest nearest{limit * limit};
   if (hint < slot_.size()) look_at(p, slot_[hint], nearest);
-  if (nearest.slot != kNoTriangle && nearest.squared < kNearSurface * kNearSurface && cells_->covers(p)) {
+  if (nearest.slot != geometry::kNoIndex && nearest.squared < near_ * near_ && cells_->covers(p)) {
     if (list == nullptr)
       list = &cells_->at(p, [&](const Eigen::Vector3d& center) { return candidates_of(center, nearest.slot); });
     if (list->usable) {
@@ -287,7 +287,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
     }
   }
   look_in_tree(p, nearest);
-  if (nearest.slot == kNoTriangle) return {};
+  if (nearest.slot == geometry::kNoIndex) return {};
   return signed_sample(p, nearest);
 }
 

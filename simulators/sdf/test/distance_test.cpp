@@ -121,7 +121,7 @@ TEST(SurfaceQuery, LimitedQueriesAnswerExactlyWithinTheLimit) {
     if (std::abs(full) < limit)
       EXPECT_EQ(s.value, full);
     else
-      EXPECT_EQ(s.triangle, kNoTriangle);
+      EXPECT_EQ(s.triangle, geometry::kNoIndex);
   }
 }
 

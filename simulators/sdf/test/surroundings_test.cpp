@@ -57,7 +57,7 @@ struct Surroundings {
     fronts.push_back({sample.normal, sample.value});
     fronts.insert(fronts.end(), planes, planes + edges);
     int count = 0;
-    certain = query.surroundings(p, fronts.data(), static_cast<int>(fronts.size()), reach, more, count);
+    certain = query.surroundings(p, fronts.data(), static_cast<int>(fronts.size()), reach, 2e-4, more, count);
     walls.assign(more, more + count);
   }
   /// Is it in front of one of the faces that the point was at, and of all others that were told?

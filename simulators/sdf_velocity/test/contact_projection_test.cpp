@@ -14,6 +14,8 @@ namespace {
 using Rows = std::vector<sdf::ContactRow>;
 using Vector = ContactProjection::Vector;
 
+constexpr double kMostLift = 0.01;
+
 /// Contacts of `bodies` bodies with each other and with what stay fixed; `below`: some are below the surface.
 Rows random_rows(Rng& rng, int bodies, int per_body, double below) {
   Rows rows;
@@ -60,7 +62,7 @@ Vector random_wanted(Rng& rng, int size) {
 
 TEST(ContactProjection, NothingGetsDeeperAndWhatIsFreeIsLeftAlone) {
   Rng rng(41);
-  ContactProjection projection;
+  ContactProjection projection(2e-4, kMostLift);
   int moved = 0, unchanged = 0;
   for (int round = 0; round < 3000; ++round) {
     const int bodies = 1 + static_cast<int>(rng.below(3)), per_body = rng.below(2) == 0 ? 3 : 6;
@@ -110,7 +112,7 @@ TEST(ContactProjection, AtAnEdgeOneFaceIsEnough) {
   // The point is on an edge between a floor and a wall that drops from it: sideways or up, and around neither.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), out = Eigen::Vector3d::UnitX();
   const Rows rows{face((up + out).normalized(), 0, 2), face(up, 0), face(out, 0)};
-  ContactProjection projection;
+  ContactProjection projection(2e-4, kMostLift);
   Vector x;
   for (const Eigen::Vector3d& free : {Eigen::Vector3d(0.02, 0, -0.05), Eigen::Vector3d(-0.05, 0, 0.01)}) {
     projection.project(rows, 3, {1.0}, free, x);
@@ -126,7 +128,7 @@ TEST(ContactProjection, AnExchangeOfFacesGetsPastAnEdge) {
   // A second contact closes the way over the floor: what is left leads down the wall.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), out = Eigen::Vector3d::UnitX();
   const Rows rows{face((up + out).normalized(), 0, 2), face(up, 0), face(out, 0), face(out, 0)};
-  ContactProjection projection;
+  ContactProjection projection(2e-4, kMostLift);
   Vector x;
   projection.project(rows, 3, {1.0}, Eigen::Vector3d(-0.05, 0, -0.01), x);
   EXPECT_LT((x - Eigen::Vector3d(0, 0, -0.01)).norm(), 1e-12);
@@ -134,12 +136,12 @@ TEST(ContactProjection, AnExchangeOfFacesGetsPastAnEdge) {
 
 TEST(ContactProjection, LiftsWhatIsBelowAndHoldsWhatIsSqueezed) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  ContactProjection projection;
+  ContactProjection projection(2e-4, kMostLift);
   Vector x;
   projection.project({face(up, -0.001)}, 3, {1.0}, Eigen::Vector3d(0.02, 0, -0.02), x);
   EXPECT_LT((x - Eigen::Vector3d(0.02, 0, 0.001)).norm(), 1e-12);
   projection.project({face(up, -0.5)}, 3, {1.0}, Eigen::Vector3d(0.02, 0, 0), x);
-  EXPECT_NEAR(x[2], ContactProjection::kMostLift, 1e-12) << "no jump";
+  EXPECT_NEAR(x[2], kMostLift, 1e-12) << "no jump";
   projection.project({face(up, -0.001), face(-up, -0.001)}, 3, {1.0}, Eigen::Vector3d(0.02, 0, -0.02), x);
   EXPECT_LT((x - Eigen::Vector3d(0.02, 0, 0)).norm(), 1e-12) << "between two jaws";
 }

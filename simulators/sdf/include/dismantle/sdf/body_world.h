@@ -56,6 +56,8 @@ class BodyWorld : public World {
 
   const std::vector<MovingBody>& bodies() const { return bodies_; }
   int per_body() const { return per_body_; }  ///< degrees of freedom: 3 or 6
+  /// Depth by which contact may be off, assembly units.
+  double contact_depth() const { return contact_depth_; }
   Eigen::Index dof() const { return static_cast<Eigen::Index>(bodies_.size()) * per_body_; }
   const std::vector<ContactPoint>& touching() const { return touching_; }
   const std::vector<ContactRow>& rows() const { return rows_; }
@@ -102,6 +104,7 @@ class BodyWorld : public World {
   Scene scene_;
   MotionSpace space_;
   ContactOptions options_;
+  double contact_depth_;
   ContactScene contact_scene_;
   std::unique_ptr<ContactScene> sensor_;  ///< sees penetration only; made when first asked for
   std::vector<ContactPoint> sensed_;      // scratch

@@ -37,7 +37,7 @@ struct ContactPoint {
 struct LinearDistance {
   Eigen::Vector3d point, normal;  ///< frame of the surface
   double squared_radius = 0;
-  std::uint32_t triangle = kNoTriangle;
+  std::uint32_t triangle = geometry::kNoIndex;
 };
 
 /// Where the distance of a point was last measured. It has changed by no more than the way from there.

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,16 @@ enum class DistanceModel {
   grid,   ///< trilinear interpolation of the grid (the paper's)
 };
 
+/// Depths in assembly units.
+struct ContactDepths {
+  double threshold = 0;  ///< granted to all pairs everywhere, on top of their overlap
+  /// A larger overlap is not granted everywhere at once, since it would let a part through walls that are thinner than
+  /// twice that: at first each point may be as deep as it was when assembled, and other points this deep.
+  double everywhere = std::numeric_limits<double>::infinity();
+  double slack = 0;    ///< what each point may be deeper than when assembled
+  double contact = 0;  ///< depth, and distance from a convex edge, by which contact may be off
+};
+
 /// Points are culled by motion: each pair, then each block of points, remembers how far the bodies may
 /// move before it can matter, so that the work of a step follows the points that can touch. Once warm,
 /// update() allocates nothing.
@@ -28,26 +39,23 @@ class ContactScene {
     const Placed* placed = nullptr;
     Pose pose;  ///< of a fixed part; start pose of a moving one
   };
-  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap; `threshold` is
-  /// granted on top of it, to all pairs everywhere.
-  ///
-  /// A depth above kTight is not granted everywhere at once, since it would let a part through walls that are
-  /// thinner than twice that: at first each point may be as deep as it was when assembled (with `slack`
-  /// on top), other points kTight. allow_overlap_everywhere() grants the pair's depth to all points.
+  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap.
+  /// allow_overlap_everywhere() grants that depth to all points; see ContactDepths for before.
   ///
   /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
   ContactScene(std::vector<Member> moving, std::vector<Member> fixed, DistanceModel model, double margin,
-               const Allowed& allowed, double threshold = 0, double slack = 0, RestContacts* rest = nullptr)
-      : model_(model), margin_(margin), threshold_(threshold), slack_(slack), rest_(rest) {
+               const Allowed& allowed, const ContactDepths& depths = {}, RestContacts* rest = nullptr)
+      : model_(model), margin_(margin), reach_(kReach * margin), depths_(depths), rest_(rest) {
     set_members(std::move(moving), std::move(fixed));
     for (auto& pair : pairs_) {
       const double overlap = allowed(members_[pair.a].part, members_[pair.b].part);
-      pair.allowed = overlap + threshold;
-      pair.everywhere = std::min(overlap, kTight) + threshold;
+      pair.allowed = overlap + depths.threshold;
+      pair.everywhere = std::min(overlap, depths.everywhere) + depths.threshold;
     }
   }
-  static constexpr double kTight = 0.01;
+  /// Margins beyond which a query gives up, and the block of the point is not asked for until it may be nearer.
+  static constexpr double kReach = 20;
   /// The same members, samples and allowances as they are now, with nothing measured yet.
   ContactScene with_margin(double margin) const;
   /// Also lists the faces around each contact that its point can run into (SurfaceQuery::surroundings), and tells how
@@ -99,7 +107,8 @@ class ContactScene {
                          const FlatnessWanted& flatness, std::uint32_t& hint, const Near& near);
 
   DistanceModel model_;
-  double margin_, threshold_, slack_;
+  double margin_, reach_;
+  ContactDepths depths_;
   bool surroundings_ = false;
   std::size_t moving_ = 0;
   std::vector<Member> members_;   ///< moving first
@@ -108,7 +117,7 @@ class ContactScene {
   std::vector<double> odometer_;  ///< per moving body: way that its points may have travelled in all
   std::vector<ContactPair> pairs_;
   std::vector<AwakePoint> awake_;  ///< of the set that is scanned
-  RestContacts* rest_;  ///< nullptr once the scene has begun
+  RestContacts* rest_;             ///< nullptr once the scene has begun
   std::uint64_t queries_ = 0;
 };
 

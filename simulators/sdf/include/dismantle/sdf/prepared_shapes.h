@@ -13,16 +13,15 @@
 
 namespace dismantle::sdf {
 
-/// What a pair may overlap beyond its depth when assembled, as a share of what the verifier tolerates.
-constexpr double kFacetShare = 0.3;
-
 /// Shapes, and the depth to which each pair overlaps when assembled.
 class PreparedShapes final : public PreparedAssembly {
  public:
   std::vector<Placed> placed;
   std::map<std::pair<PartId, PartId>, double> overlap;  ///< a < b; only pairs that overlap
-  double facet_allowance = 0;                           ///< kFacetShare of the verifier's tolerance; assembly units
-  mutable RestContacts rest;                            ///< filled by the worlds as they need it
+  double tolerance = 0;                                 ///< of the verifier; assembly units
+  double facet_allowance = 0;  ///< what a pair may overlap beyond its depth when assembled; assembly units
+  double contact_depth = 0;    ///< ContactDepths::contact
+  mutable RestContacts rest;   ///< filled by the worlds as they need it
   double allowed(PartId a, PartId b) const {
     const auto found = overlap.find(std::minmax(a, b));
     return found == overlap.end() ? 0.0 : found->second;

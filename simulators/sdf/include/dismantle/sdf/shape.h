@@ -39,6 +39,9 @@ struct Placed {
 struct ShapeOptions {
   GridOptions grid = bounding_grid();  ///< enough for DistanceModel::exact
   ContactPointOptions points;
+  // Shares of the verifier's tolerance, see PreparedShapes.
+  double facet_share = 0.3;
+  double contact_depth = 0.02;
 };
 
 /// One entry per part, in part order. Parts with the same triangles up to a rigid motion share one Shape.

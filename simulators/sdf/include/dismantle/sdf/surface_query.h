@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/sdf/candidate_cells.h"
 #include "dismantle/sdf/closest_on_triangle.h"
 #include "dismantle/sdf/solid.h"
@@ -16,13 +17,11 @@
 
 namespace dismantle::sdf {
 
-constexpr std::uint32_t kNoTriangle = 0xffffffffu;
-
 /// Signed distance with its gradient: `value` < 0 inside; `normal` unit, out of the solid.
 struct Sample {
   double value = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  std::uint32_t triangle = kNoTriangle;  ///< closest triangle; kNoTriangle: nothing within the limit
+  std::uint32_t triangle = geometry::kNoIndex;  ///< closest triangle; geometry::kNoIndex: nothing within the limit
   /// Within this distance of the point asked for, `value` is linear: its change is normal . displacement, and no convex
   /// edge is near. 0 where that is not known.
   double flat_radius = 0;
@@ -49,18 +48,20 @@ constexpr int kMaxPlanes = 4;
 /// never change; queries allocate nothing but a list where none has been asked for yet.
 class SurfaceQuery {
  public:
-  explicit SurfaceQuery(const Solid& solid);
+  /// `near`: distance from the surface up to which lists of triangles make queries fast; > 0. Answers do not depend on
+  /// it.
+  explicit SurfaceQuery(const Solid& solid, double near = 0.1);
 
   /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle.
   /// `hint`: a triangle that is probably close (from the last query of a moving point); `list`: as prefetch() found it.
   /// Both only affect speed.
   Sample sample(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity(),
-                std::uint32_t hint = kNoTriangle, const FlatnessWanted& flatness = {},
+                std::uint32_t hint = geometry::kNoIndex, const FlatnessWanted& flatness = {},
                 const CandidateList* list = nullptr) const;
 
   /// A distance that the true one is not below, from that of the middle of p's cell; 0 near the surface, inside, and
   /// far away. `hint`, `list`: as in sample().
-  double lower_bound(const Eigen::Vector3d& p, std::uint32_t hint = kNoTriangle,
+  double lower_bound(const Eigen::Vector3d& p, std::uint32_t hint = geometry::kNoIndex,
                      const CandidateList* list = nullptr) const;
 
   /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
@@ -72,9 +73,10 @@ class SurfaceQuery {
   /// What p can run into, besides what it is closest to, while it stays in front of one of `fronts`. Appends the planes
   /// of faces that p is in front of and near the middle of, up to kMaxPlanes in all, with gaps >= 0. Returns a
   /// distance: moved by less, p meets no face but those, and such as bend from the first of `fronts` by less than 30
-  /// degrees. At most `reach`; 0 where it is not known.
-  double surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach, FacePlane* out,
-                      int& count) const;
+  /// degrees. At most `reach`; 0 where it is not known. A point that is behind a face by less than `behind` counts as
+  /// in front of it.
+  double surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach, double behind,
+                      FacePlane* out, int& count) const;
 
   /// Signed distance of p from the plane of a triangle. Where the closest point lies inside a face this is `value`, bit
   /// by bit, for each triangle of that face.
@@ -113,7 +115,7 @@ class SurfaceQuery {
   /// The closest triangle so far.
   struct Nearest {
     double squared;
-    std::uint32_t slot = kNoTriangle;
+    std::uint32_t slot = geometry::kNoIndex;
     Closest closest{};
   };
   void look_at(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const;
@@ -123,6 +125,8 @@ class SurfaceQuery {
   double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                      const FlatnessWanted& wanted) const;
 
+  double near_;
+  double coplanar_ = 0;  // distance from a plane that single precision leaves of a flat face
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;          // by slot: leaves are contiguous
@@ -135,7 +139,7 @@ class SurfaceQuery {
   std::vector<std::uint32_t> face_of_;  // triangle -> plane
   std::vector<Eigen::Vector3d> face_, vertex_;
   std::vector<std::array<Eigen::Vector3d, 3>> edge_;
-  std::vector<std::array<std::uint32_t, 3>> neighbor_;  // across a convex edge; kNoTriangle: flat or concave
+  std::vector<std::array<std::uint32_t, 3>> neighbor_;  // across a convex edge; geometry::kNoIndex: flat or concave
   std::vector<std::uint32_t> fan_begin_, fan_;          // per vertex: faces of distinct planes; empty unless convex
 };
 
