@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "dismantle/errors.h"
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/numerics.h"
 #include "flat_faces.h"
 
 namespace dismantle::mesh_collision {
 namespace {
 
-/// Vertices this near to a plane lie in it (assembly units): far below any clearance, above the noise of printed
-/// coordinates.
-constexpr double kFlat = 1e-7;
+/// Share of its triangles that a part keeps at most when flat faces are merged; else it stays as it is.
 constexpr double kWorthMerging = 0.7;
 
 Eigen::Vector3d face_normal(const Mesh& mesh, std::size_t t) {
@@ -75,7 +75,7 @@ double signed_distance(const std::vector<SolidPart>& solids, const Eigen::Vector
     if (s.box.squared_distance(p) > 0 && s.box.squared_distance(p) >= least * least) continue;
     const sdf::Sample sample =
         s.surface->sample(p, s.box.contains(p) ? std::numeric_limits<double>::infinity() : std::max(least, 0.0));
-    if (sample.triangle != sdf::kNoTriangle) least = std::min(least, sample.value);
+    if (sample.triangle != geometry::kNoIndex) least = std::min(least, sample.value);
   }
   return least;
 }
@@ -138,7 +138,9 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
 
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths) {
   // Fans and slivers come with merging: not for a few triangles less.
-  Mesh mesh = merge_flat_faces(*part.mesh, kFlat);
+  // Coordinates of files are in single precision.
+  const double flat = std::numeric_limits<float>::epsilon() * part.mesh->box().size().norm();
+  Mesh mesh = merge_flat_faces(*part.mesh, flat);
   if (static_cast<double>(mesh.triangles.size()) > kWorthMerging * static_cast<double>(part.mesh->triangles.size()))
     mesh = *part.mesh;
   std::vector<SolidPart> solids;

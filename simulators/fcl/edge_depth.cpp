@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::mesh_collision {
@@ -12,7 +13,7 @@ namespace {
 struct End {
   Eigen::Vector3d point;
   double depth = 0;  ///< negative outside
-  std::uint32_t triangle = sdf::kNoTriangle;
+  std::uint32_t triangle = geometry::kNoIndex;
 };
 
 End at(const SolidPart& solid, const Eigen::Vector3d& p) {
@@ -72,7 +73,6 @@ void DepthGauge::open_corner(const Body& a, std::uint32_t vertex) {
 
 /// Where the edges of one triangle of a go through one of b. Grazing ones count: a place too many does no harm.
 void DepthGauge::cross(const Body& a, const Body& b, const Pose& a_to_b, std::uint32_t of_a, std::uint32_t of_b) {
-  constexpr double kGraze = 1e-9;
   const Eigen::Vector3d& o = b.mesh.vertex(of_b, 0);
   const Eigen::Vector3d u = b.mesh.vertex(of_b, 1) - o, v = b.mesh.vertex(of_b, 2) - o, n = u.cross(v);
   const double nn = n.squaredNorm();
@@ -88,10 +88,10 @@ void DepthGauge::cross(const Body& a, const Body& b, const Pose& a_to_b, std::ui
     const double rise = height[k] - height[m];
     if (rise == 0) continue;  // parallel: it goes in and out elsewhere
     const double place = height[k] / rise;
-    if (!(place >= -kGraze && place <= 1 + kGraze)) continue;
+    if (!(place >= -geometry::kRounding && place <= 1 + geometry::kRounding)) continue;
     const Eigen::Vector3d x = corner[k] + place * (corner[m] - corner[k]) - o;
     const double s = n.dot(x.cross(v)) / nn, t = n.dot(u.cross(x)) / nn;
-    if (s < -kGraze || t < -kGraze || s + t > 1 + kGraze) continue;
+    if (s < -geometry::kRounding || t < -geometry::kRounding || s + t > 1 + geometry::kRounding) continue;
     const std::uint32_t edge = a.graph.of_triangle[of_a][k];
     const bool forward = a.graph.edges[edge][0] == a.mesh.triangles[of_a][k];
     crossings_.push_back({edge, std::clamp(forward ? place : 1 - place, 0.0, 1.0)});

@@ -8,16 +8,16 @@
 #include <optional>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::mesh_collision {
 namespace {
 
 using Eigen::Vector3d;
 using Id = std::uint32_t;
-constexpr Id kNone = 0xffffffffu;
 
 /// Twice the area over the square of the longest edge: 0 for a sliver.
 constexpr double kLeastQuality = 1e-5;
-constexpr double kSameNormal = 1 - 1e-6;
 
 class Collapser {
  public:
@@ -38,13 +38,13 @@ class Collapser {
       for (Id v = 0; v < points_.size(); ++v) changed |= remove(v);
     }
     Mesh out;
-    std::vector<Id> renamed(points_.size(), kNone);
+    std::vector<Id> renamed(points_.size(), geometry::kNoIndex);
     for (Id t = 0; t < triangles_.size(); ++t) {
       if (!alive_[t]) continue;
       Triangle mapped{};
       for (std::size_t k = 0; k < 3; ++k) {
         Id& name = renamed[triangles_[t][k]];
-        if (name == kNone) {
+        if (name == geometry::kNoIndex) {
           name = static_cast<Id>(out.vertices.size());
           out.vertices.push_back(points_[triangles_[t][k]]);
         }
@@ -76,9 +76,9 @@ class Collapser {
     std::vector<double> area;
     for (const auto& t : triangles_) area.push_back(cross(t).norm());
     std::stable_sort(order.begin(), order.end(), [&](Id a, Id b) { return area[a] > area[b]; });
-    face_.assign(triangles_.size(), kNone);
+    face_.assign(triangles_.size(), geometry::kNoIndex);
     for (const Id seed : order) {
-      if (face_[seed] != kNone) continue;
+      if (face_[seed] != geometry::kNoIndex) continue;
       const Id face = static_cast<Id>(normal_.size());
       const Vector3d n = cross(triangles_[seed]).stableNormalized();
       const double d = n.dot(points_[triangles_[seed][0]]);
@@ -90,11 +90,11 @@ class Collapser {
         open.pop_back();
         for (std::size_t k = 0; k < 3; ++k)
           for (const Id other : edges.at(std::minmax(t[k], t[(k + 1) % 3]))) {
-            if (face_[other] != kNone) continue;
+            if (face_[other] != geometry::kNoIndex) continue;
             const Triangle& o = triangles_[other];
             const bool in_plane =
                 std::all_of(o.begin(), o.end(), [&](Id v) { return std::abs(n.dot(points_[v]) - d) <= tolerance_; });
-            if (!in_plane || !(cross(o).stableNormalized().dot(n) >= kSameNormal)) continue;
+            if (!in_plane || !(cross(o).stableNormalized().dot(n) >= geometry::kSameDirection)) continue;
             face_[other] = face;
             open.push_back(other);
           }
@@ -136,10 +136,10 @@ class Collapser {
       if (p.dot(along) <= 0 || p.cross(along).norm() > tolerance_ * along.norm()) return false;
     }
     double best = kLeastQuality;
-    Id target = kNone;
+    Id target = geometry::kNoIndex;
     for (const Id u : onto)
       if (const auto q = worst_after(v, u); q && *q > best) best = *q, target = u;
-    if (target == kNone) return false;
+    if (target == geometry::kNoIndex) return false;
     collapse(v, target);
     return true;
   }

@@ -1,6 +1,7 @@
 #include "simulator.h"
 
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <set>
 
@@ -10,13 +11,6 @@
 #include "world.h"
 
 namespace dismantle::mesh_collision {
-namespace {
-
-/// Parts with the same triangles up to a rigid motion are one shape if they agree this well (assembly units).
-constexpr double kSameShape = 1e-7;
-
-}  // namespace
-
 std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& assembly, double /*tolerance*/,
                                                               RunContext& context) {
   auto prepared = std::make_shared<PreparedBodies>();
@@ -25,8 +19,10 @@ std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& as
   std::vector<std::size_t> model(n), distinct;
   for (std::size_t i = 0; i < n; ++i) {
     model[i] = i;
+    // Parts that agree to the single precision of their files are one shape.
+    const double same = std::numeric_limits<float>::epsilon() * assembly.parts[i].mesh->box().size().norm();
     for (const std::size_t d : distinct)
-      if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, kSameShape)) {
+      if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, same)) {
         model[i] = d;
         prepared->placed[i].rest = *pose;
         break;

@@ -8,13 +8,13 @@
 
 namespace dismantle::mesh_collision {
 
-constexpr Capabilities kProvides{.dynamics = false, .contacts = false, .distance = true, .max_moving = 64};
+inline Capabilities provided() { return {.dynamics = false, .contacts = false, .distance = true, .max_moving = 64}; }
 
 class FclSimulator final : public Simulator {
  public:
   explicit FclSimulator(const Parameters& parameters) : parameters_(parameters) {}
 
-  Capabilities capabilities() const noexcept override { return kProvides; }
+  Capabilities capabilities() const noexcept override { return provided(); }
   std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
                                                   RunContext& context) override;
   std::unique_ptr<World> world(const Assembly& assembly, const PreparedAssembly& prepared, const Scene& scene,

@@ -4,20 +4,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/plugin/finite.h"
 
 namespace dismantle::mesh_collision {
-namespace {
-
-/// Hulls count as apart from this gap on: above rounding, below any step of a path.
-constexpr double kSeparationGap = 1e-4;
-
-}  // namespace
-
 MeshWorld::MeshWorld(const PreparedBodies& prepared, const Scene& scene, MotionSpace space,
                      const Parameters& parameters)
-    : scene_(scene), space_(space), depth_limit_(parameters.depth_limit), check_(parameters) {
+    : scene_(scene),
+      space_(space),
+      depth_limit_(parameters.depth_limit),
+      separation_gap_(parameters.resolution),
+      check_(parameters) {
   if (scene.moving.empty()) throw std::invalid_argument("a world needs a part that moves");
   const auto member = [&](const PlacedPart& p) {
     const PlacedBody& placed = prepared.placed[p.part];
@@ -85,11 +82,11 @@ bool MeshWorld::separated(const State& state) {
   for (const auto& m : moving_) box.extend(m.box);
   // Far out, boxes say it already.
   const Eigen::Vector3d gap = (box.lo - rest_box_.hi).cwiseMax(rest_box_.lo - box.hi);
-  if (gap.maxCoeff() > kSeparationGap) return true;
+  if (gap.maxCoeff() > separation_gap_) return true;
   moving_hull_.clear();
   for (const auto& m : moving_)
     for (const auto& corner : m.placed->body->hull) moving_hull_.push_back(m.pose * corner);
-  return separate(moving_hull_, rest_hull_, kSeparationGap).has_value();
+  return separate(moving_hull_, rest_hull_, separation_gap_).has_value();
 }
 
 bool MeshWorld::body_separated(const State& state, std::size_t body) {
@@ -100,7 +97,7 @@ bool MeshWorld::body_separated(const State& state, std::size_t body) {
   for (std::size_t i = 0; i < moving_.size(); ++i)
     for (const auto& corner : moving_[i].placed->body->hull)
       (i == body ? moving_hull_ : others).push_back(moving_[i].pose * corner);
-  return others.empty() || separate(moving_hull_, others, kSeparationGap).has_value();
+  return others.empty() || separate(moving_hull_, others, separation_gap_).has_value();
 }
 
 }  // namespace dismantle::mesh_collision

@@ -81,6 +81,7 @@ class MeshWorld final : public World {
   Scene scene_;
   MotionSpace space_;
   double depth_limit_ = 0;
+  double separation_gap_;  // of hulls that are apart; assembly units
   PairCheck check_;
   std::vector<Member> moving_, fixed_;
   std::vector<double> allowed_;  ///< [moving * (still + moving) + other]

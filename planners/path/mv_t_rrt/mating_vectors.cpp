@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/path/placed_parts.h"
 
 namespace dismantle::mv_t_rrt {
@@ -15,7 +16,7 @@ using geometry::FaceAxis;
 
 /// Sums areas by direction, opposite directions together. Only equal normals are merged: those of one flat face.
 void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAxis>& faces) {
-  constexpr double kGrid = 1e-6;  // unit vectors that round to the same multiples of this are equal
+  const double grid = std::sqrt(geometry::kRounding);  // unit vectors that round to the same multiples of it are equal
   std::map<std::tuple<long, long, long>, FaceAxis> by_direction;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Eigen::Vector3d c = geometry::area_vector(mesh, t);
@@ -24,7 +25,7 @@ void add_faces(const Mesh& mesh, const Eigen::Quaterniond& q, std::vector<FaceAx
     Eigen::Index largest = 0;
     n.cwiseAbs().maxCoeff(&largest);
     if (n[largest] < 0) n = -n;
-    FaceAxis& face = by_direction[{std::lround(n.x() / kGrid), std::lround(n.y() / kGrid), std::lround(n.z() / kGrid)}];
+    FaceAxis& face = by_direction[{std::lround(n.x() / grid), std::lround(n.y() / grid), std::lround(n.z() / grid)}];
     if (face.area == 0) face.axis = n;
     face.area += 0.5 * c.norm();
   }

@@ -119,12 +119,12 @@ Forest::Index Forest::choose_tree() {
 
 Forest::Index Forest::choose_node(Index tree) {
   const auto& nodes = map_.tree(tree).nodes;
-  Index best = Roadmap::kNone;
+  Index best = geometry::kNoIndex;
   std::uint64_t least = 0;
   for (std::int64_t k = 0; k < parameters_.tournament; ++k) {
     const Index n = nodes[static_cast<std::size_t>(rng_.below(nodes.size()))];
     const std::uint64_t used = std::uint64_t{map_.node(n).expansions + 1} * map_.density(n);
-    if (best == Roadmap::kNone || used < least) best = n, least = used;
+    if (best == geometry::kNoIndex || used < least) best = n, least = used;
   }
   return best;
 }
@@ -141,7 +141,7 @@ Forest::Index Forest::add_trajectory(Index from, const LocalPlanner::Trajectory&
   if (trajectory.path.empty() ||
       local_planner_.distance(path::poses_of(map_.node(from).state), path::poses_of(trajectory.end)) <
           0.02 * parameters_.node_spacing)
-    return Roadmap::kNone;
+    return geometry::kNoIndex;
   Index last = from;
   Path path;
   double length = 0;
@@ -181,7 +181,7 @@ bool Forest::join(Index n, Index to, const std::function<bool()>& stop) {
       local_planner_.steer(map_.node(n).state, path::poses_of(map_.node(to).state), range, stop);
   const Index end = add_trajectory(n, trajectory);
   if (!trajectory.arrived) return false;
-  const Index from = end == Roadmap::kNone ? n : end;
+  const Index from = end == geometry::kNoIndex ? n : end;
   map_.join(from, to, {path::poses_of(map_.node(to).state)});
   return true;
 }
@@ -210,7 +210,7 @@ bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
 
   const Index tree = choose_tree();
   const double kind_of_target = rng_.uniform();
-  Index from = Roadmap::kNone;
+  Index from = geometry::kNoIndex;
   Target target = target_of(0);
   double range = parameters_.range * parameters_.node_spacing;
   if (kind_of_target < parameters_.local_share) {
@@ -232,11 +232,11 @@ bool Forest::iterate(PathResult& result, const std::function<bool()>& stop) {
     target = around(target_of(others[static_cast<std::size_t>(rng_.below(others.size()))]),
                     parameters_.node_spacing * std::pow(10.0, rng_.uniform(-1, 0.5)));
   }
-  if (from == Roadmap::kNone) from = map_.nearest(target.center, target.turn, tree);
+  if (from == geometry::kNoIndex) from = map_.nearest(target.center, target.turn, tree);
   ++map_.node(from).expansions;
   const LocalPlanner::Trajectory trajectory = local_planner_.steer(map_.node(from).state, poses(target), range, stop);
   const Index end = add_trajectory(from, trajectory);
-  if (end == Roadmap::kNone) return false;
+  if (end == geometry::kNoIndex) return false;
   try_joins(end, stop);
   return map_.tree(map_.node(0).tree).separated > 0 && find_verified_path(result);
 }

@@ -64,7 +64,7 @@ class Forest {
   Eigen::Vector3d random_vector();
   Target around(const Target& target, double size);
   Target anywhere();
-  /// Adds the nodes of a trajectory from `from`; kNone when it ended where it began.
+  /// Adds the nodes of a trajectory from `from`; geometry::kNoIndex when it ended where it began.
   Index add_trajectory(Index from, const LocalPlanner::Trajectory& trajectory);
   void try_joins(Index n, const std::function<bool()>& stop);
   bool join(Index n, Index to, const std::function<bool()>& stop);

@@ -26,13 +26,13 @@ bool meets(const Aabb& box, const Eigen::Vector3d& from, const Eigen::Vector3d& 
 /// Distance along a ray to a triangle, infinite if it misses (Moeller and Trumbore 1997).
 double ray_distance(const std::array<Eigen::Vector3d, 3>& c, const Eigen::Vector3d& from,
                     const Eigen::Vector3d& along) {
-  constexpr double kMiss = std::numeric_limits<double>::infinity();
+  const double miss = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d e1 = c[1] - c[0], e2 = c[2] - c[0], p = along.cross(e2);
   const double det = e1.dot(p);
-  if (std::abs(det) < 1e-14) return kMiss;
+  if (std::abs(det) < 1e-14) return miss;
   const Eigen::Vector3d s = from - c[0], q = s.cross(e1);
   const double u = s.dot(p) / det, v = along.dot(q) / det;
-  return u < 0 || v < 0 || u + v > 1 ? kMiss : e2.dot(q) / det;
+  return u < 0 || v < 0 || u + v > 1 ? miss : e2.dot(q) / det;
 }
 
 Hit cast_ray(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double least) {

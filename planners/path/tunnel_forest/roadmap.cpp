@@ -14,7 +14,7 @@ double Roadmap::distance(const Eigen::Vector3d& center, const Eigen::Quaterniond
 }
 
 Roadmap::Index Roadmap::nearest(const Eigen::Vector3d& center, const Eigen::Quaterniond& turn, Index tree) const {
-  Index best = kNone;
+  Index best = geometry::kNoIndex;
   double least = std::numeric_limits<double>::infinity();
   for (const Index n : trees_[tree].nodes) {
     const Node& node = nodes_[n];
@@ -98,16 +98,16 @@ void Roadmap::cut(Index edge) {
   const Index a = edges_[edge].a, b = edges_[edge].b, old = nodes_[a].tree;
   // The piece with the oldest node keeps the index of the tree.
   const Index oldest = *std::min_element(trees_[old].nodes.begin(), trees_[old].nodes.end());
-  for (const Index n : trees_[old].nodes) nodes_[n].tree = kNone;
+  for (const Index n : trees_[old].nodes) nodes_[n].tree = geometry::kNoIndex;
   trees_[old] = {};
   relabel(oldest, old);
   trees_.emplace_back();
   live_trees_.push_back(static_cast<Index>(trees_.size() - 1));
-  relabel(nodes_[a].tree == kNone ? a : b, live_trees_.back());
+  relabel(nodes_[a].tree == geometry::kNoIndex ? a : b, live_trees_.back());
 }
 
 std::vector<Roadmap::Index> Roadmap::edges_to_separated(Index from) const {
-  std::vector<Index> back(nodes_.size(), kNone);  // edge by which a node was reached
+  std::vector<Index> back(nodes_.size(), geometry::kNoIndex);  // edge by which a node was reached
   std::vector<bool> seen(nodes_.size(), false);
   std::deque<Index> queue{from};
   seen[from] = true;

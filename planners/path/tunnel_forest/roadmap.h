@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/path_planner.h"
 
 namespace dismantle::tunnel_forest {
@@ -13,20 +14,19 @@ namespace dismantle::tunnel_forest {
 class Roadmap {
  public:
   using Index = std::uint32_t;
-  static constexpr Index kNone = 0xffffffffu;
 
   struct Node {
     State state;
     Eigen::Vector3d center;   ///< of the first moving part, world
     Eigen::Quaterniond turn;  ///< of the first moving part since the start, world
-    Index tree = kNone;
+    Index tree = geometry::kNoIndex;
     Index expansions = 0;
     bool separated = false;
     std::vector<Index> edges{};
     std::uint64_t cell = 0;
   };
   struct Edge {
-    Index a = kNone, b = kNone;
+    Index a = geometry::kNoIndex, b = geometry::kNoIndex;
     Path path;  ///< from a to b: a's poses excluded, b's included
     bool cut = false;
   };

@@ -6,9 +6,9 @@
 namespace dismantle::blocking {
 
 std::vector<std::vector<std::size_t>> strong_components(const std::vector<std::vector<std::size_t>>& in_way) {
-  constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max();
+  const std::size_t never = std::numeric_limits<std::size_t>::max();
   const std::size_t n = in_way.size();
-  std::vector<std::size_t> number(n, kNever), low(n, 0), stack;
+  std::vector<std::size_t> number(n, never), low(n, 0), stack;
   std::vector<bool> on_stack(n, false);
   std::vector<std::vector<std::size_t>> components;
   struct Visit {
@@ -16,18 +16,18 @@ std::vector<std::vector<std::size_t>> strong_components(const std::vector<std::v
   };
   std::size_t count = 0;
   for (std::size_t root = 0; root < n; ++root) {
-    if (number[root] != kNever) continue;
+    if (number[root] != never) continue;
     std::vector<Visit> visits{{root, 0}};
     while (!visits.empty()) {
       auto& [node, next] = visits.back();
-      if (next == 0 && number[node] == kNever) {
+      if (next == 0 && number[node] == never) {
         number[node] = low[node] = count++;
         stack.push_back(node);
         on_stack[node] = true;
       }
       if (next < in_way[node].size()) {
         const std::size_t to = in_way[node][next++];
-        if (number[to] == kNever)
+        if (number[to] == never)
           visits.push_back({to, 0});
         else if (on_stack[to])
           low[node] = std::min(low[node], number[to]);
@@ -38,7 +38,7 @@ std::vector<std::vector<std::size_t>> strong_components(const std::vector<std::v
       if (!visits.empty()) low[visits.back().node] = std::min(low[visits.back().node], low[done]);
       if (low[done] != number[done]) continue;
       components.emplace_back();
-      std::size_t member = kNever;
+      std::size_t member = never;
       do {
         member = stack.back();
         stack.pop_back();

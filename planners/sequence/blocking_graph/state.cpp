@@ -6,7 +6,7 @@
 namespace dismantle::blocking {
 namespace {
 
-constexpr SubassemblyId kNone = static_cast<SubassemblyId>(-1);
+const auto none = std::numeric_limits<SubassemblyId>::max();
 
 bool holds(const Subassemblies& ids, SubassemblyId id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
 
@@ -33,7 +33,7 @@ DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& 
       constraints_(constraints),
       observer_(observer),
       context_(context),
-      of_part_(assembly.parts.size(), kNone),
+      of_part_(assembly.parts.size(), none),
       inseparable_(assembly.parts.size()),
       poses_(assembly.parts.size()),
       orientation_(assembly.parts.size(), 0) {
@@ -46,10 +46,10 @@ DisassemblyState::DisassemblyState(const Assembly& assembly, const Constraints& 
   }
   // The last of its parts in the order says when a subassembly is tried.
   const std::vector<PartId> by_order = ordered_parts(assembly, order);
-  Subassemblies of_root(assembly.parts.size(), kNone);
+  Subassemblies of_root(assembly.parts.size(), none);
   for (auto id = by_order.rbegin(); id != by_order.rend(); ++id) {
     SubassemblyId& subassembly = of_root[merged[*id]];
-    if (subassembly == kNone) {
+    if (subassembly == none) {
       subassembly = parts_.size();
       parts_.emplace_back();
     }

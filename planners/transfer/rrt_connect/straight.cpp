@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/swept_boxes.h"
 
 namespace dismantle::rrt_connect {
@@ -39,10 +40,9 @@ bool displacement_to_goal(const TransferQuery& query, Pose& displacement) {
   for (std::size_t i = 1; i < moving.size(); ++i) {
     const Pose there = displacement * moving[i].pose;
     // Poses are read from files with about ten digits.
-    constexpr double kRounding = 1e-8;
+    const double rounding = 10 * geometry::kRounding;
     const double size = displacement.t.norm() + moving[i].pose.t.norm();
-    if ((there.t - query.goal[i].t).norm() > kRounding * size ||
-        angle_between(there.q, query.goal[i].q) > 10 * kRounding)
+    if ((there.t - query.goal[i].t).norm() > rounding * size || angle_between(there.q, query.goal[i].q) > 10 * rounding)
       return false;
   }
   return true;

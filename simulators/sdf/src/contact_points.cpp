@@ -7,14 +7,10 @@
 #include <map>
 
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::sdf {
 namespace {
-
-/// Deviations below this (assembly units) count as straight or flat: far below any clearance that matters.
-constexpr double kFlat = 1e-5;
-/// Edges that bend less than this (rad) are tessellation of a flat face.
-constexpr double kCoplanar = 1e-3;
 
 struct Edge {
   std::uint32_t from = 0, to = 0;
@@ -52,7 +48,7 @@ Creases find_creases(const Mesh& mesh, double sharp_angle) {
       open.erase(other);
       const Eigen::Vector3d nt = normal(t), nu = normal(u.triangle);
       const double bend = std::atan2(nt.cross(nu).norm(), nt.dot(nu));
-      if (bend <= kCoplanar) continue;
+      if (std::cos(bend) > geometry::kSameDirection) continue;  // tessellation of a flat face
       result.ends[from].push_back(to);
       result.ends[to].push_back(from);
       // Convex: the neighbour's apex lies below this triangle's plane.
@@ -71,9 +67,7 @@ bool is_corner(const Mesh& mesh, const std::vector<std::uint32_t>& ends, std::ui
   if (ends.empty()) return false;
   if (ends.size() != 2) return true;
   const Eigen::Vector3d &a = mesh.vertices[ends[0]], &b = mesh.vertices[ends[1]];
-  const Eigen::Vector3d along = b - a;
-  if (along.norm() < 1e-12) return true;
-  return (mesh.vertices[v] - a).cross(along).norm() / along.norm() > kFlat;
+  return !((mesh.vertices[v] - a).normalized().dot((b - mesh.vertices[v]).normalized()) > geometry::kSameDirection);
 }
 
 /// Keeps points that are at least `distance` from those kept before.

@@ -11,7 +11,7 @@ namespace {
 /// Beyond so many margins a bound on the distance is as good as the distance.
 constexpr double kFarEnough = 2;
 /// Odometer reading at which a block wakes that has a point within the margin: immediately.
-constexpr double kHeld = -2;
+const double held_block = -std::numeric_limits<double>::infinity();
 
 /// What a way from an anchor and its distance may be off: both are kept in single precision.
 double rounding_of(const Anchor& anchor) {
@@ -232,7 +232,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     const PointBlock& block = points.points.blocks[k];
     const Eigen::Vector3d center = rotation * block.center + shift;
     // Where a point was listed a bound for the whole block tells nothing yet.
-    const bool held = set.wake[k] == kHeld;
+    const bool held = set.wake[k] == held_block;
     double lower = held ? 0.0 : std::sqrt(target.box.squared_distance(center)) - block.radius;
     if (!held && lower + pair.everywhere < margin) {
       double free = 4 * reach_;
@@ -294,8 +294,8 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       set.point_wake[i] = beyond > 0 ? odometer + beyond : -1.0;
       double& wake = set.wake[block];
       if (beyond <= 0)
-        wake = kHeld;
-      else if (wake != kHeld)
+        wake = held_block;
+      else if (wake != held_block)
         wake = std::min(wake, odometer + beyond);
     }
   }

@@ -22,9 +22,8 @@ TriangleSlabs::TriangleSlabs(const Eigen::Vector3d& a, const Eigen::Vector3d& ab
   const Eigen::Vector3d normal = along.cross(across).normalized();
   const Eigen::Vector3d axes[4] = {normal, along, across, unit_or(normal.cross(edges[1]), across)};
   // A dot product in single precision errs by a rounding of each factor, each product and each sum, all of them below
-  // the distances of point and corner from the origin.
-  constexpr double kRoundings = 16, kUnit = std::numeric_limits<float>::epsilon() / 2.0;
-  const double rounding = kRoundings * kUnit * reach;
+  // the distances of point and corner from the origin: 16 roundings of half an epsilon.
+  const double rounding = 8.0 * std::numeric_limits<float>::epsilon() * reach;
   for (int k = 0; k < 4; ++k) {
     double lo = std::numeric_limits<double>::infinity(), hi = -lo;
     for (const Eigen::Vector3d& corner : corners) {

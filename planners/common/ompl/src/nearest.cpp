@@ -72,7 +72,7 @@ void NearestNodes::visit(const Tree& tree, std::size_t first, std::size_t last, 
 std::uint32_t NearestNodes::nearest(const Eigen::Vector3d& point,
                                     const std::function<double(std::uint32_t)>& metric) const {
   const auto labels = nearest(point, metric, 1);
-  return labels.empty() ? kNone : labels.front();
+  return labels.empty() ? geometry::kNoIndex : labels.front();
 }
 
 std::vector<std::uint32_t> NearestNodes::nearest(const Eigen::Vector3d& point,

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/path/placed_parts.h"
 #include "dismantle/path/shortcuts.h"
 #include "dismantle/path/time_limit.h"
@@ -94,6 +95,7 @@ SamplingProblem::SamplingProblem(const PathQuery& query, MotionSpace motion, dou
       space_(std::make_shared<DisplacementSpace>(surroundings_.mover, motion, surroundings_.bounds)),
       budget_(budget),
       step_(step),
+      deviation_(std::max(0.5 * (query.tolerance - max_penetration), geometry::kRounding)),
       start_(path::poses_of(query.scene.moving)) {
   silence_ompl();
   // Inexact CAD data may put the start itself beyond the limit; the initial penetration is not an obstacle.
@@ -168,7 +170,7 @@ Path SamplingProblem::path(const std::vector<StateType>& states, std::vector<std
   if (edge_of_instant != nullptr) *edge_of_instant = {0};
   for (std::size_t k = 1; k < states.size(); ++k) {
     std::vector<Pose> displacements;
-    append_edge(*space_, states[k - 1], states[k], displacements);
+    append_edge(*space_, states[k - 1], states[k], deviation_, displacements);
     for (const auto& d : displacements) {
       path.emplace_back();
       for (const auto& p : start_) path.back().push_back(d * p);

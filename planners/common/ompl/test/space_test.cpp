@@ -52,7 +52,7 @@ TEST(DisplacementSpace, PathFollowsTheEdge) {
     space.draw(rng, a);
     space.draw(rng, b);
     std::vector<Pose> poses{space.displacement(a)};
-    append_edge(space, a, b, poses);
+    append_edge(space, a, b, 1e-5, poses);
     const double n = static_cast<double>(poses.size() - 1);
     for (std::size_t k = 0; k + 1 < poses.size(); k += 1 + poses.size() / 20) {
       const Pose middle = screw_interpolate(poses[k], poses[k + 1], 0.5);
@@ -93,9 +93,9 @@ TEST(NearestNodes, AgreesWithLookingAtAll) {
     if (rng.below(5) == 0) near.remove(static_cast<std::uint32_t>(rng.below(points.size())));
     const Vector3d q = shapes::random_vector(rng, 0, 4).array().round();
     const auto metric = [&](std::uint32_t n) { return (points[n] - q).norm() + extra[n]; };
-    std::uint32_t best = NearestNodes::kNone;
+    std::uint32_t best = geometry::kNoIndex;
     for (std::uint32_t n = 0; n < points.size(); ++n)
-      if (!near.removed(n) && (best == NearestNodes::kNone || metric(n) < metric(best))) best = n;
+      if (!near.removed(n) && (best == geometry::kNoIndex || metric(n) < metric(best))) best = n;
     ASSERT_EQ(near.nearest(q, metric), best);
     std::vector<std::uint32_t> all;
     for (std::uint32_t n = 0; n < points.size(); ++n)

@@ -17,8 +17,8 @@ using Vec3 = Eigen::Vector3d;
 constexpr int kLookahead = 3;
 /// Chamfer distances 3-4-5, in thirds of a cell: to a neighbour by face, edge and corner (Borgefors 1986).
 constexpr std::array<std::uint16_t, 3> kThirds{3, 4, 5};
-constexpr auto kUnknownClearance = std::numeric_limits<std::uint16_t>::max();
-constexpr auto kUnreached = std::numeric_limits<std::uint8_t>::max();
+const auto unknown_clearance = std::numeric_limits<std::uint16_t>::max();
+const auto unreached = std::numeric_limits<std::uint8_t>::max();
 
 }  // namespace
 
@@ -32,7 +32,7 @@ Vec3 NavigationFunction::center(std::uint32_t cell) const {
 }
 
 std::uint32_t NavigationFunction::cell_of(const Vec3& p) const {
-  if (!box_.contains(p)) return kNone;
+  if (!box_.contains(p)) return geometry::kNoIndex;
   Index i;
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Eigen::Index>(k);
@@ -86,7 +86,7 @@ NavigationFunction::NavigationFunction(const Assembly& assembly, const std::vect
   }
   const Vec3 middle = box_.center(), half = 0.5 * cell_ * Vec3(count_[0], count_[1], count_[2]);
   box_ = {middle - half, middle + half};
-  clearance_.assign(all, kUnknownClearance);
+  clearance_.assign(all, unknown_clearance);
   for (const auto& s : fixed) {
     const Mesh& mesh = *assembly.parts[s.part].mesh;
     for (const auto& t : mesh.triangles)
@@ -99,14 +99,15 @@ NavigationFunction::NavigationFunction(const Assembly& assembly, const std::vect
 }
 
 bool NavigationFunction::close_narrowest(const Vec3& p, double reach) {
-  std::uint32_t cell = cell_of(p), narrowest = kNone;
-  for (double length = 0; cell != kNone && next_[cell] != kNone && !on_boundary(cell) && length < reach;) {
-    if (cells_to_route_[cell] == 0 && (narrowest == kNone || clearance_[cell] < clearance_[narrowest]))
+  std::uint32_t cell = cell_of(p), narrowest = geometry::kNoIndex;
+  for (double length = 0;
+       cell != geometry::kNoIndex && next_[cell] != geometry::kNoIndex && !on_boundary(cell) && length < reach;) {
+    if (cells_to_route_[cell] == 0 && (narrowest == geometry::kNoIndex || clearance_[cell] < clearance_[narrowest]))
       narrowest = cell;
     length += (center(cell) - center(next_[cell])).norm();
     cell = next_[cell];
   }
-  if (narrowest == kNone) return false;
+  if (narrowest == geometry::kNoIndex) return false;
   // Two cells wider than the place itself, so that no diagonal gap stays open.
   const double radius = cell_ * (2 + clearance_[narrowest] / 3.0);
   std::vector<std::uint32_t> near{narrowest};
@@ -133,12 +134,15 @@ void NavigationFunction::rasterize(const std::array<Vec3, 3>& corners) {
   const int u = (up + 1) % 3, v = (up + 2) % 3;
   Aabb around;
   for (const auto& p : c) around.extend(p);
-  constexpr double kSlack = 1e-6;  // cells, for rounding: a surface in the face of a cell touches both cells
+  // A surface in the face of a cell touches both cells, in spite of rounding.
+  const double rounding = geometry::kRounding * (count_[0] + count_[1] + count_[2]);  // cells
   const auto first = [&](double x, int axis) {
-    return std::clamp(static_cast<std::int32_t>(std::floor(x - kSlack)), 0, count_[static_cast<std::size_t>(axis)] - 1);
+    return std::clamp(static_cast<std::int32_t>(std::floor(x - rounding)), 0,
+                      count_[static_cast<std::size_t>(axis)] - 1);
   };
   const auto last = [&](double x, int axis) {
-    return std::clamp(static_cast<std::int32_t>(std::floor(x + kSlack)), 0, count_[static_cast<std::size_t>(axis)] - 1);
+    return std::clamp(static_cast<std::int32_t>(std::floor(x + rounding)), 0,
+                      count_[static_cast<std::size_t>(axis)] - 1);
   };
   // A linear function that grows from an edge into the triangle. A column still touches the triangle where the function
   // is above -slack.
@@ -159,7 +163,7 @@ void NavigationFunction::rasterize(const std::array<Vec3, 3>& corners) {
     for (std::int32_t x = first(around.lo[u], u); x <= last(around.hi[u], u); ++x) {
       const double mu = x + 0.5, mv = y + 0.5;
       if (!degenerate && std::any_of(edges.begin(), edges.end(),
-                                     [&](const Edge& e) { return e.a * mu + e.b * mv + e.c < -e.slack - kSlack; }))
+                                     [&](const Edge& e) { return e.a * mu + e.b * mv + e.c < -e.slack - rounding; }))
         continue;
       const double z = c[0][up] + rise_u * (mu - c[0][u]) + rise_v * (mv - c[0][v]);
       const double lo = degenerate ? around.lo[up] : std::max(around.lo[up], z - spread),
@@ -199,7 +203,7 @@ void NavigationFunction::compute_clearance() {
         if (to[0] < 0 || to[1] < 0 || to[2] < 0 || to[0] >= count_[0] || to[1] >= count_[1] || to[2] >= count_[2])
           continue;
         const std::uint16_t there = clearance_[id(to)];
-        if (there != kUnknownClearance && there + b.thirds < own) own = static_cast<std::uint16_t>(there + b.thirds);
+        if (there != unknown_clearance && there + b.thirds < own) own = static_cast<std::uint16_t>(there + b.thirds);
       }
     }
   };
@@ -209,8 +213,8 @@ void NavigationFunction::compute_clearance() {
 
 /// Dijkstra's algorithm from the boundary inwards. Open cells wait in buckets of equal cost (Dial 1969).
 void NavigationFunction::compute_routes() {
-  cost_.assign(clearance_.size(), kNone);
-  next_.assign(clearance_.size(), kNone);
+  cost_.assign(clearance_.size(), geometry::kNoIndex);
+  next_.assign(clearance_.size(), geometry::kNoIndex);
   length_.assign(clearance_.size(), 0);
   // Of a cell, in thirds: three, and more near walls by the inverse square of the clearance.
   const auto cell_cost = [&](std::uint32_t cell) {
@@ -251,18 +255,18 @@ void NavigationFunction::compute_routes() {
 /// Each cell without a route is assigned to the nearest cell with one. Of two that are equally near it takes the one
 /// with the longer route: otherwise a point within a thin wall would be attracted to the far side.
 void NavigationFunction::extend_into_walls() {
-  cells_to_route_.assign(cost_.size(), kUnreached);
+  cells_to_route_.assign(cost_.size(), unreached);
   std::vector<std::uint32_t> layer, next;
   for (std::uint32_t cell = 0; cell < cost_.size(); ++cell)
-    if (cost_[cell] != kNone) {
+    if (cost_[cell] != geometry::kNoIndex) {
       cells_to_route_[cell] = 0;
       layer.push_back(cell);
     }
-  for (std::uint8_t depth = 1; depth < kUnreached && !layer.empty(); ++depth) {
+  for (std::uint8_t depth = 1; depth < unreached && !layer.empty(); ++depth) {
     next.clear();
     for (const std::uint32_t cell : layer)
       for_each_neighbour(cell, [&](std::uint32_t to, std::size_t) {
-        if (cells_to_route_[to] != kUnreached) return;
+        if (cells_to_route_[to] != unreached) return;
         cells_to_route_[to] = depth;
         next.push_back(to);
       });
@@ -283,14 +287,14 @@ void NavigationFunction::extend_into_walls() {
 
 unsigned NavigationFunction::cells_to_route(const Vec3& p) const {
   const std::uint32_t cell = cell_of(p);
-  return cell == kNone ? 0 : cells_to_route_[cell];
+  return cell == geometry::kNoIndex ? 0 : cells_to_route_[cell];
 }
 
 std::vector<Vec3> NavigationFunction::route(const Vec3& p) const {
   std::vector<Vec3> centers;
   std::uint32_t cell = cell_of(p);
-  if (cell == kNone) return centers;
-  for (; next_[cell] != kNone && next_[cell] != cell; cell = next_[cell]) centers.push_back(center(cell));
+  if (cell == geometry::kNoIndex) return centers;
+  for (; next_[cell] != geometry::kNoIndex && next_[cell] != cell; cell = next_[cell]) centers.push_back(center(cell));
   centers.push_back(center(cell));
   return centers;
 }
@@ -302,7 +306,7 @@ std::uint32_t NavigationFunction::lookahead_of(std::uint32_t cell) const {
 
 Vec3 NavigationFunction::lookahead(const Vec3& p) const {
   const std::uint32_t cell = cell_of(p);
-  if (cell != kNone && next_[cell] != kNone) {
+  if (cell != geometry::kNoIndex && next_[cell] != geometry::kNoIndex) {
     const std::uint32_t to = lookahead_of(cell);
     if (!on_boundary(to)) return center(to);
   }
@@ -321,8 +325,8 @@ Vec3 NavigationFunction::lookahead(const Vec3& p) const {
 
 double NavigationFunction::remaining(const Vec3& p) const {
   const std::uint32_t cell = cell_of(p);
-  if (cell == kNone) return -std::sqrt(box_.squared_distance(p));
-  if (next_[cell] == kNone) return box_.size().sum();
+  if (cell == geometry::kNoIndex) return -std::sqrt(box_.squared_distance(p));
+  if (next_[cell] == geometry::kNoIndex) return box_.size().sum();
   const std::uint32_t to = lookahead_of(cell);
   if (to == cell) return 0;
   // Interpolated between the two cells: the length falls continuously as the point moves towards its lookahead.

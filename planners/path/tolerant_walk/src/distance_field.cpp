@@ -21,7 +21,6 @@ Aabb inflated(Aabb box, double by) {
 }  // namespace
 
 DistanceField::Grid::Grid(const Aabb& box, double cell) : box_(box), cell_(cell) {
-  constexpr double kCells = kBlock - 1;  // along the edge of a block
   const double blocks = (box_.size() / (kCells * cell_)).array().ceil().prod();
   if (blocks > kMostBlocks) cell_ *= std::cbrt(blocks / kMostBlocks);
   inverse_cell_ = 1 / cell_;
@@ -49,14 +48,14 @@ DistanceField::Grid::Block& DistanceField::Grid::make(std::atomic<Block*>& place
 /// From one grid point to the next the distance changes by one cell at most, and the sign only where the surface is
 /// nearer than that.
 DistanceField::Grid::Known DistanceField::Grid::from_neighbours(const Block& block, std::ptrdiff_t place) const {
-  constexpr auto kEdge = static_cast<std::ptrdiff_t>(kBlock);
+  const auto edge = static_cast<std::ptrdiff_t>(kBlock);
   const auto reach = static_cast<float>(1.01 * cell_);
   Known known{0, std::numeric_limits<double>::infinity()};
   std::ptrdiff_t stride = 1;
-  for (int axis = 0; axis < 3; ++axis, stride *= kEdge) {
-    const std::ptrdiff_t along = place / stride % kEdge;
+  for (int axis = 0; axis < 3; ++axis, stride *= edge) {
+    const std::ptrdiff_t along = place / stride % edge;
     for (const int step : {-1, 1}) {
-      if (along + step < 0 || along + step >= kEdge) continue;
+      if (along + step < 0 || along + step >= edge) continue;
       const float value = block[static_cast<std::size_t>(place + step * stride)].load(std::memory_order_relaxed);
       if (std::isnan(value)) continue;
       known.bound = std::min(known.bound, static_cast<double>(std::abs(value) + reach));
@@ -67,8 +66,6 @@ DistanceField::Grid::Known DistanceField::Grid::from_neighbours(const Block& blo
 }
 
 double DistanceField::Grid::at(const Eigen::Vector3d& p, const DistanceField* field) {
-  constexpr auto kCells =
-      static_cast<std::int32_t>(kBlock - 1);  // a power of two, so that the divisions below are fast
   const Eigen::Vector3d u = (p - box_.lo) * inverse_cell_;
   std::array<std::int64_t, 3> b;
   std::array<std::size_t, 3> i;
@@ -106,8 +103,8 @@ double DistanceField::Grid::at(const Eigen::Vector3d& p, const DistanceField* fi
     if (!std::isnan(known.load(std::memory_order_relaxed))) continue;
     Eigen::Vector3d place;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      place[static_cast<Eigen::Index>(axis)] = static_cast<double>(b[axis] * static_cast<std::int64_t>(kBlock - 1) +
-                                                                   static_cast<std::int64_t>(i[axis] + d[axis]));
+      place[static_cast<Eigen::Index>(axis)] =
+          static_cast<double>(b[axis] * kCells + static_cast<std::int64_t>(i[axis] + d[axis]));
     Known about = from_neighbours(*block, &known - block->data());
     if (!field->closed_) about.sign = 0;  // for an open mesh it also changes in free space
     known.store(static_cast<float>(field->measured(box_.lo + cell_ * place, about.sign, about.bound)),

@@ -165,7 +165,7 @@ void Probes::allow_near(const Pose& place, DistanceField& other, double reach) {
     for (Probe& p : *kind) {
       const Vec3 at = place * p.center;
       const double depth = other.at(at);
-      if (p.start != Probe::kNoStart || !(depth < p.keep)) continue;
+      if (p.start != geometry::kNoIndex || !(depth < p.keep)) continue;
       p.start = static_cast<std::uint32_t>(starts_.size());
       starts_.push_back({at, depth - other.resolution().ray_step(), reach});
     }
@@ -180,7 +180,7 @@ void Probes::merge(Probes other) {
 
 void Probes::copy_added(const Probes& other) {
   for (Probe p : other.added_) {
-    if (p.start != Probe::kNoStart) {
+    if (p.start != geometry::kNoIndex) {
       starts_.push_back(other.starts_[p.start]);
       p.start = static_cast<std::uint32_t>(starts_.size() - 1);
     }
@@ -203,7 +203,7 @@ bool Probes::any_violated(const Pose& place, DistanceField& other, std::uint64_t
       distance_queries += 20;  // a measured distance takes about as long as that many from the field
     }
     if (!(distance < p.keep)) return false;
-    if (p.start == Probe::kNoStart) return true;
+    if (p.start == geometry::kNoIndex) return true;
     const Probe::Start& start = starts_[p.start];
     return distance < start.keep || (at - start.at).squaredNorm() > start.reach * start.reach;
   };

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/sdf/contact_row.h"
 
 namespace dismantle::sdf {
 
 /// For bodies that only translate: two contacts with the same normals and gaps have the same rows, so that one with the
-/// sum of their stiffness replaces both. Alike means to within kNormal and kGap, far below what moves a part.
+/// sum of their stiffness replaces both. Alike means to within rounding.
 class RowMerger {
  public:
   /// Call after each contact: [first, rows.size()) are its rows. Removes them again if they are like earlier ones.
@@ -35,14 +36,13 @@ class RowMerger {
   }
 
  private:
-  static constexpr double kNormal = 1e-6, kGap = 1e-8;
   struct Entry {
     std::uint64_t hash = 0;
     std::uint32_t first = 0, round = 0;
   };
   std::size_t mask() const { return table_.size() - 1; }
 
-  static std::int64_t rounded(double x, double unit) { return static_cast<std::int64_t>(std::floor(x / unit + 0.5)); }
+  static std::int64_t rounded(double x) { return static_cast<std::int64_t>(std::floor(x / geometry::kRounding + 0.5)); }
   static std::uint64_t mix(std::uint64_t h, std::int64_t x) {
     h ^= static_cast<std::uint64_t>(x) + 0x9e3779b97f4a7c15U + (h << 6) + (h >> 2);
     return h * 0xff51afd7ed558ccdU;
@@ -50,10 +50,10 @@ class RowMerger {
   static std::uint64_t hash(const std::vector<ContactRow>& rows, std::size_t first) {
     std::uint64_t h = static_cast<std::uint64_t>(rows[first].first * 64 + rows[first].second);
     for (std::size_t i = first; i < rows.size(); ++i) {
-      h = mix(h, rounded(rows[i].gap, kGap));
+      h = mix(h, rounded(rows[i].gap));
       for (int k = 0; k < 3; ++k) {
-        if (rows[i].first >= 0) h = mix(h, rounded(rows[i].j_first[k], kNormal));
-        if (rows[i].second >= 0) h = mix(h, rounded(rows[i].j_second[k], kNormal));
+        if (rows[i].first >= 0) h = mix(h, rounded(rows[i].j_first[k]));
+        if (rows[i].second >= 0) h = mix(h, rounded(rows[i].j_second[k]));
       }
     }
     return h ^ (h >> 29);
@@ -63,10 +63,10 @@ class RowMerger {
     if (static_cast<std::size_t>(rows[a].alternatives) + 1 != count) return false;
     for (std::size_t i = 0; i < count; ++i) {
       const ContactRow &x = rows[a + i], &y = rows[b + i];
-      if (x.first != y.first || x.second != y.second || rounded(x.gap, kGap) != rounded(y.gap, kGap)) return false;
+      if (x.first != y.first || x.second != y.second || rounded(x.gap) != rounded(y.gap)) return false;
       for (int k = 0; k < 3; ++k) {
-        if (x.first >= 0 && rounded(x.j_first[k], kNormal) != rounded(y.j_first[k], kNormal)) return false;
-        if (x.second >= 0 && rounded(x.j_second[k], kNormal) != rounded(y.j_second[k], kNormal)) return false;
+        if (x.first >= 0 && rounded(x.j_first[k]) != rounded(y.j_first[k])) return false;
+        if (x.second >= 0 && rounded(x.j_second[k]) != rounded(y.j_second[k])) return false;
       }
     }
     return true;

@@ -78,9 +78,9 @@ class DisplacementSpace final : public ompl::base::StateSpace {
   mutable Rng sampler_seeds_{1};
 };
 
-/// Subdivides an edge so that the screw motions between the poses, which is the meaning of a path, stay within 1e-5
-/// assembly units of it. `first` excluded, `last` included.
+/// Subdivides an edge so that the screw motions between the poses, which is the meaning of a path, stay within
+/// `deviation` (assembly units) of it. `first` excluded, `last` included.
 void append_edge(const DisplacementSpace& space, const DisplacementSpace::StateType& first,
-                 const DisplacementSpace::StateType& last, std::vector<Pose>& displacements);
+                 const DisplacementSpace::StateType& last, double deviation, std::vector<Pose>& displacements);
 
 }  // namespace dismantle::sampling

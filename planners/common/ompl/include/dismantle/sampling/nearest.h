@@ -7,19 +7,19 @@
 #include <functional>
 #include <vector>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::sampling {
 
 /// Points with labels 0, 1, 2... in the order in which they are added. Logarithmic method: k-d trees of doubling size.
 class NearestNodes {
  public:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
-
   std::uint32_t add(const Eigen::Vector3d& point);
   /// The label is ignored from now on.
   void remove(std::uint32_t label) { removed_[label] = true; }
   bool removed(std::uint32_t label) const { return removed_[label]; }
-  /// Label with the least metric(label), the lowest of equal ones; kNone without any. The metric has to be at least the
-  /// distance from `point` to the label's point.
+  /// Label with the least metric(label), the lowest of equal ones; geometry::kNoIndex without any. The metric has to be
+  /// at least the distance from `point` to the label's point.
   std::uint32_t nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric) const;
   /// Up to `count` labels with the least metric, the nearest first, of equal ones the lower label first.
   std::vector<std::uint32_t> nearest(const Eigen::Vector3d& point, const std::function<double(std::uint32_t)>& metric,

@@ -95,6 +95,7 @@ class SamplingProblem {
   ompl::base::SpaceInformationPtr information_;
   CheckBudget& budget_;
   double step_ = 0, allowed_ = 0;
+  double deviation_ = 0;  // of a path from its edges: half of what the verifier allows beyond the states
   std::vector<Pose> start_;
   std::uint64_t blocked_ = 0;
   std::vector<StateType> blocked_states_;

@@ -14,10 +14,10 @@ namespace dismantle::path {
 /// The whole work that a depth limit allows where each level doubles it:
 /// `first` at depth 1; unlimited at depth 0.
 inline std::uint64_t doubled_per_level(double first, unsigned depth) {
-  constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
-  if (depth == 0) return kUnlimited;
+  const std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+  if (depth == 0) return unlimited;
   const double most = std::ldexp(first, static_cast<int>(std::min(depth, 64U)) - 1);
-  return most < 1e18 ? static_cast<std::uint64_t>(most) : kUnlimited;
+  return most < 1e18 ? static_cast<std::uint64_t>(most) : unlimited;
 }
 
 /// Where a portion of work ends: after `portion` more (0: no limit), at `most`

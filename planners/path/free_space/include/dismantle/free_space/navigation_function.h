@@ -8,6 +8,7 @@
 
 #include "dismantle/aabb.h"
 #include "dismantle/free_space/parameters.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/simulator.h"
 
 namespace dismantle::free_space {
@@ -37,14 +38,13 @@ class NavigationFunction {
   bool close_narrowest(const Eigen::Vector3d& p, double reach);
 
  private:
-  static constexpr std::uint32_t kNone = 0xffffffffu;
   using Index = std::array<std::int32_t, 3>;
 
   void rasterize(const std::array<Eigen::Vector3d, 3>& corners);
   void compute_clearance();
   void compute_routes();
   void extend_into_walls();
-  std::uint32_t cell_of(const Eigen::Vector3d& p) const;  ///< kNone: outside
+  std::uint32_t cell_of(const Eigen::Vector3d& p) const;  ///< geometry::kNoIndex: outside
   std::uint32_t id(const Index& i) const;
   Eigen::Vector3d center(std::uint32_t cell) const;
   bool on_boundary(std::uint32_t cell) const;

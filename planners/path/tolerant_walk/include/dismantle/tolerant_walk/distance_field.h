@@ -47,7 +47,8 @@ class DistanceField {
     std::size_t bytes() const { return count_ * sizeof(known_[0]) + blocks_known_ * sizeof(Block); }
 
    private:
-    static constexpr std::size_t kBlock = 9;  // grid points along the edge of a block; neighbouring blocks share a face
+    static constexpr int kCells = 8;  // along the edge of a block; a power of two, so that divisions are fast
+    static constexpr std::size_t kBlock = kCells + 1;  // grid points; neighbouring blocks share a face
     /// Not a number: not computed yet. All threads compute the same value, so the order of writes does not matter.
     using Block = std::array<std::atomic<float>, kBlock * kBlock * kBlock>;
     struct Known {

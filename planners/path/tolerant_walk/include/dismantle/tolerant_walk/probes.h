@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dismantle/aabb.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/pose.h"
 #include "dismantle/tolerant_walk/distance_field.h"
 
@@ -21,8 +22,7 @@ struct Probe {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     double keep = 0, reach = 0;
   };
-  std::uint32_t start = kNoStart;  ///< in the list of Probes
-  static constexpr std::uint32_t kNoStart = 0xffffffffu;
+  std::uint32_t start = geometry::kNoIndex;  ///< in the list of Probes
 };
 
 /// Penetration that is allowed to a pair, in assembly units: its initial overlap and a tolerance on top. Where a wall
