@@ -1,4 +1,4 @@
-/// The surfaces that guide a body, as its contacts tell them.
+/// The surfaces that guide a body, from its contacts.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace dismantle::push {
 
-/// Where fixed parts touch or nearly touch what moves (world axes). Contacts with edges and corners are left out: their
-/// normals tell nothing of the surface.
+/// Points of fixed parts that the world lists as contacts of what moves (world axes). Contacts with edges and corners
+/// are left out: their normals are not those of the surface.
 std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact>& contacts,
                                                        const std::vector<PlacedPart>& moving);
 
