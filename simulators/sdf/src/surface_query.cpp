@@ -11,7 +11,7 @@ float below(double x) { return std::nextafter(static_cast<float>(x), -std::numer
 float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
 constexpr std::uint32_t kLeafSize = 4;
-/// Cells of the candidate lists along the longest edge of a small part.
+/// Cells of the candidate lists along the longest edge of a small part, at most.
 constexpr double kCellsPerEdge = 24;
 /// Where there are more candidates the tree is faster. Few of a long list are examined: it is sorted.
 constexpr std::size_t kMostCandidates = 256;
@@ -49,7 +49,9 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
   find_faces(solid);
   find_convex_features(solid);
   if (n == 0) return;
-  const double cell = std::min(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, 0.5 * near_);
+  // A part that is smaller than its surroundings has that many cells along these.
+  const double cell =
+      std::clamp(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, 2 * near_ / kCellsPerEdge, 0.5 * near_);
   cells_ = std::make_unique<CandidateCells>(reach, cell);
 }
 
