@@ -7,14 +7,15 @@
 #include <numbers>
 #include <utility>
 
-#include "dismantle/geometry/numerics.h"
-
 namespace dismantle::immobility {
 namespace {
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
+
+// Cosine of the angle between a line and a normal below which the line counts as parallel to the plane.
+constexpr double kParallel = 1e-6;
 
 double along(const Aabb& box, const Vec3& axis) { return 0.5 * axis.cwiseAbs().dot(box.size()); }
 
@@ -126,7 +127,7 @@ bool DiameterClearance::intersect(const FacetPlane& plane, const Aabb& box, cons
   for (const double angle : {lines.from, lines.to}) {
     const Vec3 d = lines.at(angle);
     const double steep = plane.normal.dot(d);
-    if (std::abs(steep) < geometry::kRounding || steep * side < 0) return false;
+    if (std::abs(steep) < kParallel || steep * side < 0) return false;
     side = steep;
     for (int k = 0; k < 8; ++k) {
       const Vec3 c = corner(box, k);
@@ -209,7 +210,7 @@ bool DiameterClearance::all_blocked(const Aabb& box, const Lines& lines, const s
     const double off = p.offset - p.normal.dot(center);
     for (int k = 0; k < 3; ++k) {
       const double steep = p.normal.dot(sight[k]);
-      if (!(std::abs(off) <= radius_ * std::abs(steep)) || std::abs(steep) < geometry::kRounding) continue;
+      if (!(std::abs(off) <= radius_ * std::abs(steep)) || std::abs(steep) < kParallel) continue;
       const double way = off / steep;
       Hit& hit = first[way < 0 ? 1 : 0][k];
       if (k != 1 && !(std::abs(way) < hit.way)) continue;

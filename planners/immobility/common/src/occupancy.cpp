@@ -52,6 +52,7 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
   // Each triangle costs a few dozen operations; with more, the hierarchy of the whole solid is faster.
   if (cell.triangles.size() > 48) return std::nullopt;
   // Six times the volume of a tetrahedron, as a share of the product of its edges: the sign of less is rounding.
+  constexpr double kTooFlat = 0.1 * kRounding;
   const Vec3 way = to - cell.center;
   int sum = 0;
   for (const std::uint32_t t : cell.triangles) {
@@ -60,12 +61,12 @@ std::optional<int> Occupancy::crossings(const Mixed& cell, const Vec3& to) const
     const Vec3 normal = (b - a).cross(c - a);
     const double from_height = -normal.dot(a), to_height = normal.dot(way) + from_height;
     // Relative to the edges, not to the normal: that of a sliver is mostly rounding.
-    const double flat = kRounding * (b - a).norm() * (c - a).norm() * (a.norm() + way.norm());
+    const double flat = kTooFlat * (b - a).norm() * (c - a).norm() * (a.norm() + way.norm());
     // Both ends are certainly on one side.
     if ((from_height > flat && to_height > flat) || (from_height < -flat && to_height < -flat)) continue;
     const double u = way.dot(a.cross(b)), v = way.dot(b.cross(c)), w = way.dot(c.cross(a));
     const double slack =
-        kRounding * way.norm() * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
+        kTooFlat * way.norm() * std::max({a.norm() * b.norm(), b.norm() * c.norm(), c.norm() * a.norm()});
     // The line certainly misses the triangle.
     if ((u > slack || v > slack || w > slack) && (u < -slack || v < -slack || w < -slack)) continue;
     if (std::min({std::abs(u), std::abs(v), std::abs(w)}) <= slack ||

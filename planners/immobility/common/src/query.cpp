@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "dismantle/geometry/numerics.h"
 #include "dismantle/part_memo.h"
 
 namespace dismantle::immobility {
@@ -17,7 +16,8 @@ const std::vector<Solid>& solids_of(const SeparationQuery& query, PartId part) {
 }
 
 double depth_allowed(const SeparationQuery& query, PartId a, PartId b) {
-  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + geometry::kRounding);
+  constexpr double kRoundingMargin = 1e-6;  // relative; initial overlaps are measured much less exactly, from below
+  return (query.assembly.initial_overlap(a, b) + query.margin()) * (1 + kRoundingMargin);
 }
 
 double slack_of(const SeparationQuery& query) { return 1e-4 * query.tolerance; }
