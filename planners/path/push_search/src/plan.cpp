@@ -39,6 +39,11 @@ Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, 
   return search;
 }
 
+/// What is left until a pause after `used` of it. At least one state, so that a search advances; 0 = no pause.
+std::uint64_t rest_of_pause(std::uint64_t pause_after, std::uint64_t used) {
+  return pause_after == 0 ? 0 : std::max<std::uint64_t>(pause_after - std::min(pause_after, used), 1);
+}
+
 /// It ended without a path, but neither by a limit of time nor of steps.
 bool ended_without_path(const PathResult& result) {
   return result.outcome() == Outcome::exhausted || result.outcome() == Outcome::depth_limit;
@@ -65,6 +70,8 @@ ByTurns::ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& con
 
 PathResult ByTurns::run(const Search::Limits& limits) {
   const auto goes_on = [](const PathResult& r) { return r.outcome() == Outcome::depth_limit; };
+  const auto cost = [&] { return translation_.cost() + (rotation_ ? rotation_->cost() : 0); };
+  const std::uint64_t begin = cost();
   paused_ = false;
   Search::Limits turn = limits;
   if (!screw_first_) screw_first_ = may_screw(query_, tactics_) && translation_.screw_leads_out();
@@ -80,6 +87,7 @@ PathResult ByTurns::run(const Search::Limits& limits) {
     turn = limits;
   }
   while (goes_on(first_) || goes_on(second_)) {
+    turn.pause_after = rest_of_pause(limits.pause_after, cost() - begin);
     turn.rank = turning_ ? rank_ - std::min(rank_, tactics_.turning_lag) : rank_;
     if (turning_ && !rotation_) rotation_.emplace(begun(query_, MotionSpace::rigid, tactics_, context_));
     Search& search = turning_ ? *rotation_ : translation_;
@@ -173,12 +181,14 @@ void ContactSearch::put_screws_first() {
 /// One after the other, the first that finds something ending it.
 SearchStatus ContactSearch::run_legs(Search::Limits limits) {
   put_screws_first();
+  const double begin = now_.stats.cost;
+  const std::uint64_t pause_after = limits.pause_after;
   while (!legs_.empty()) {
     const SearchStatus status = run_leg(legs_.front(), limits);
     if (status != SearchStatus::exhausted) return status;
     legs_.erase(legs_.begin());
-    limits.pause_after = 0;
     ended_ = now_;
+    limits.pause_after = rest_of_pause(pause_after, static_cast<std::uint64_t>(now_.stats.cost - begin));
     any_ = true;
     // What cannot move may still be turned, which the first level leaves out.
     if (legs_.empty() && tactics_.motion == Motion::automatic && query_.budget.max_depth == 1 &&

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <map>
@@ -95,7 +96,12 @@ class MazeWorld final : public World {
       report.travel = std::max(report.travel, (state.bodies[i].pose.t - begin.bodies[i].pose.t).norm());
     return report;
   }
-  double penetration(const State&) override { return 0; }
+  double penetration(const State& state) override {
+    return std::all_of(state.bodies.begin(), state.bodies.end(),
+                       [&](const auto& b) { return maze_.inside(b.pose.t, learned_, scene_); })
+               ? 0
+               : 1;
+  }
   void contacts(const State& state, std::vector<Contact>& out) override {
     out.clear();
     for (std::size_t i = 0; i < state.bodies.size(); ++i)
@@ -131,7 +137,7 @@ class MazeWorld final : public World {
       for (int axis = 0; axis < 3; ++axis)
         if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, scene_)) p = next;
     }
-    return (p - before).norm() > 1e-12;
+    return (p - before).norm() > 1e-3 * way.norm();  // what creeps is stalled
   }
 
   const Maze& maze_;

@@ -62,7 +62,7 @@ class ContactSearch final : public PathSearch {
     MotionSpace space = MotionSpace::translation;
     unsigned rank = ~0U;
     std::uint64_t expansions = 0;          ///< states, 0 = no limit
-    std::optional<std::uint64_t> share{};  ///< of the steps that are left: at most so many, or all
+    std::optional<std::uint64_t> share{};  ///< of the steps that are left: at most this number, or all
   };
   static std::vector<Leg> legs_of(const PathQuery& query, const Tactics& tactics);
   SearchStatus run_legs(Search::Limits limits);

@@ -59,6 +59,8 @@ class Search {
   };
   /// Continues where the last call stopped. `depth_limit`: states of greater depth or rank are left; `exhausted`: none.
   PathResult run(const Limits& limits);
+  /// Simulated steps and state checks of all calls.
+  std::uint64_t cost() const { return steps_ + state_checks_; }
   /// The last call ended because of `pause_after`.
   bool paused() const { return paused_; }
 
