@@ -24,7 +24,8 @@ Twist about(const Twist& twist, const Eigen::Vector3d& was, const Eigen::Vector3
 }  // namespace
 
 /// Length over which the part penetrates nothing. `clear`: length that was clear on a similar screw.
-/// `origin`: state in which the run began; it is not known until the part has left it.
+/// `origin`: state in which the run began. States similar to it or to `start` count as known only after the part has
+/// left both.
 Search::Stretch Search::glide(const Twist& twist, const State& start, const State& origin, double clear,
                               std::uint32_t first) {
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
@@ -42,17 +43,17 @@ Search::Stretch Search::glide(const Twist& twist, const State& start, const Stat
       wall = way + step;
       continue;
     }
-    // Known states are searched for as often as if every step had been short.
+    // Separation and known states are tested as often as if every step had been short: a bent tube leads back in.
     const int pieces = static_cast<int>(std::ceil(step / glide_step()));
     for (int k = 1; k <= pieces; ++k) {
       const double along = way + k * step / pieces;
       const State there = moved(start, twist, center, along);
-      left_origin = left_origin || !seen_.similar(there, origin);
+      if (world_->separated(there)) return {GlideEnd::out, along};
+      left_origin = left_origin || (!seen_.similar(there, start) && !seen_.similar(there, origin));
       if (left_origin && seen_.has_similar(there, first, static_cast<std::uint32_t>(nodes_.size())))
         return {GlideEnd::known, along};
     }
     way += step;
-    if (world_->separated(moved(start, twist, center, way))) return {GlideEnd::out, way};
   }
 }
 
@@ -106,7 +107,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
       return verified;
     }
     const Eigen::Vector3d center = center_of(run.state);
-    if (glided.way > best + std::max(glide_step(), tactics_.glide_growth * best)) {
+    if (glided.way > best + glide_step()) {
       best = glided.way;
       best_twist = twist;
       const State on_screw = moved(run.state, twist, center, tactics_.glide_kept * best);

@@ -53,7 +53,7 @@ struct ProposalParameters {
   double facet_angle = 0.035;
   std::int64_t free_directions = 8;
   double lean = 0.5;
-  double glide_step = 10;
+  double glide_step = 20;
   double glide_growth = 0.25;
   double glide_kept = 0.75;
 };
