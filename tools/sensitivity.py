@@ -234,9 +234,9 @@ def main():
     resolved = (options.output / "plan" / "resolved.yaml").read_text()
     schema = json.loads((ROOT / "docs/reference/dismantle.schema.json").read_text())
     ranges = ranges_of(schema)
-    todo = [(key, value, *v) for key, value in parameters_of(resolved, schema).items()
+    pending = [(key, value, *v) for key, value in parameters_of(resolved, schema).items()
             if key.startswith(options.only) and key not in ALWAYS_LEFT_OUT for v in variations(key, value, ranges)]
-    for k, (key, default, label, value) in enumerate(todo):
+    for k, (key, default, label, value) in enumerate(pending):
         differ = asked = 0
         for assembly, base in used:
             if key.startswith(SEARCH_ONLY) and base["searches"] == 0:
@@ -246,7 +246,7 @@ def main():
                 break
             asked += 1
             differ += run.get("moves") != base["moves"]
-        print("%4d of %d  %s = %s: %d of %d plans differ" % (k + 1, len(todo), key, value, differ, asked), flush=True)
+        print("%4d of %d  %s = %s: %d of %d plans differ" % (k + 1, len(pending), key, value, differ, asked), flush=True)
     return 0
 
 

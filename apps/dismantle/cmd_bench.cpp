@@ -106,7 +106,7 @@ void add_bench(CLI::App& app, Action& action) {
   command->add_option("SUITE.yaml", options->suite, "Suite (docs/benchmark.md)")->required()->option_text(" ");
   command->add_option("-o,--output", options->folder, "Folder for the results; default: SUITE.bench here")
       ->option_text("DIR");
-  command->add_option("--jobs", options->jobs, "Trials at once")->check(CLI::Range(1u, 4096u))->option_text("N");
+  command->add_option("--jobs", options->jobs, "Number of trials that run in parallel")->check(CLI::Range(1u, 4096u))->option_text("N");
   command->add_option("--shard", options->shard, "Run just every N-th trial, into a database of its own")
       ->option_text("I/N");
   command->add_option("--launcher", options->launcher, "local, or slurm: submit a job array")

@@ -61,7 +61,7 @@ struct PlacedBody {
 /// `depths`: of the insets wanted. @throws InputError (naming `part`) when it encloses no volume.
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths);
 
-/// Displacement of each vertex into the mesh, at most `depth` long: into all faces around it at once, and no longer
+/// Displacement of each vertex into the mesh, at most `depth` long: into all faces around it together, and no longer
 /// than a quarter of the material there is in that direction. Zero where no direction leads into all faces.
 std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::vector<SolidPart>& solids, double depth);
 

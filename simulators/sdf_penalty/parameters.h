@@ -96,7 +96,7 @@ struct Parameters : sdf::ContactParameters {
           {.unit = "1",
            .min = 1,
            .max = 1000,
-           .doc = "At least so many cells along each edge of the part's box under `distance: grid` (appendix A)."});
+           .doc = "Smallest number of cells along each edge of the part's box under `distance: grid` (appendix A)."});
     s.add("stall_share", &Parameters::stall_share,
           {.unit = "1",
            .min = 0,

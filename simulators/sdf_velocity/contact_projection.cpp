@@ -9,7 +9,7 @@ namespace dismantle::sdf_velocity {
 namespace {
 
 constexpr int kRounds = 24;
-/// A lift that leads away from what was wanted by more than so many times the depth is a squeeze.
+/// A lift that leads away from the wanted motion by more than this multiple of the depth is a squeeze.
 constexpr double kSqueeze = 4;
 
 }  // namespace

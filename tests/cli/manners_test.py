@@ -20,14 +20,14 @@ class Tree(CliTest):
 
     def commands(self):
         """Every command with its options, as its own --help says."""
-        todo, found = [[]], {}
-        while todo:
-            path = todo.pop()
+        pending, found = [[]], {}
+        while pending:
+            path = pending.pop()
             text = self.run_program(*path, "--help", status=0).stdout
             found[tuple(path)] = options_of(text.split("Subcommands:")[0])
             if "Subcommands:" in text:
                 below = text.split("Subcommands:")[1]
-                todo += [path + [name] for name in re.findall(r"^  ([a-z]+)  ", below, re.M)]
+                pending += [path + [name] for name in re.findall(r"^  ([a-z]+)  ", below, re.M)]
         self.assertIn(("plugins", "describe"), found)
         self.assertIn(("completion", "bash"), found)
         return found

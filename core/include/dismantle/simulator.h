@@ -27,7 +27,7 @@ struct Capabilities {
   bool dynamics = false;    ///< World::advance works
   bool contacts = false;    ///< World::contacts works
   bool distance = false;    ///< World::penetration tells free states from colliding ones without dynamics
-  unsigned max_moving = 1;  ///< largest number of parts that may move at once
+  unsigned max_moving = 1;  ///< largest number of parts that may move simultaneously
 };
 
 /// A part, and where it is.

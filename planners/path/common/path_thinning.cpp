@@ -33,10 +33,10 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
   }
   std::vector<bool> keep(n, false);
   keep.front() = keep.back() = true;
-  std::vector<std::pair<std::size_t, std::size_t>> todo{{0, n - 1}};
-  while (!todo.empty()) {
-    const auto [a, b] = todo.back();
-    todo.pop_back();
+  std::vector<std::pair<std::size_t, std::size_t>> pending{{0, n - 1}};
+  while (!pending.empty()) {
+    const auto [a, b] = pending.back();
+    pending.pop_back();
     if (b - a < 2) continue;
     const double length = way[b] - way[a];
     double worst = -1;
@@ -56,8 +56,8 @@ Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
     if (worst <= tolerance && !turns) continue;
     if (worst <= tolerance) at = a + (b - a) / 2;
     keep[at] = true;
-    todo.emplace_back(a, at);
-    todo.emplace_back(at, b);
+    pending.emplace_back(a, at);
+    pending.emplace_back(at, b);
   }
   Path result;
   for (std::size_t k = 0; k < n; ++k)

@@ -27,7 +27,7 @@ class OneByOne {
   /// True when the planner has to stop here. What is said of the parts left then speaks of the interruption.
   bool interrupted();
   /// Asks whether `part` can leave while all others left stay fixed, to `max_depth` (0 = no limit). When it can it
-  /// is removed at once. `next`: parts that will be asked for after it, should it stay; worked ahead on.
+  /// is removed immediately. `next`: parts that will be asked for after it, should it stay; worked ahead on.
   Outcome attempt(PartId part, unsigned max_depth, std::span<const PartId> next = {});
   /// That of the last attempt; lives as long as the oracle. Null before the first.
   const AttemptResult* answer() const { return answer_; }

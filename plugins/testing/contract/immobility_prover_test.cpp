@@ -45,7 +45,7 @@ std::size_t triangles_of(const Assembly& assembly) {
   return count;
 }
 
-/// Every part of these leaves by a motion that touches nothing, one after the other or several at once; so no two of
+/// Every part of these leaves by a motion that touches nothing, one after the other or several together; so no two of
 /// them hold each other, nor all of them.
 std::vector<Question> separable() {
   std::vector<Question> questions;

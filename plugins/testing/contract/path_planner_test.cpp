@@ -193,7 +193,7 @@ TEST_P(PathPlannerContract, SeveralPartsMoveAtOnce) {
   plan(run, 2, {.max_steps = kPlenty}, {}, {}, &scene);
 }
 
-/// A search that is run in growing portions ends as one that is run at once.
+/// A search that is run in growing portions ends as one that is run in one portion.
 TEST_P(PathPlannerContract, InPortionsAsAtOnce) {
   for (std::size_t which = 0; which < 2; ++which) {
     Run at_once;

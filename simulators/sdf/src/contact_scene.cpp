@@ -8,7 +8,7 @@
 namespace dismantle::sdf {
 namespace {
 
-/// Beyond so many margins a bound on the distance is as good as the distance.
+/// A bound on the distance is as good as the distance beyond this many margins.
 constexpr double kFarEnough = 2;
 /// Odometer reading at which a block wakes that has a point within the margin: immediately.
 const double held_block = -std::numeric_limits<double>::infinity();

@@ -16,17 +16,17 @@ void SurfaceQuery::find_faces(const Solid& solid) {
   for (std::uint32_t t = 0; t < n; ++t)
     for (const std::uint32_t v : mesh.triangles[t]) around[v].push_back(t);
   face_of_.assign(n, geometry::kNoIndex);
-  std::vector<std::uint32_t> todo;
+  std::vector<std::uint32_t> pending;
   for (std::uint32_t seed = 0; seed < n; ++seed) {
     if (face_of_[seed] != geometry::kNoIndex) continue;
     const auto id = static_cast<std::uint32_t>(planes_.size());
     const Plane plane{face_[seed], face_[seed].dot(mesh.vertex(seed, 0))};
     planes_.push_back(plane);
     face_of_[seed] = id;
-    todo.assign(1, seed);
-    while (!todo.empty()) {
-      const std::uint32_t t = todo.back();
-      todo.pop_back();
+    pending.assign(1, seed);
+    while (!pending.empty()) {
+      const std::uint32_t t = pending.back();
+      pending.pop_back();
       for (const std::uint32_t v : mesh.triangles[t])
         for (const std::uint32_t u : around[v]) {
           if (face_of_[u] != geometry::kNoIndex || face_[u].dot(plane.normal) < 0.5) continue;
@@ -35,7 +35,7 @@ void SurfaceQuery::find_faces(const Solid& solid) {
             flat = std::abs(plane.normal.dot(mesh.vertex(u, k)) - plane.offset) <= coplanar_;
           if (!flat) continue;
           face_of_[u] = id;
-          todo.push_back(u);
+          pending.push_back(u);
         }
     }
   }

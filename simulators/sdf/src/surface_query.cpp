@@ -80,11 +80,11 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
   if (!list.usable) return list;
   const PointLanes at(center);
   const float filter = TriangleSlabs::filter(reach * reach);
-  std::array<std::uint32_t, 64> todo;  // the tree is balanced: no deeper than the bits of a number
+  std::array<std::uint32_t, 64> pending;  // the tree is balanced: no deeper than the bits of a number
   std::size_t left = 0;
-  todo[left++] = 0;
+  pending[left++] = 0;
   while (left > 0) {
-    const std::uint32_t id = todo[--left];
+    const std::uint32_t id = pending[--left];
     const Node& n = nodes_[id];
     double outside = 0;
     for (int k = 0; k < 3; ++k) {
@@ -93,8 +93,8 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
     }
     if (outside > reach * reach) continue;
     if (n.count == 0) {
-      todo[left++] = n.first;
-      todo[left++] = id + 1;
+      pending[left++] = n.first;
+      pending[left++] = id + 1;
       continue;
     }
     for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {

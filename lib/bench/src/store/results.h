@@ -61,7 +61,7 @@ struct Tally {
   std::vector<std::pair<std::string, std::pair<std::int64_t, std::int64_t>>> planners;  ///< name, (solved, done)
 };
 
-/// A suite's results, open for running. Several processes may have it open at once.
+/// A suite's results, open for running. Several processes may have it open simultaneously.
 class Results {
  public:
   /// @throws InputError when the file is no database of this version.

@@ -78,7 +78,7 @@ class Statement {
   int next_ = 1;
 };
 
-/// Begins at once as a writer; rolled back unless committed.
+/// Begins as a writer; rolled back unless committed.
 class Transaction {
  public:
   explicit Transaction(Sqlite& db) : db_(db) { db_.run("BEGIN IMMEDIATE"); }

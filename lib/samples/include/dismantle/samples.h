@@ -28,7 +28,7 @@ struct Sample {
   bool solvable = true;          ///< false: its parts cannot all be separated by rigid motions
   bool clean = true;             ///< false: parts overlap when assembled, as in real CAD; see Truth::contacts
   bool translation_only = true;  ///< every part leaves without turning
-  bool one_at_a_time = true;     ///< false: some step needs several parts to move at once
+  bool one_at_a_time = true;     ///< false: some step needs several parts to move simultaneously
 };
 
 /// Turn by `angle` about the line through `point` along the unit vector `axis`, and slide by `advance` along it.

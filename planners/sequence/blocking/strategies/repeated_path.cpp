@@ -21,7 +21,7 @@ Eigen::Vector3d direction_of(const Pose& from, const Pose& to, const Aabb& box) 
 
 }  // namespace
 
-/// A path of two poses is straight, or a turn that a search finds at once.
+/// A path of two poses is straight, or a turn that a search finds in its first steps.
 void RepeatedPath::on_group_changed(GroupState&, const GroupChange& change) {
   if (proposes_ || change.kind != GroupChange::Kind::removed) return;
   const Removal& removal = state_.removals().back();

@@ -74,7 +74,7 @@ inline Assembly closed_box() {
                       {"plate", {{{-1, -1, -0.1}, {1, 1, 0.1}}}}});
 }
 
-/// Blocks side by side with room between them: all can leave at once.
+/// Blocks side by side with room between them: all can leave in any order.
 inline Assembly row(unsigned n) {
   std::vector<std::pair<std::string, std::vector<Box>>> parts;
   for (unsigned k = 0; k < n; ++k)

@@ -22,7 +22,7 @@ enum class DistanceModel {
 /// Depths in assembly units.
 struct ContactDepths {
   double threshold = 0;  ///< granted to all pairs everywhere, on top of their overlap
-  /// A larger overlap is not granted everywhere at once, since it would let a part through walls that are thinner than
+  /// A larger overlap is not granted everywhere from the start, since it would let a part through walls that are thinner than
   /// twice that: at first each point may be as deep as it was when assembled, and other points this deep.
   double everywhere = std::numeric_limits<double>::infinity();
   double slack = 0;    ///< what each point may be deeper than when assembled
