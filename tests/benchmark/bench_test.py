@@ -1,7 +1,9 @@
 """Laws of `dismantle bench`: every trial is a row, once, whatever the planners and the user do."""
 import glob
 import os
+import pathlib
 import random
+import re
 import shlex
 import signal
 import subprocess
@@ -38,6 +40,16 @@ class Isolation(BenchTest):
         self.suite(self.evil("sleep"), limits="timeout: 0, wall: 2, cpu: 600", name="sleep.yaml")
         self.bench(suite="sleep.yaml", out="asleep")
         self.assertEqual([r["outcome"] for r in self.rows(database="asleep/results.db")], ["wall_limit"])
+
+    def test_what_a_trial_leaves_behind_ends_with_it(self):
+        self.suite(self.evil("daemon"))
+        self.bench()
+        row, = self.rows()
+        left = re.search(r"evil.daemon leaves (\d+) behind", row["last_words"])
+        self.assertIsNotNone(left, row["last_words"])
+        status = pathlib.Path("/proc", left.group(1), "status")
+        # It is gone, or dead and not yet waited for by whoever adopted it.
+        self.assertTrue(not status.exists() or re.search(r"^State:\s+[ZX]", status.read_text(), re.M))
 
     def test_the_verifier_has_the_last_word(self):
         self.suite("  t_rrt: {set: {simulator.type: fcl, path_planner.type: t_rrt, sequence_planner.type: progressive, verify.max_penetration: 0.1}}\n",

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
@@ -57,6 +58,17 @@ PathResult scribble() {
   for (;; ++at) *at = here;
 }
 
+/// Leaves a process behind that belongs to another session, and says which.
+PathResult leave_a_daemon() {
+  const pid_t daemon = ::fork();
+  if (daemon == 0) {
+    ::setsid();
+    for (;;) ::pause();
+  }
+  ::dprintf(STDERR_FILENO, "evil.daemon leaves %d behind\n", static_cast<int>(daemon));
+  return give_up();
+}
+
 /// Accepts everything.
 class Accomplice final : public dismantle::PathChecker {
  public:
@@ -89,6 +101,8 @@ DISMANTLE_PLUGIN("evil.planners", "1.0.0", "MIT", "https://example.org/evil") {
                                                                {.source = "none", .needs = {}});
   r.add<dismantle::PathPlanner, Planner<scribble>, NoParams>("evil.scribble", "Overwrites memory.",
                                                              {.source = "none", .needs = {}});
+  r.add<dismantle::PathPlanner, Planner<leave_a_daemon>, NoParams>("evil.daemon", "Leaves a process behind.",
+                                                                   {.source = "none", .needs = {}});
   r.add<dismantle::PathPlanner, Planner<lie>, NoParams>("evil.lie", "Claims to be done.",
                                                         {.source = "none", .needs = {}});
 }

@@ -89,6 +89,20 @@ class Faults(CliTest):
         self.assertNotEqual(done.returncode, 0)
         self.good_plan("out", "plan.json")
 
+    def test_a_clock_that_jumps(self):
+        """The time of day, by hours and back: the plan is the same, within its limits, and a campaign ends with all its rows."""
+        jumping = dict(os.environ, LD_PRELOAD=os.environ["JUMPING_CLOCK"])
+        self.run_program("plan", "in", "-o", "out", "-q", *QUICK, status=0)
+        self.run_program("plan", "in", "-o", "jumped", "-q", "--timeout", "600", env=jumping, status=0)
+        moves, jumped = ([step["moves"] for step in json.loads(self.read(folder, "plan.json"))["disassembly"]]
+                         for folder in ("out", "jumped"))
+        self.assertEqual(moves, jumped)
+        self.write("suite.yaml", "schema: 1\nassemblies:\n  - {sample: peg_in_hole}\nplanners:\n  default: {}\nseeds: 1..3\n"
+                                 "limits: {timeout: 60, wall: 300, memory: 2048}\n")
+        self.run_program("bench", "suite.yaml", "-o", "bench", env=jumping, status=0)
+        with sqlite3.connect(self.path("bench", "results.db")) as database:
+            self.assertEqual(database.execute("select count(*), sum(solved) from trials").fetchone(), (3, 3))
+
     def evil(self):
         os.makedirs(self.path("plugins"), exist_ok=True)
         name, = (n for n in os.listdir(EVIL) if n.endswith(".so"))

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "process/leftovers.h"
 
 namespace dismantle::bench {
 namespace {
@@ -28,7 +29,8 @@ void limit(int what, rlim_t soft, rlim_t hard) {
 }
 
 /// Between fork and exec: nothing but system calls.
-[[noreturn]] void become(char* const* command, const ChildSpec& spec, pid_t parent, int stream, int nothing) {
+[[noreturn]] void become(char* const* command, char* const* environment, const ChildSpec& spec, pid_t parent, int stream,
+                         int nothing) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(127);
   ::setpgid(0, 0);
@@ -44,21 +46,26 @@ void limit(int what, rlim_t soft, rlim_t hard) {
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
-  ::execv(command[0], command);
+  ::execve(command[0], command, environment);
   _exit(127);
 }
 
 }  // namespace
 
-Child::Child(const ChildSpec& spec) : wall_(spec.wall), cpu_(spec.cpu), begin_(std::chrono::steady_clock::now()) {
+Child::Child(const ChildSpec& spec)
+    : mark_(new_mark()), wall_(spec.wall), cpu_(spec.cpu), begin_(std::chrono::steady_clock::now()) {
   std::vector<char*> command;
   for (const auto& word : spec.command) command.push_back(const_cast<char*>(word.c_str()));
   command.push_back(nullptr);
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) environment.push_back(*entry);
+  environment.push_back(mark_.data());
+  environment.push_back(nullptr);
   int ends[2] = {-1, -1};
   const int nothing = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   const pid_t parent = ::getpid();
   if (nothing >= 0 && ::pipe2(ends, O_CLOEXEC) == 0) pid_ = ::fork();
-  if (pid_ == 0) become(command.data(), spec, parent, ends[1], nothing);
+  if (pid_ == 0) become(command.data(), environment.data(), spec, parent, ends[1], nothing);
   const int problem = errno;
   if (nothing >= 0) ::close(nothing);
   if (ends[1] >= 0) ::close(ends[1]);
@@ -77,6 +84,7 @@ Child::~Child() {
     int status = 0;
     while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
+    kill_marked(mark_);
   }
   if (stream_ >= 0) ::close(stream_);
 }
@@ -114,6 +122,7 @@ bool Child::ended() {
   }
   done_ = true;
   kill();  // what it may have left behind
+  kill_marked(mark_);
   listen();
   end_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   end_.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0;

@@ -27,7 +27,8 @@ struct ChildEnd {
   std::string last_words;  ///< end of its standard error stream, at most 4 KiB
 };
 
-/// A running process in a group of its own. It is killed when the thread that started it ends, however it ends.
+/// A running process in a group of its own. It is killed when the thread that started it ends, however it ends. What it
+/// leaves behind is killed when it has ended, in whatever group it is.
 class Child {
  public:
   /// @throws Error when it cannot be started.
@@ -46,6 +47,7 @@ class Child {
 
  private:
   void listen();
+  std::string mark_;  // in the environment of the process and of what it starts
   pid_t pid_ = -1;
   int stream_ = -1;
   bool done_ = false;
