@@ -243,7 +243,9 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   result.prepare_seconds = seconds_since(begin);
 
   begin = Clock::now();
-  const Verifier verifier(assembly, options.verify, own.executor.get());
+  RunContext whole = own;  // forced steps need the verifier, too
+  whole.deadline = context.deadline;
+  const Verifier verifier(assembly, options.verify, whole);
   struct Nothing final : PreparedAssembly {};
   const Nothing nothing;
   if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through

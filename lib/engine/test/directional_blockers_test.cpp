@@ -129,7 +129,7 @@ TEST(ForcedMotions, AQuickMotionIsThatOfAGroupSeenAnew) {
       group.push_back({k, Pose{}});
     }
     const Assembly assembly = fake::assembly_of(parts);
-    const Verifier verifier(assembly, {}, nullptr);
+    const Verifier verifier(assembly, {});
     ForcedMotions kept(assembly, verifier, none, {});
     while (group.size() > 1) {
       ForcedMotions fresh(assembly, verifier, none, {});

@@ -148,7 +148,7 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + (vb / den) * ab + (vc / den) * ac;
 }
 
-TriangleBvh::TriangleBvh(const Mesh& mesh) {
+TriangleBvh::TriangleBvh(const Mesh& mesh, const std::function<void()>& poll) {
   const std::size_t n = mesh.triangles.size();
   corners_.resize(n);
   std::vector<Aabb> boxes(n);
@@ -162,11 +162,14 @@ TriangleBvh::TriangleBvh(const Mesh& mesh) {
   std::iota(order_.begin(), order_.end(), 0u);
   if (n == 0) return;
   nodes_.reserve(n);
-  build(0, static_cast<std::uint32_t>(n), boxes);
+  build(0, static_cast<std::uint32_t>(n), boxes, poll);
   nodes_.shrink_to_fit();
 }
 
-void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes) {
+void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes,
+                        const std::function<void()>& poll) {
+  constexpr std::uint32_t kPolled = 1 << 16;  // triangles: some 10 ms for one level
+  if (poll && count >= kPolled) poll();
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   Aabb box, centers;
@@ -226,9 +229,9 @@ void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aa
     });
   }
   const auto left_count = static_cast<std::uint32_t>(middle - begin);
-  build(first, left_count, boxes);
+  build(first, left_count, boxes, poll);
   nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
-  build(first + left_count, count - left_count, boxes);
+  build(first + left_count, count - left_count, boxes, poll);
 }
 
 ClosestPoint TriangleBvh::closest(const Vec3& p, double limit) const {

@@ -3,18 +3,11 @@
 
 #include <cstddef>
 #include <mutex>
-#include <string>
 
-#include "dismantle/errors.h"
 #include "dismantle/executor.h"
+#include "dismantle/stop_if_asked.h"
 
 namespace dismantle {
-
-/// Throws Error when the context says to stop; `doing` names what is given up.
-inline void stop_if_asked(const RunContext& context, const char* doing) {
-  if (!context.should_stop()) return;
-  throw Error(std::string(context.cancel.cancelled() ? "interrupted" : "out of time") + " while " + doing);
-}
 
 /// parallel_for on the threads of the context. `doing` names it in progress and errors, `name(i)` an index. Throws when
 /// the context says to stop.

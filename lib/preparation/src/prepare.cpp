@@ -77,7 +77,7 @@ class Preparation {
           report_.parts[i].name = raw[i].name;
           report_.parts[i].file = raw[i].file;
           if (raw[i].problem.empty()) {
-            repair_part(raw[i].mesh, options_, report_.parts[i]);
+            repair_part(raw[i].mesh, options_, report_.parts[i], context_);
           } else {
             report_.parts[i].kept = false;
             report_.parts[i].reason = raw[i].problem;
@@ -251,7 +251,10 @@ class Preparation {
     const auto& parts = assembly_.parts;
     std::vector<ComputedOnce<DepthBody>> bodies(parts.size());  // a part that meets many others is made ready once
     const auto body = [&](PartId part) -> const DepthBody& {
-      return *bodies[part].get(context_, [&] { return std::optional<DepthBody>(std::in_place, *parts[part].mesh); });
+      return *bodies[part].get(context_, [&] {
+        return std::optional<DepthBody>(std::in_place, *parts[part].mesh,
+                                        [&] { stop_if_asked(context_, "measuring overlaps"); });
+      });
     };
     parallel_phase(
         pairs.size(), context_, "overlaps",

@@ -8,6 +8,7 @@
 
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
+#include "dismantle/stop_if_asked.h"
 
 namespace dismantle {
 namespace {
@@ -25,8 +26,8 @@ std::string counted(std::size_t n, std::string what) {
 
 class PartRepair {
  public:
-  PartRepair(Mesh& mesh, const PrepareOptions& options, PartReport& report)
-      : mesh_(mesh), options_(options), report_(report) {}
+  PartRepair(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context)
+      : mesh_(mesh), options_(options), report_(report), context_(context) {}
 
   void run() {
     if (!sound()) return finish();
@@ -36,25 +37,34 @@ class PartRepair {
       return finish();
     }
     weld_part();
+    go_on();
     EdgeUse use = edge_use(mesh_);
+    go_on();
     const bool trusted = use.inconsistent == 0;
     if (!use.closed() && !mesh_.empty()) use = close(use);
+    go_on();
     drop_flat_shells();
+    go_on();
     if (mesh_.empty() || coplanar()) {
       reject("no volume: its triangles lie flat on each other or have no area");
     } else if (!use.closed()) {
       reject(open_text(use));
     } else {
       turn_shells(trusted);
+      go_on();
       if (!has_volume() || signed_volume(mesh_) < 0)
         reject("no volume");
       else
         look_for_crossings();
     }
+    go_on();
     finish();
   }
 
  private:
+  /// Between two steps: a part of millions of triangles takes seconds for each.
+  void go_on() const { stop_if_asked(context_, "repairing parts"); }
+
   template <class... Args>
   void did(fmt::format_string<Args...> format, Args&&... args) {
     report_.actions.push_back(fmt::format(format, std::forward<Args>(args)...));
@@ -112,6 +122,7 @@ class PartRepair {
     if (r.merged) did("welded {} to {}", counted(before, "vertex"), mesh_.vertices.size());
     if (r.unused) did("dropped {} that no triangle uses", counted(r.unused, "vertex"));
     if (r.degenerate) did("dropped {} without area", counted(r.degenerate, "triangle"));
+    go_on();
     const DuplicateFaces d = drop_duplicate_faces(mesh_);
     if (d.double_sided)
       did("every face came with both senses: kept one of each, dropped {}", counted(d.repeated, "triangle"));
@@ -232,13 +243,14 @@ class PartRepair {
   Mesh& mesh_;
   const PrepareOptions& options_;
   PartReport& report_;
+  const RunContext& context_;
   double diagonal_ = 0;
 };
 
 }  // namespace
 
-void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report) {
-  PartRepair(mesh, options, report).run();
+void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context) {
+  PartRepair(mesh, options, report, context).run();
 }
 
 }  // namespace dismantle

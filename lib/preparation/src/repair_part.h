@@ -8,6 +8,6 @@ namespace dismantle {
 
 /// Changes `mesh` in place (input units) and fills `report` but for name and file. report.kept says whether it is
 /// usable.
-void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report);
+void repair_part(Mesh& mesh, const PrepareOptions& options, PartReport& report, const RunContext& context);
 
 }  // namespace dismantle

@@ -17,7 +17,8 @@
 
 namespace dismantle {
 
-DepthBody::DepthBody(const Mesh& mesh) : impl_(std::make_unique<const Impl>(Impl{verify::split_into_solids(mesh)})) {}
+DepthBody::DepthBody(const Mesh& mesh, const std::function<void()>& poll)
+    : impl_(std::make_unique<const Impl>(Impl{verify::split_into_solids(mesh, poll)})) {}
 DepthBody::~DepthBody() = default;
 DepthBody::DepthBody(DepthBody&&) noexcept = default;
 DepthBody& DepthBody::operator=(DepthBody&&) noexcept = default;

@@ -11,6 +11,7 @@
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/motion_samples.h"
 #include "dismantle/geometry/pair_check.h"
+#include "dismantle/stop_if_asked.h"
 #include "verifier_impl.h"
 
 namespace dismantle {
@@ -88,26 +89,26 @@ Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify
   return v;
 }
 
-Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, Executor* executor)
+Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& context)
     : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)), bodies(a.parts.size()) {
-  for (const InitialOverlap& o : assembly_overlaps) {
-    const double depth = o.allowed();
-    if (o.declared || !o.place || !(depth > kDeepOverlap * options.max_penetration)) continue;
-    Aabb box = o.place->region;
+  for (const InitialOverlap& overlap : assembly_overlaps) {
+    const double depth = overlap.allowed();
+    if (overlap.declared || !overlap.place || !(depth > kDeepOverlap * options.max_penetration)) continue;
+    Aabb box = overlap.place->region;
     box.inflate(depth + options.max_penetration);
-    regions.push_back({o.a, o.b, box});
+    regions.push_back({overlap.a, overlap.b, box});
   }
-  const auto never = [] { return false; };
   for (const auto& part : a.parts) meshes.push_back(part.mesh);
+  const auto poll = [&] { stop_if_asked(context, "setting up the verifier"); };
   parallel_for(
-      bodies.size(), executor,
+      bodies.size(), context.executor.get(),
       [&](std::size_t i) {
         const Mesh& mesh = *meshes[i];
-        Body body{verify::split_into_solids(mesh), mesh.box(), hull_corners(mesh.vertices)};
-        for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration);
+        Body body{verify::split_into_solids(mesh, poll), mesh.box(), hull_corners(mesh.vertices)};
+        for (auto& solid : body.solids) solid.measure_thickness(4 * options.max_penetration, poll);
         bodies[i] = std::move(body);
       },
-      never);
+      [] { return false; });  // poll() throws
 }
 
 double Verifier::Impl::overlap(PartId a, PartId b) const {
@@ -255,10 +256,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
   }
 }
 
-Verifier::Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor) {
+Verifier::Verifier(const Assembly& assembly, VerifyOptions options, const RunContext& context) {
   if (!(options.max_penetration > 0) || !std::isfinite(options.max_penetration))
     throw std::invalid_argument("Verifier: max_penetration must be finite and > 0");
-  impl_ = std::make_unique<Impl>(assembly, options, executor);
+  impl_ = std::make_unique<Impl>(assembly, options, context);
 }
 
 Verifier::~Verifier() = default;

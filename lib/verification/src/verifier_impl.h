@@ -32,7 +32,7 @@ struct Verifier::Impl {
   /// How two solids move past each other, both ways.
   struct Relative;
 
-  Impl(const Assembly& assembly, VerifyOptions options, Executor* executor);
+  Impl(const Assembly& assembly, VerifyOptions options, const RunContext& context);
 
   /// The pair's when assembled.
   double overlap(PartId a, PartId b) const;

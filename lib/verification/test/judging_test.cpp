@@ -41,7 +41,7 @@ TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
       RunContext context;
       context.threads = threads;
       if (threads > 2) context.executor = std::make_shared<Executor>(threads);  // else threads of its own
-      const Verifier verifier(row.assembly, {0.01}, context.executor.get());
+      const Verifier verifier(row.assembly, {0.01}, context);
       const MotionCheck check = verifier.check_motion({0}, row.fixed, row.path, context);
       if (threads == 1) {
         first = check;

@@ -18,6 +18,21 @@ struct EdgeRef {
   bool forward;  ///< the triangle runs from lo to hi
 };
 
+/// The items in ascending order of key(item), which is below `keys`, and among equal keys by `less`. Linear in the number
+/// of items where few share a key, as edges share a vertex.
+template <class Item, class Key, class Less>
+std::vector<Item> sorted_by_key(const std::vector<Item>& items, std::size_t keys, Key&& key, Less&& less) {
+  std::vector<std::size_t> begin(keys + 1, 0);
+  for (const Item& item : items) ++begin[key(item) + 1];
+  for (std::size_t k = 0; k < keys; ++k) begin[k + 1] += begin[k];
+  std::vector<Item> sorted(items.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const Item& item : items) sorted[next[key(item)]++] = item;
+  for (std::size_t k = 0; k < keys; ++k)
+    std::sort(sorted.data() + begin[k], sorted.data() + begin[k + 1], less);
+  return sorted;
+}
+
 /// All edges, equal ones next to each other, in an order that depends on nothing but the mesh.
 inline std::vector<EdgeRef> sorted_edges(const Mesh& mesh) {
   std::vector<EdgeRef> edges;
@@ -27,13 +42,12 @@ inline std::vector<EdgeRef> sorted_edges(const Mesh& mesh) {
       const std::uint32_t a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), t, c, a < b});
     }
-  std::sort(edges.begin(), edges.end(), [](const EdgeRef& x, const EdgeRef& y) {
-    if (x.lo != y.lo) return x.lo < y.lo;
+  const auto less = [](const EdgeRef& x, const EdgeRef& y) {
     if (x.hi != y.hi) return x.hi < y.hi;
     if (x.triangle != y.triangle) return x.triangle < y.triangle;
     return x.corner < y.corner;
-  });
-  return edges;
+  };
+  return sorted_by_key(edges, mesh.vertices.size(), [](const EdgeRef& e) { return e.lo; }, less);
 }
 
 /// Calls f(first, last) for each group of references to one undirected edge.

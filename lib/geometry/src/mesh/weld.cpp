@@ -1,4 +1,5 @@
 #include <array>
+#include <bit>
 #include <unordered_map>
 
 #include "dismantle/geometry/mesh_repair.h"
@@ -20,17 +21,18 @@ struct KeyHash {
 
 /// For each vertex the first vertex at the same position.
 std::vector<std::uint32_t> equal_positions(const Mesh& mesh) {
-  std::vector<std::uint32_t> order(mesh.vertices.size()), to(mesh.vertices.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    const auto &p = mesh.vertices[a], &q = mesh.vertices[b];
-    for (int k = 0; k < 3; ++k)
-      if (p[k] != q[k]) return p[k] < q[k];
-    return a < b;
-  };
-  std::sort(order.begin(), order.end(), less);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    to[order[i]] = i > 0 && mesh.vertices[order[i]] == mesh.vertices[order[i - 1]] ? to[order[i - 1]] : order[i];
+  std::vector<std::uint32_t> to(mesh.vertices.size());
+  std::vector<std::uint32_t> slots(std::bit_ceil(2 * mesh.vertices.size() + 1), kNone);  // open addressing
+  for (std::uint32_t i = 0; i < to.size(); ++i) {
+    Key bits;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits[k] = std::bit_cast<std::int64_t>(mesh.vertices[i][static_cast<Eigen::Index>(k)] + 0.0);  // -0 is 0
+    std::size_t slot = KeyHash{}(bits) & (slots.size() - 1);
+    while (slots[slot] != kNone && mesh.vertices[slots[slot]] != mesh.vertices[i])
+      slot = (slot + 1) & (slots.size() - 1);
+    if (slots[slot] == kNone) slots[slot] = i;
+    to[i] = slots[slot];
+  }
   return to;
 }
 
@@ -136,9 +138,9 @@ DuplicateFaces drop_duplicate_faces(Mesh& mesh) {
     if (!even) std::swap(t[1], t[2]);
     faces.push_back({t, i, even});
   }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) {
-    return a.corners != b.corners ? a.corners < b.corners : a.index < b.index;
-  });
+  faces = mesh_detail::sorted_by_key(
+      faces, mesh.vertices.size(), [](const Face& face) { return face.corners[0]; },
+      [](const Face& a, const Face& b) { return a.corners != b.corners ? a.corners < b.corners : a.index < b.index; });
   const auto for_each_group = [&](auto&& f) {
     for (std::size_t i = 0; i < faces.size();) {
       std::size_t j = i;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/ray.h"
 
 namespace dismantle::geometry {
@@ -17,35 +17,10 @@ using Vec3 = Eigen::Vector3d;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A vertex direction that enters some face by less than this sine is useless.
 constexpr double kLeastSine = 0.05;
+/// Triangles: what takes some 50 ms at most is not interrupted.
+constexpr std::size_t kPolled = 1 << 15;
 /// Triangles lower than this have no normal to speak of.
 constexpr double kSliverHeight = 1e-7;
-
-/// By triangle: number of its shell, counted in order of first appearance.
-std::vector<std::uint32_t> number_shells(const Mesh& mesh, std::uint32_t& shells) {
-  struct Edge {
-    std::uint32_t a, b, triangle;
-    auto operator<=>(const Edge&) const = default;
-  };
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      edges.push_back({a, b, t});
-    }
-  std::sort(edges.begin(), edges.end());
-  DisjointSets sets(mesh.triangles.size());
-  for (std::size_t i = 1; i < edges.size(); ++i)
-    if (edges[i].a == edges[i - 1].a && edges[i].b == edges[i - 1].b)
-      sets.join(edges[i].triangle, edges[i - 1].triangle);
-  std::vector<std::uint32_t> shell(mesh.triangles.size()), number(mesh.triangles.size());
-  shells = 0;
-  for (std::uint32_t t = 0; t < shell.size(); ++t) {
-    if (sets.root(t) == t) number[t] = shells++;
-    shell[t] = number[sets.root(t)];
-  }
-  return shell;
-}
 
 /// The triangles of `pick` with the vertices that they use.
 Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
@@ -65,15 +40,6 @@ Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool fli
     out.triangles.push_back(r);
   }
   return out;
-}
-
-double signed_volume(const Mesh& mesh) {
-  if (mesh.vertices.empty()) return 0;
-  const Vec3 o = mesh.vertices.front();
-  double v = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    v += (mesh.vertex(t, 0) - o).dot((mesh.vertex(t, 1) - o).cross(mesh.vertex(t, 2) - o));
-  return v / 6;
 }
 
 void append(Mesh& to, const Mesh& from) {
@@ -180,15 +146,18 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-Solid::Solid(const Mesh& m) : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh), box(mesh.box()) {
+Solid::Solid(const Mesh& m, const std::function<void()>& poll)
+    : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh, poll), box(mesh.box()) {
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
+  if (poll) poll();
   inward = inward_directions(mesh, normals);
+  if (poll) poll();
   thickness.assign(mesh.triangles.size(), kInfinity);
   vertex_thickness.assign(mesh.vertices.size(), kInfinity);
 
-  std::uint32_t shells = 0;
-  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+  std::size_t shells = 0;
+  const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
   std::vector<std::vector<std::uint32_t>> vertices(shells);
   for (std::size_t t = 0; t < shell.size(); ++t)
     vertices[shell[t]].insert(vertices[shell[t]].end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
@@ -201,11 +170,12 @@ Solid::Solid(const Mesh& m) : frame(tight_frame(m)), mesh(turned(m, frame)), bvh
   }
 }
 
-void Solid::measure_thickness(double reach) {
+void Solid::measure_thickness(double reach, const std::function<void()>& poll) {
   constexpr double kAlmostOpposite = -0.9;
   static constexpr std::array<std::array<double, 3>, 4> kSamples = {
       {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (poll && t % kPolled == kPolled - 1) poll();
     thickness[t] = kInfinity;
     if (normals[t].isZero(0)) continue;
     const auto blocks = [&](std::uint32_t other) {
@@ -233,9 +203,11 @@ void Solid::measure_thickness(double reach) {
     for (const auto v : mesh.triangles[t]) vertex_thickness[v] = std::min(vertex_thickness[v], thickness[t]);
 }
 
-std::vector<Solid> split_into_solids(const Mesh& mesh) {
-  std::uint32_t shells = 0;
-  const std::vector<std::uint32_t> shell = number_shells(mesh, shells);
+std::vector<Solid> split_into_solids(const Mesh& mesh, const std::function<void()>& poll) {
+  if (poll && mesh.triangles.size() < kPolled) return split_into_solids(mesh);
+  if (poll) poll();
+  std::size_t shells = 0;
+  const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
   std::vector<std::vector<std::uint32_t>> triangles(shells);
   for (std::uint32_t t = 0; t < shell.size(); ++t) triangles[shell[t]].push_back(t);
 
@@ -246,6 +218,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh) {
   std::vector<Group> groups;
   std::vector<std::uint32_t> voids;
   for (std::uint32_t s = 0; s < shells; ++s) {
+    if (poll) poll();
     Mesh m = sub_mesh(mesh, triangles[s]);
     const double v = signed_volume(m);
     if (v < 0)
@@ -256,7 +229,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh) {
   const std::size_t outer = groups.size();
   std::vector<TriangleBvh> trees;
   if (!voids.empty())
-    for (const auto& g : groups) trees.emplace_back(g.mesh);
+    for (const auto& g : groups) trees.emplace_back(g.mesh, poll);
   for (const auto s : voids) {
     const Mesh m = sub_mesh(mesh, triangles[s]);
     std::size_t owner = outer;
@@ -269,7 +242,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh) {
   }
   std::vector<Solid> solids;
   solids.reserve(groups.size());
-  for (const auto& g : groups) solids.emplace_back(g.mesh);
+  for (const auto& g : groups) solids.emplace_back(g.mesh, poll);
   return solids;
 }
 

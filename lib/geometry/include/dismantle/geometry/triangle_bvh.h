@@ -37,7 +37,8 @@ class DISMANTLE_API TriangleBvh {
     std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
   };
 
-  explicit TriangleBvh(const Mesh& mesh);  ///< copies what it needs
+  /// Copies what it needs. `poll`, if any, is called now and then; what it throws ends the construction.
+  explicit TriangleBvh(const Mesh& mesh, const std::function<void()>& poll = {});
 
   ClosestPoint closest(const Eigen::Vector3d& p,
                        double limit = std::numeric_limits<double>::infinity()) const;
@@ -53,7 +54,7 @@ class DISMANTLE_API TriangleBvh {
   const std::array<Eigen::Vector3d, 3>& corners(std::uint32_t triangle) const { return corners_[triangle]; }
 
  private:
-  void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes);
+  void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes, const std::function<void()>& poll);
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // by triangle id
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;

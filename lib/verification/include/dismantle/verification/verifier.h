@@ -74,8 +74,9 @@ struct MotionCheck {
 /// Built once per assembly; const functions are safe to call from several threads.
 class DISMANTLE_API Verifier {
  public:
-  /// Idle threads of `executor`, which may be null, help to build it; it does not depend on that.
-  Verifier(const Assembly& assembly, VerifyOptions options, Executor* executor = nullptr);
+  /// Idle threads of the context's executor help to build it; it does not depend on that. @throws Error when the
+  /// context says to stop while parts of many thousand triangles are made ready.
+  Verifier(const Assembly& assembly, VerifyOptions options, const RunContext& context = {});
   ~Verifier();
 
   /// (b): the moving parts follow `path` (columns as `moving`) past `fixed`. Pairs that do not move
@@ -108,7 +109,8 @@ class DISMANTLE_API Verifier {
 /// A mesh made ready for measuring depths: worth keeping when one part meets several others. Immutable.
 class DISMANTLE_API DepthBody {
  public:
-  explicit DepthBody(const Mesh& mesh);
+  /// `poll`, if any, is called now and then; what it throws ends the construction.
+  explicit DepthBody(const Mesh& mesh, const std::function<void()>& poll = {});
   ~DepthBody();
   DepthBody(DepthBody&&) noexcept;
   DepthBody& operator=(DepthBody&&) noexcept;
