@@ -23,8 +23,9 @@ struct Verify {
 
 constexpr double kUsualSize = PrepareOptions{}.size;
 
-/// The tolerance of the verification: that of the plan, but not more than what makes a plan valid. A plan states the scale of its
-/// units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny gains nothing.
+/// The tolerance of the verification: that of the plan, but not more than what makes a plan valid. A plan states the
+/// scale of its units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny
+/// gains nothing.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration;
   if (plan.verified_max_penetration > most)
@@ -72,6 +73,8 @@ int verify(const Verify& options) {
                   {"max_penetration", check.max_penetration},
                   {"forced", check.forced},
                   {"certificates", check.certificates},
+                  {"checked_independently", check.certificates - check.checked_by_prover},
+                  {"checked_by_prover", check.checked_by_prover},
                   {"problems", problems},
                   {"plan", options.plan}});
   return check.valid && check.complete ? kComplete : kPartial;

@@ -31,6 +31,11 @@ std::string check_text(const Plan& plan, const PlanCheck& check) {
     out += p.step == 0 ? fmt::format("problem: {}\n", p.message)
                        : fmt::format("problem in step {}: {}\n", p.step, p.message);
   if (!check.valid) return out + "The plan is NOT VALID.\n";
+  if (check.certificates > 0)
+    out += fmt::format("{} that parts cannot be separated {}: {} checked independently, {} by {}.\n",
+                       text::counted(check.certificates, "proof"), check.certificates == 1 ? "holds" : "hold",
+                       check.certificates - check.checked_by_prover, check.checked_by_prover,
+                       check.checked_by_prover == 1 ? "its own prover" : "their own provers");
   out += fmt::format(
       "The plan is valid, penetration <= {}, and {}.\n", length_text(plan, check.max_penetration / scale),
       check.complete                      ? "complete"

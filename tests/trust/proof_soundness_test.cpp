@@ -12,7 +12,7 @@
 #include "dismantle/testing/built_in_provers.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
-#include "dismantle/verification/check_plan.h"
+#include "dismantle/verification/check_certificate.h"
 
 namespace dismantle::trust {
 namespace {
@@ -173,7 +173,7 @@ Asked ask(const Assembly& assembly, bool separable, bool all, std::string& unsou
     if (!all && named.prover->traits().effort >= ProofEffort::medium) continue;
     for (const double share : {0.5, 1.0}) {
       const SeparationQuery query{assembly, {{0, Pose{}}}, {{1, Pose{}}}, kProofTolerance, share, memo};
-      const auto found = named.prover->prove(query, {});
+      auto found = named.prover->prove(query, {});
       if (!found) continue;
       ++asked.proofs;
       if (separable) unsound += named.id + ": " + found->text + "\n";
@@ -182,11 +182,13 @@ Asked ask(const Assembly& assembly, bool separable, bool all, std::string& unsou
       for (std::size_t i = 0; i < found->parts.size(); ++i)
         (i == 0 ? again.moving : again.fixed)
             .push_back({found->parts[i], found->poses.empty() ? Pose{} : found->poses[i]});
-      const std::string objection = named.prover->objection(*found, again, {});
+      found->kind = named.id;
+      const auto independent = independent_objection(*found, again, {});
+      const std::string objection = independent ? *independent : named.prover->objection(*found, again, {});
       if (objection.empty())
         ++asked.checked;
       else
-        unsound += named.id + " objects to its own certificate: " + objection + "\n";
+        unsound += named.id + ": objection to its certificate: " + objection + "\n";
     }
   }
   return asked;

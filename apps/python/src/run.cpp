@@ -173,6 +173,8 @@ void bind_run(py::module_& m) {
           "forced", &PlanCheck::forced,
           "Number of steps that are forced: not valid motions, but what the plan says of their depth is true.")
       .def_readonly("certificates", &PlanCheck::certificates, "Number of certificates that hold.")
+      .def_readonly("checked_by_prover", &PlanCheck::checked_by_prover,
+                    "Of these: checked by the prover that made them, for want of an independent checker.")
       .def_readonly("max_penetration", &PlanCheck::max_penetration,
                     "Worst certified bound over all steps, above the initial overlap; assembly units.")
       .def_readonly("step_penetration", &PlanCheck::step_penetration, "The bound of each step.")

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "dismantle/geometry/numerics.h"
-#include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/query.h"
 #include "dismantle/part_memo.h"
 #include "enclosed_ball/ball_free_space.h"
@@ -120,31 +118,6 @@ std::optional<Certificate> EnclosedBall::prove(const SeparationQuery& query, con
       name_of(query, holder.part), names_of(query, around), input_length(query, ball.radius),
       position_text(query, center));
   return found;
-}
-
-std::string EnclosedBall::objection(const Certificate& certificate, const SeparationQuery& query,
-                                    const RunContext& context) const {
-  const auto number = [&](const std::string& name, std::size_t count) -> std::vector<double> {
-    const auto found = certificate.numbers.find(name);
-    return found != certificate.numbers.end() && found->second.size() == count ? found->second : std::vector<double>{};
-  };
-  const std::vector<double> center = number("center", 3), radius = number("radius", 1), cell = number("cell", 1);
-  if (center.empty() || radius.empty() || cell.empty() || query.moving.size() != 1) return "it has no ball or no cells";
-  if (!(radius[0] > 0) || !(cell[0] > 0)) return "its ball and its cells have no size";
-  const PlacedPart& holder = query.moving.front();
-  const Eigen::Vector3d c(center[0], center[1], center[2]);
-  double depth = 0;
-  for (const Solid& solid : solids_of(query, holder.part))
-    depth = std::max(depth, escape_at(solid.frame.inverse() * c, solid).depth);
-  if (!(depth >= radius[0] * (1 - kRounding)))
-    return fmt::format("{} contains a ball of radius {:.4g} there and no larger one", name_of(query, holder.part),
-                       depth);
-  const Walls walls = walls_of(query, holder.part, radius[0], query.fixed);
-  const auto most_cells = static_cast<std::size_t>(params_.max_cells);
-  if (!flood_with_cells(holder.pose * c, walls.all, cell[0], most_cells, context).closed)
-    return context.should_stop() ? "the check was stopped"
-                                 : "there is a way out for the ball, or its free space has too many cells";
-  return {};
 }
 
 }  // namespace dismantle::immobility

@@ -21,9 +21,6 @@ class EnclosedBall final : public ImmobilityProver {
   explicit EnclosedBall(const EnclosedBallParams& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override;
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
-  /// Repeats the flood fill with cells of the size that the certificate states.
-  std::string objection(const Certificate& certificate, const SeparationQuery& query,
-                        const RunContext& context) const override;
 
  private:
   std::optional<Certificate> prove(const SeparationQuery& query, const std::vector<PlacedPart>& inner,

@@ -7,6 +7,15 @@
 #include "hook/hook_cage.h"
 
 namespace dismantle::immobility {
+namespace {
+
+std::vector<double> legs_of(const Bend& bend) {
+  std::vector<double> numbers;
+  for (const Eigen::Vector3d& leg : bend.along) numbers.insert(numbers.end(), leg.begin(), leg.end());
+  return numbers;
+}
+
+}  // namespace
 
 void HookParams::describe(Schema<HookParams>& s) {
   s.add("max_holes", &HookParams::max_holes,
@@ -51,7 +60,16 @@ std::optional<Certificate> Hook::prove(const SeparationQuery& query, const RunCo
         found.numbers = {{"hole", numbers_of(cage->hole)},
                          {"width", {cage->width}},
                          {"first_bend", numbers_of(cage->bends[0].corner)},
-                         {"second_bend", numbers_of(cage->bends[1].corner)}};
+                         {"second_bend", numbers_of(cage->bends[1].corner)},
+                         {"normal", numbers_of(cage->normal)},
+                         {"first_legs", legs_of(cage->bends[0])},
+                         {"second_legs", legs_of(cage->bends[1])}};
+        for (const Bend& bend : cage->bends) {
+          found.numbers["steps"].push_back(bend.step);
+          found.numbers["points"].push_back(static_cast<double>(bend.keep.size()));
+        }
+        for (const Eigen::Vector3d& p : cage->path)
+          found.numbers["path"].insert(found.numbers["path"].end(), p.begin(), p.end());
         found.text = fmt::format(
             "{0} and {1} hold each other: {0} goes through a hole in {1} at {2}, {3:.4g} wide, and is "
             "bent on both sides; neither bend can pass the hole (less the penetration that is allowed)",

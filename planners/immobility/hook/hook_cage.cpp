@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "dismantle/executor.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/section.h"
@@ -219,44 +220,63 @@ bool crosses(const Loop& loop, const Vec3& a, const Vec3& b) {
   return (ha > 0) != (hb > 0) && loop.around(a + ha / (ha - hb) * (b - a));
 }
 
+/// A node, and the one before it on the way from the disc (an index in the same list, or kNoIndex: the node on the
+/// disc).
+struct Reached {
+  std::size_t node;
+  std::uint32_t before;
+};
+
 /// Nodes that can be reached from `from`, which is on the disc, without crossing the disc; the fewest links first.
-std::vector<std::size_t> on_side(const Loop& loop, const std::vector<Node>& nodes, const Links& links, std::size_t from,
-                                 bool above) {
-  std::vector<std::size_t> list;
+std::vector<Reached> on_side(const Loop& loop, const std::vector<Node>& nodes, const Links& links, std::size_t from,
+                             bool above) {
+  std::vector<Reached> list;
   std::vector<char> seen(nodes.size(), 0);
   seen[from] = 1;
   for (const std::size_t n : links[from])
     if ((loop.plane.height(nodes[n].at) > 0) == above) {
       seen[n] = 1;
-      list.push_back(n);
+      list.push_back({n, kNoIndex});
     }
-  for (std::size_t k = 0; k < list.size(); ++k)
-    for (const std::size_t n : links[list[k]])
-      if (!seen[n] && !crosses(loop, nodes[list[k]].at, nodes[n].at)) {
+  for (std::uint32_t k = 0; k < list.size(); ++k)
+    for (const std::size_t n : links[list[k].node])
+      if (!seen[n] && !crosses(loop, nodes[list[k].node].at, nodes[n].at)) {
         seen[n] = 1;
-        list.push_back(n);
+        list.push_back({n, k});
       }
   return list;
 }
 
+/// A bend, and the line to it from the node on the disc, which is left out.
+struct BendWithPath {
+  Bend bend;
+  std::vector<Vec3> path;
+};
+
 /// On one side of the disc that a node is on: a bend that cannot pass it.
-std::optional<Bend> bend_on_side(const Solid& bar, const Solid& around, double depth, const std::vector<Node>& nodes,
-                                 const Links& links, const Loop& loop, std::size_t node, bool above,
-                                 const HookParams& params, const RunContext& context) {
-  std::vector<Corner> corners;
-  std::vector<std::size_t> near = on_side(loop, nodes, links, node, above);
-  near.resize(std::min<std::size_t>(near.size(), 40));  // a bend further away lets the bar slide to it
-  for (const std::size_t n : near)
-    if (auto corner = coarse_corner(bar, nodes[n], depth, params.min_bend)) corners.push_back(std::move(*corner));
+std::optional<BendWithPath> bend_on_side(const Solid& bar, const Solid& around, double depth,
+                                         const std::vector<Node>& nodes, const Links& links, const Loop& loop,
+                                         std::size_t node, bool above, const HookParams& params,
+                                         const RunContext& context) {
+  std::vector<std::pair<Corner, std::uint32_t>> corners;  // with the place in the list below
+  const std::vector<Reached> near = on_side(loop, nodes, links, node, above);
+  constexpr std::uint32_t kMostNodes = 40;  // a bend further away lets the bar slide to it
+  for (std::uint32_t k = 0; k < near.size() && k < kMostNodes; ++k)
+    if (auto corner = coarse_corner(bar, nodes[near[k].node], depth, params.min_bend))
+      corners.emplace_back(std::move(*corner), k);
   std::stable_sort(corners.begin(), corners.end(),
-                   [](const Corner& a, const Corner& b) { return a.worth() > b.worth(); });
-  corners.resize(std::min(corners.size(), static_cast<std::size_t>(params.max_bends)), Corner{});
-  for (const Corner& corner : corners) {
+                   [](const auto& a, const auto& b) { return a.first.worth() > b.first.worth(); });
+  if (corners.size() > static_cast<std::size_t>(params.max_bends))
+    corners.erase(corners.begin() + params.max_bends, corners.end());
+  for (const auto& [corner, place] : corners) {
     const auto bend = refined(bar, corner, depth, params.min_bend);
     // If the refined corner is on the other side, the line crosses the disc twice, and the proof does not apply.
     if (bend && !crosses(loop, corner.node.at, bend->corner) &&
-        cannot_pass(loop, around, *bend, static_cast<std::uint64_t>(params.max_distances), context))
-      return bend;
+        cannot_pass(loop, around, *bend, static_cast<std::uint64_t>(params.max_distances), context)) {
+      BendWithPath found{*bend, {bend->corner}};
+      for (std::uint32_t k = place; k != kNoIndex; k = near[k].before) found.path.push_back(nodes[near[k].node].at);
+      return found;
+    }
   }
   return std::nullopt;
 }
@@ -270,7 +290,7 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall
   const Links links = links_of(nodes);
   const Surface surface(around);
   for (const auto& [loop, node] : holes(surface, around, nodes, static_cast<std::size_t>(params.max_holes))) {
-    std::array<std::optional<Bend>, 2> bends;
+    std::array<std::optional<BendWithPath>, 2> bends;
     std::atomic<bool> passes{false};
     parallel_for(
         bends.size(), context,
@@ -279,7 +299,11 @@ std::optional<HookCage> hook_cage(const Solid& bar, const std::vector<MedialBall
           if (!bends[side]) passes = true;
         },
         [&] { return passes.load(); });
-    if (bends[0] && bends[1]) return HookCage{nodes[node].at, loop.diameter(), {*bends[0], *bends[1]}};
+    if (!bends[0] || !bends[1]) continue;
+    std::vector<Vec3> path = bends[0]->path;
+    path.push_back(nodes[node].at);
+    path.insert(path.end(), bends[1]->path.rbegin(), bends[1]->path.rend());
+    return HookCage{loop.plane.normal, path, nodes[node].at, loop.diameter(), {bends[0]->bend, bends[1]->bend}};
   }
   return std::nullopt;
 }

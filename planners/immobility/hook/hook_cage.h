@@ -25,9 +25,11 @@ struct Bend {
 };
 
 struct HookCage {
-  Eigen::Vector3d hole = Eigen::Vector3d::Zero();  ///< a point of the bar, in the hole; assembled frame
-  double width = 0;                                ///< diameter of the hole
-  std::array<Bend, 2> bends;                       ///< on either side
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the disc across the hole
+  std::vector<Eigen::Vector3d> path;                  ///< the line from bend to bend
+  Eigen::Vector3d hole = Eigen::Vector3d::Zero();     ///< a point of the bar, in the hole; assembled frame
+  double width = 0;                                   ///< diameter of the hole
+  std::array<Bend, 2> bends;                          ///< on either side
 };
 
 /// Is `bar`, which nothing penetrates by more than `depth` (> 0), held in a hole of `around` between two bends that

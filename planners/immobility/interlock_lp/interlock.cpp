@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "dismantle/geometry/numerics.h"
 #include "interlock_lp/pair_rows.h"
@@ -36,6 +38,7 @@ struct Bounds {
 struct Pair {
   std::size_t a, b;
   std::unique_ptr<SampledPair> samples;
+  std::size_t solids_of_a;  // before those of b among its obstacles
   Vec3 center_b_to_a;
   Bounds bounds{6};
 };
@@ -46,31 +49,48 @@ struct PairConstraints {
   Vector6 rest;
   Eigen::Matrix<double, Eigen::Dynamic, 6> normals;
   VectorXd most;
+  std::vector<PairRow> rows;
 };
+
+/// A row of one pair.
+using RowOfPair = std::pair<std::size_t, Eigen::Index>;
+
+/// Multipliers of rows, for each linear program.
+using RecordedMultipliers = std::vector<std::vector<std::pair<RowOfPair, double>>>;
 
 /// Linear programs over the rows of all pairs. Few rows are active, so they are added as they are violated (cutting
 /// planes).
 class Program {
  public:
-  Program(const std::vector<PairConstraints>& pairs, const VectorXd& most) : pairs_(pairs) {
+  Program(const std::vector<PairConstraints>& pairs, const VectorXd& most, const RunContext& context)
+      : pairs_(pairs), context_(context) {
     used_.hi = most;
     used_.lo = -most;
   }
 
-  /// Upper bound of direction . x; infinity where there is none.
-  double bound(const VectorXd& direction) {
+  /// Upper bound of direction . x; infinity where there is none, or when told to stop. Adds what proves it to `record`.
+  double bound(const VectorXd& direction, RecordedMultipliers& record) {
+    auto& proof = record.emplace_back();
+    Multipliers multipliers;
     double value = std::numeric_limits<double>::infinity();
     bool more = true;
     for (int k = 0; k < 200 && more; ++k) {  // every round gives a valid bound; some dozen give the best one
-      const auto found = maximum(direction, used_);
+      if (context_.should_stop()) return std::numeric_limits<double>::infinity();
+      const auto found = maximum(direction, used_, &context_, &multipliers);
       if (found.empty) break;
-      value = std::min(value, found.value);
+      if (found.value < value) {
+        value = found.value;
+        proof.clear();
+        for (const auto& [row, y] : multipliers) proof.emplace_back(sources_[row], y);
+      }
       more = false;
-      for (const PairConstraints& pair : pairs_) {
+      for (std::size_t p = 0; p < pairs_.size(); ++p) {
+        const PairConstraints& pair = pairs_[p];
         Eigen::Index worst = 0;
         if (pair.most.size() == 0 || !((pair.normals * (pair.map * found.at) - pair.most).maxCoeff(&worst) > kRounding))
           continue;
         used_.add(pair.map.transpose() * pair.normals.row(worst).transpose(), pair.most[worst]);
+        sources_.emplace_back(p, worst);
         more = true;
       }
     }
@@ -79,7 +99,9 @@ class Program {
 
  private:
   const std::vector<PairConstraints>& pairs_;
+  const RunContext& context_;
   PolytopeX used_;
+  std::vector<RowOfPair> sources_;  // of its rows
 };
 
 class Region {
@@ -99,7 +121,7 @@ class Region {
     for (Neighbours n : neighbours) {
       if (n.a == 0 || (n.b != 0 && radii[n.b] < radii[n.a])) std::swap(n.a, n.b);
       Pair pair{n.a, n.b, std::make_unique<SampledPair>(*bodies[n.a], *bodies[n.b], n.depth, spacing),
-                axes_.conjugate() * (centers[n.a] - centers[n.b])};
+                bodies[n.a]->size(), axes_.conjugate() * (centers[n.a] - centers[n.b])};
       // Two depths: parts that touch on both sides move about as far as they may penetrate.
       pair.bounds.hi << Vec3::Constant(2 * n.depth / radii[n.a]), Vec3::Constant(2 * n.depth);
       pair.bounds.lo = -pair.bounds.hi;
@@ -117,11 +139,11 @@ class Region {
       if (!small()) return std::nullopt;
       Bounds all(bounds_.lo.size());
       std::vector<Bounds> of_pairs;
-      std::size_t rows = 0;
-      if (!bound(all, of_pairs, rows)) return std::nullopt;
+      InterlockProof proof;
+      if (!bound(all, of_pairs, proof, context)) return std::nullopt;
       bool closed = all.strictly_within(bounds_);
       for (std::size_t k = 0; k < pairs_.size(); ++k) closed = closed && of_pairs[k].strictly_within(pairs_[k].bounds);
-      if (closed) return reach(rows);
+      if (closed) return reach(std::move(proof));
       bounds_.widen_to(all);
       for (std::size_t k = 0; k < pairs_.size(); ++k) pairs_[k].bounds.widen_to(of_pairs[k]);
     }
@@ -146,10 +168,11 @@ class Region {
   PairConstraints constraints_of(const Pair& pair) const {
     const RelativeCoordinates relative =
         relative_coordinates(reach_of(pair.a), reach_of(pair.b), pair.center_b_to_a, Vector6(pair.bounds.most()));
-    PairConstraints result{Eigen::MatrixXd::Zero(6, bounds_.lo.size()), relative.rest, {}, {}};
+    PairConstraints result{Eigen::MatrixXd::Zero(6, bounds_.lo.size()), relative.rest, {}, {}, {}};
     result.map.middleCols<6>(first(pair.a)) += relative.of_a;
     if (pair.b > 0) result.map.middleCols<6>(first(pair.b)) += relative.of_b;
-    const auto rows = pair_rows(*pair.samples, axes_, pair.bounds.lo, pair.bounds.hi);
+    result.rows = pair_rows(*pair.samples, axes_, pair.bounds.lo, pair.bounds.hi);
+    const auto& rows = result.rows;
     result.normals.resize(static_cast<Eigen::Index>(rows.size()), 6);
     result.most.resize(result.normals.rows());
     for (Eigen::Index r = 0; r < result.normals.rows(); ++r) {
@@ -160,16 +183,19 @@ class Region {
     return result;
   }
 
-  /// Computes new bounds over all poses within the old ones. False: a linear program has no bound.
-  bool bound(Bounds& all, std::vector<Bounds>& of_pairs, std::size_t& rows) {
+  /// Computes new bounds over all poses within the old ones. False: a linear program has no bound, or told to stop.
+  bool bound(Bounds& all, std::vector<Bounds>& of_pairs, InterlockProof& proof, const RunContext& context) {
     std::vector<PairConstraints> constraints;
-    for (const Pair& pair : pairs_) constraints.push_back(constraints_of(pair));
-    for (const PairConstraints& v : constraints) rows += static_cast<std::size_t>(v.most.size());
+    for (const Pair& pair : pairs_) {
+      if (context.should_stop()) return false;
+      constraints.push_back(constraints_of(pair));
+    }
+    RecordedMultipliers record;
     // Twice as far as bounds may grow in a round, so that the box of the linear programs itself is never the bound.
-    Program program(constraints, 4 * bounds_.most());
+    Program program(constraints, 4 * bounds_.most(), context);
     const auto interval = [&](const VectorXd& direction, double rest, double& lo, double& hi) {
-      hi = program.bound(direction) + rest;
-      lo = -program.bound(-direction) - rest;
+      hi = program.bound(direction, record) + rest;
+      lo = -program.bound(-direction, record) - rest;
       return std::isfinite(hi) && std::isfinite(lo);
     };
     for (Eigen::Index i = 0; i < bounds_.lo.size(); ++i)
@@ -180,17 +206,52 @@ class Region {
         if (!interval(constraints[k].map.row(i), constraints[k].rest[i], of_pairs[k].lo[i], of_pairs[k].hi[i]))
           return false;
     }
+    proof = proof_of(constraints, record);
     return true;
   }
 
-  InterlockReach reach(std::size_t rows) const {
+  /// The bounds that were assumed, and the rows that have multipliers.
+  InterlockProof proof_of(const std::vector<PairConstraints>& constraints, const RecordedMultipliers& record) const {
+    InterlockProof proof;
+    proof.axes = {axes_.w(), axes_.x(), axes_.y(), axes_.z()};
+    const auto add = [](std::vector<double>& to, const VectorXd& v) { to.insert(to.end(), v.begin(), v.end()); };
+    for (Eigen::Index i = 0; i < bounds_.lo.size(); i += 6) {
+      add(proof.bounds, bounds_.lo.segment<6>(i));
+      add(proof.bounds, bounds_.hi.segment<6>(i));
+    }
+    for (const Pair& pair : pairs_) {
+      proof.pairs.insert(proof.pairs.end(), {static_cast<double>(pair.a), static_cast<double>(pair.b)});
+      add(proof.pairs, pair.bounds.lo);
+      add(proof.pairs, pair.bounds.hi);
+    }
+    std::map<RowOfPair, double> known;
+    for (const auto& program : record) {
+      proof.multipliers.push_back(static_cast<double>(program.size()));
+      for (const auto& [at, y] : program) {
+        const auto [row, fresh] = known.try_emplace(at, static_cast<double>(known.size()));
+        proof.multipliers.insert(proof.multipliers.end(), {row->second, y});
+        if (!fresh) continue;
+        const Pair& pair = pairs_[at.first];
+        const PairRow& made = constraints[at.first].rows[static_cast<std::size_t>(at.second)];
+        const std::size_t solid = made.sample->obstacle - (made.sample->of_a ? pair.solids_of_a : 0);
+        proof.rows.insert(proof.rows.end(),
+                          {static_cast<double>(at.first), made.sample->of_a ? 1.0 : 0.0, static_cast<double>(solid)});
+        add(proof.rows, Vec3(made.sample->at + pair.samples->center()));
+        add(proof.rows, made.direction);
+      }
+    }
+    return proof;
+  }
+
+  InterlockReach reach(InterlockProof proof) const {
     InterlockReach r;
     for (std::size_t i = 1; i < radii_.size(); ++i) {
       const CoordinateBound body = reach_of(i);
       r.shift = std::max(r.shift, body.most.tail<3>().norm());
       r.turn = std::max(r.turn, body.most.head<3>().norm());
     }
-    r.half_spaces = rows;
+    r.half_spaces = proof.rows.size() / 9;
+    r.proof = std::move(proof);
     return r;
   }
 

@@ -17,11 +17,21 @@ struct Neighbours {
   double depth = 0;
 };
 
+/// What a checker needs to bound all coordinates again by multiplication.
+struct InterlockProof {
+  std::vector<double> axes;         ///< quaternion w, x, y, z: of the coordinates, assembled = axes * ours
+  std::vector<double> bounds;       ///< of each body but the first: 6 lower, 6 upper; rotation vector, then shift
+  std::vector<double> pairs;        ///< a, b (positions of bodies), 6 lower and 6 upper bounds of a relative to b
+  std::vector<double> rows;         ///< pair, 1: point of a, solid of the other, the point, direction; assembled frame
+  std::vector<double> multipliers;  ///< of each bound, upper and lower in turn: their number, then row and multiplier
+};
+
 /// Bounds of the motions of all bodies relative to the first.
 struct InterlockReach {
   double shift = 0;             ///< of the centre of a body's box; assembly units
   double turn = 0;              ///< rad
   std::size_t half_spaces = 0;  ///< that bound the region
+  InterlockProof proof;
 };
 
 /// Do all motions of the bodies, also simultaneous ones, that begin assembled and along which no two neighbours

@@ -53,7 +53,15 @@ std::optional<Certificate> InterlockLp::prove(const SeparationQuery& query, cons
   found.numbers = {{"depth", {query.margin()}},
                    {"shift", {reach->shift}},
                    {"turn", {reach->turn}},
-                   {"half_spaces", {static_cast<double>(reach->half_spaces)}}};
+                   {"half_spaces", {static_cast<double>(reach->half_spaces)}},
+                   {"axes", reach->proof.axes},
+                   {"bounds", reach->proof.bounds},
+                   {"pairs", reach->proof.pairs},
+                   {"rows", reach->proof.rows},
+                   {"multipliers", reach->proof.multipliers}};
+  for (const PartId id : parts)
+    found.numbers["order"].push_back(
+        static_cast<double>(std::find(ascending.begin(), ascending.end(), id) - ascending.begin()));
   found.text = fmt::format(
       "{0} hold each other in place as rigid bodies: while they penetrate less than {1:.4g} deeper than when "
       "assembled, and whichever of them move, none moves further than {2:.4g} relative to the largest or turns by "

@@ -43,8 +43,9 @@ std::vector<PairRow> pair_rows(const SampledPair& pair, const Eigen::Quaterniond
     const FreeSpaceBound free =
         free_space_bound(obstacle, fixed + local * middle, local.cwiseAbs() * half + local_rest);
     for (const HalfSpace& h : free.half_spaces)
-      rows.push_back(
-          {-local.transpose() * h.normal, h.normal.dot(fixed) + h.normal.cwiseAbs().dot(local_rest) - h.least});
+      rows.push_back({-local.transpose() * h.normal,
+                      h.normal.dot(fixed) + h.normal.cwiseAbs().dot(local_rest) - h.least, &sample,
+                      obstacle.to_local.q.conjugate() * h.normal});
   }
   return rows;
 }

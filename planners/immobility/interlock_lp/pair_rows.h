@@ -8,10 +8,12 @@
 
 namespace dismantle::immobility {
 
-/// normal . x <= most, of the six coordinates of SampledPair.
+/// normal . x <= most, of the six coordinates of SampledPair: `sample` stays beyond a plane across `direction`.
 struct PairRow {
   Vector6 normal = Vector6::Zero();
   double most = 0;
+  const InteriorSample* sample = nullptr;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< assembled frame
 };
 
 /// Half spaces that hold every pose between lo (< 0) and hi (> 0) at which no sample is inside its obstacle. The

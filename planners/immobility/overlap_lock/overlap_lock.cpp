@@ -2,25 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "dismantle/geometry/patch.h"
 #include "dismantle/immobility/query.h"
 #include "overlap_lock/deep_common_point.h"
 
 namespace dismantle::immobility {
-namespace {
-
-/// Of a point of the assembled frame below the surface of a part; <= 0 outside.
-double depth_in(const SeparationQuery& query, PartId part, const Eigen::Vector3d& point) {
-  double depth = 0;
-  for (const Solid& solid : solids_of(query, part))
-    depth = std::max(depth, escape_at(solid.frame.inverse() * point, solid).depth);
-  return depth;
-}
-
-}  // namespace
-
 void OverlapLockParams::describe(Schema<OverlapLockParams>& s) {
   s.add(
       "max_cubes", &OverlapLockParams::max_cubes,
@@ -52,20 +37,6 @@ std::optional<Certificate> OverlapLock::prove(const SeparationQuery& query, cons
         return found;
       }
   return std::nullopt;
-}
-
-std::string OverlapLock::objection(const Certificate& certificate, const SeparationQuery& query,
-                                   const RunContext& /*context*/) const {
-  const auto point = certificate.numbers.find("point");
-  if (certificate.parts.size() != 2 || point == certificate.numbers.end() || point->second.size() != 3)
-    return "it has no point";
-  const PartId inside = certificate.parts[0], other = certificate.parts[1];
-  const Eigen::Vector3d p(point->second[0], point->second[1], point->second[2]);
-  const double depth = depth_in(query, inside, p), limit = depth_allowed(query, inside, other);
-  if (!(depth > limit))
-    return fmt::format("its point is {:.4g} deep in {}, and {:.4g} is allowed", depth, name_of(query, inside), limit);
-  if (!(depth_in(query, other, p) > 0)) return fmt::format("its point is not in {}", name_of(query, other));
-  return {};
 }
 
 }  // namespace dismantle::immobility

@@ -20,9 +20,6 @@ class OverlapLock final : public ImmobilityProver {
   explicit OverlapLock(const OverlapLockParams& params = {}) : params_(params) {}
   ProverTraits traits() const noexcept override { return {ProofEffort::trivial, 2, 2, false}; }
   std::optional<Certificate> prove(const SeparationQuery& query, const RunContext& context) const override;
-  /// Measures the depths of the point.
-  std::string objection(const Certificate& certificate, const SeparationQuery& query,
-                        const RunContext& context) const override;
 
  private:
   OverlapLockParams params_;

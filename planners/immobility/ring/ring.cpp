@@ -42,7 +42,8 @@ std::optional<Certificate> Ring::prove(const SeparationQuery& query, const RunCo
           found.numbers = {{"center", numbers_of(ring.center)},
                            {"axis", numbers_of(ring.axis)},
                            {"diameter", {2 * ring.radius}},
-                           {"opening", {cage->opening}}};
+                           {"opening", {cage->opening}},
+                           {"planes", cage->planes}};
           found.text = fmt::format(
               "{0} and {1} hold each other: {0} has a ring of diameter {2:.4g} about {3} in a chamber of {1}, which "
               "opens no wider than {4:.4g} (less the penetration that is allowed)",

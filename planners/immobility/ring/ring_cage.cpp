@@ -69,8 +69,11 @@ std::optional<RingCage> ring_cage(const InteriorCircle& circle, const Solid& aro
   if (loops.empty()) return std::nullopt;
   const auto chamber = surface.closed_by(loops, circle.center);
   if (!chamber || chamber->inside(point_on(circle, 1)) != true) return std::nullopt;
-  RingCage cage{circle, 0};
-  for (const Loop* loop : chamber->loops()) cage.opening = std::max(cage.opening, loop->diameter());
+  RingCage cage{circle, {}, 0};
+  for (const Loop* loop : chamber->loops()) {
+    cage.planes.push_back(loop->plane.offset);
+    cage.opening = std::max(cage.opening, loop->diameter());
+  }
   return cage;
 }
 

@@ -12,7 +12,8 @@ namespace dismantle::immobility {
 
 struct RingCage {
   InteriorCircle circle;
-  double opening = 0;  ///< diameter of the largest opening of the chamber; < 2 * circle.radius
+  std::vector<double> planes;  ///< across the circle's axis: offsets of its openings
+  double opening = 0;          ///< diameter of the largest opening of the chamber; < 2 * circle.radius
 };
 
 /// Large circles in the solid, at least `depth` (> 0) below its surface; the largest first.

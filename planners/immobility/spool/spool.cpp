@@ -48,7 +48,8 @@ std::optional<Certificate> Spool::prove(const SeparationQuery& query, const RunC
         found.numbers = {{"center", numbers_of(cage->circle.center)},
                          {"axis", numbers_of(cage->circle.axis)},
                          {"rim", {cage->rim}},
-                         {"circle", {circle}}};
+                         {"circle", {circle}},
+                         {"planes", {cage->below, cage->above}}};
         found.text = fmt::format(
             "{0} and {1} hold each other: {0} goes through a hole in {1} at {2} and has rims on both sides, {3:.4g} "
             "wide, which do not pass a circle of diameter {4:.4g} about the hole (with the penetration that is "

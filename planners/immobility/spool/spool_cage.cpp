@@ -123,7 +123,7 @@ std::optional<SpoolCage> spool_cage(const Solid& spool, const Solid& around, dou
         const auto within = [&](const Vec3& p) { return (p - circle.center).norm() < circle.radius; };
         if (!std::all_of(neck.points.begin(), neck.points.end(), within)) continue;
         if (surface->connects(neck, *above.loop, true) && surface->connects(neck, *below.loop, false))
-          return SpoolCage{circle, 2 * rim};
+          return SpoolCage{circle, below.loop->plane.offset, above.loop->plane.offset, 2 * rim};
       }
     }
   }

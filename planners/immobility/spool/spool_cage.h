@@ -10,8 +10,9 @@
 namespace dismantle::immobility {
 
 struct SpoolCage {
-  InteriorCircle circle;  ///< within the part around the spool
-  double rim = 0;         ///< diameter of the narrower of the two rims, through its middle; > 2 * circle.radius
+  InteriorCircle circle;        ///< within the part around the spool
+  double below = 0, above = 0;  ///< offsets of the rims' planes along the circle's axis
+  double rim = 0;               ///< diameter of the narrower of the two rims, through its middle; > 2 * circle.radius
 };
 
 /// Is the spool in a hole of the solid `around`, with a rim on either side that is wider than a circle about the hole,

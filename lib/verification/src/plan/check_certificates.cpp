@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "certificates/checker.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/part_memo.h"
 
@@ -49,11 +50,13 @@ class CertificateCheck {
       return fmt::format("its margin is {:.4g} of a tolerance of {:.4g}, and it says {} full tolerance", written.margin,
                          tolerance_,
                          written.full_tolerance ? "that it holds for the" : "that it does not hold for the");
-    const auto prover = prover_of_ ? prover_of_(written.kind) : nullptr;
-    if (!prover) return fmt::format("there is no immobility prover '{}' to check it", written.kind);
+    const certificates::Checker* checker = certificates::checker_of(written.kind);
+    const auto prover = checker == nullptr && prover_of_ ? prover_of_(written.kind) : nullptr;
+    if (checker == nullptr && !prover)
+      return fmt::format("there is no immobility prover '{}' to check it", written.kind);
     for (const Pose& pose : written.poses)
       certificate.poses.push_back(assembly_.normalization.pose_to_internal({pose.t, pose.q.normalized()}));
-    const ProverTraits traits = prover->traits();
+    const ProverTraits traits = checker != nullptr ? checker->traits : prover->traits();
     if (certificate.parts.size() < traits.min_parts || certificate.parts.size() > traits.max_parts)
       return "it has more or fewer parts than proofs of its kind are about";
     if (!certificate.poses.empty()) {
@@ -65,7 +68,8 @@ class CertificateCheck {
     for (std::size_t i = 0; i < certificate.parts.size(); ++i)
       (i == 0 ? query.moving : query.fixed)
           .push_back({certificate.parts[i], certificate.poses.empty() ? Pose{} : certificate.poses[i]});
-    return prover->objection(certificate, query, context_);
+    return checker != nullptr ? certificates::objection(*checker, certificate, query, context_)
+                              : prover->objection(certificate, query, context_);
   }
 
  private:

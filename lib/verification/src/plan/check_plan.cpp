@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "certificates/checker.h"
 #include "plan/check_certificates.h"
 #include "plan/depth_statements.h"
 #include "plan/plan_state.h"
@@ -220,7 +221,13 @@ class Checker {
   void check_certificates() {
     if (stopped()) return;
     const auto wrong = problems_of_certificates(plan_, assembly_, verifier_, state_, motions_, prover_of_, context_);
-    if (wrong.empty()) result_.certificates = plan_.certificates.size();
+    if (wrong.empty()) {
+      result_.certificates = plan_.certificates.size();
+      result_.checked_by_prover = static_cast<std::size_t>(
+          std::count_if(plan_.certificates.begin(), plan_.certificates.end(), [](const PlanCertificate& c) {
+            return certificates::checker_of(c.kind) == nullptr;
+          }));
+    }
     for (const auto& text : wrong) problem(text);
   }
 

@@ -52,7 +52,8 @@ class Rows {
 }  // namespace
 
 template <int N>
-LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope) {
+LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope,
+                         const RunContext* context, Multipliers* multipliers) {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
   const Eigen::Index n = direction.size();
@@ -69,6 +70,7 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
   Matrix m(n, n);
   Vector bounds(n);
   for (Eigen::Index pivot = 0; pivot < 50 * n; ++pivot) {  // mostly a few times n are enough
+    if (context != nullptr && context->should_stop()) break;
     for (Eigen::Index i = 0; i < n; ++i) {
       m.row(i) = rows.normal(basis[i]);
       bounds[i] = rows.bound(basis[i]);
@@ -83,6 +85,11 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
       if (const double d = rows.violation(r, result.at); d > most) most = d, enters = r;
     if (enters == rows.count()) {
       // Any multipliers that are not negative prove a bound. The residual covers rounding and the perturbation.
+      if (multipliers != nullptr) {
+        multipliers->clear();
+        for (Eigen::Index i = 0; i < n; ++i)
+          if (basis[i] < polytope.a.size() && y[i] > 0) multipliers->emplace_back(basis[i], y[i]);
+      }
       result.value = y.dot(bounds) + rows.slack(direction - m.transpose() * y) + kSumRounding;
       return result;
     }
@@ -104,7 +111,8 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
   return result;
 }
 
-template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&);
-template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&);
+template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&, const RunContext*, Multipliers*);
+template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&,
+                                               const RunContext*, Multipliers*);
 
 }  // namespace dismantle::immobility

@@ -74,5 +74,16 @@ TEST(LinearBound, SaysEmptyOnlyWhereNothingIsLeft) {
   EXPECT_GT(empty, 100);
 }
 
+TEST(LinearBound, NoneWhenToldToStop) {
+  immobility::Polytope polytope{immobility::Vector6::Constant(-1), immobility::Vector6::Ones(), {}, {}};
+  const immobility::Vector6 direction = immobility::Vector6::Ones();
+  RunContext context;
+  EXPECT_TRUE(std::isfinite(immobility::maximum(direction, polytope, &context).value));
+  context.cancel.cancel();
+  const auto stopped = immobility::maximum(direction, polytope, &context);
+  EXPECT_TRUE(std::isinf(stopped.value));
+  EXPECT_FALSE(stopped.empty);
+}
+
 }  // namespace
 }  // namespace dismantle

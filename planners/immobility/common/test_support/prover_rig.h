@@ -13,6 +13,7 @@
 #include "dismantle/immobility_prover.h"
 #include "dismantle/part_memo.h"
 #include "dismantle/testing/held_shapes.h"
+#include "dismantle/verification/check_certificate.h"
 #include "dismantle/verification/verifier.h"
 
 namespace dismantle::immobility {
@@ -39,12 +40,17 @@ class ProverRig {
     return prover.prove(query(assembled(moving), assembled(fixed), share), context);
   }
 
-  /// As the first part of the certificate against the others.
-  std::string objection(const ImmobilityProver& prover, const Certificate& c, double share = 1) const {
+  /// As the first part of the certificate against the others, by the checker of that kind; by the prover if there is
+  /// none.
+  std::string objection(const ImmobilityProver& prover, const std::string& kind, Certificate c,
+                        double share = 1) const {
     std::vector<PlacedPart> moving, fixed;
     for (std::size_t i = 0; i < c.parts.size(); ++i)
       (i == 0 ? moving : fixed).push_back({c.parts[i], c.poses.empty() ? Pose{} : c.poses[i]});
-    return prover.objection(c, query(moving, fixed, share), {});
+    c.kind = kind;
+    const SeparationQuery asked = query(moving, fixed, share);
+    const auto independent = independent_objection(c, asked, {});
+    return independent ? *independent : prover.objection(c, asked, {});
   }
 
   /// Forgets what was derived from the parts.
@@ -58,8 +64,8 @@ class ProverRig {
 
 /// Parts 0 and 1, anywhere in space. The answer is the same either way round, on any number of threads, and after a
 /// call that was told to stop; the prover accepts its own certificate, and none with another number in it.
-inline std::optional<Certificate> prove_pair(const ImmobilityProver& prover, const Mesh& a, const Mesh& b,
-                                             double tolerance, Rng& rng, double share = 1) {
+inline std::optional<Certificate> prove_pair(const ImmobilityProver& prover, const std::string& kind, const Mesh& a,
+                                             const Mesh& b, double tolerance, Rng& rng, double share = 1) {
   const Pose turned = shapes::random_pose(rng, 2);
   const ProverRig rig(shapes::assembly_of({shapes::moved(a, turned), shapes::moved(b, turned)}), tolerance);
   const auto found = rig.prove(prover, {0}, {1}, share);
@@ -80,7 +86,7 @@ inline std::optional<Certificate> prove_pair(const ImmobilityProver& prover, con
     EXPECT_EQ(found->numbers, other->numbers);
     EXPECT_EQ(found->text, other->text);
   }
-  EXPECT_EQ(rig.anew().objection(prover, *found, share), "");
+  EXPECT_EQ(rig.anew().objection(prover, kind, *found, share), "");
   for (const PartId id : found->parts)
     EXPECT_NE(found->text.find(rig.assembly().parts[id].name), std::string::npos) << found->text;
   return found;

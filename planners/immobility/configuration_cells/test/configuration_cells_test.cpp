@@ -192,9 +192,9 @@ TEST(ConfigurationCells, ItsCertificateHoldsAndNamesThePartsAndBounds) {
     auto c = rig.prove(ConfigurationCells{}, {0}, {1}, share);
     ASSERT_TRUE(c) << share;
     for (const char* part : {"'part0'", "'part1'"}) EXPECT_NE(c->text.find(part), std::string::npos) << c->text;
-    EXPECT_EQ(rig.objection(ConfigurationCells{}, *c, share), "");
+    EXPECT_EQ(rig.objection(ConfigurationCells{}, "configuration_cells", *c, share), "");
     c->numbers.at("shift").front() *= 0.5;
-    EXPECT_NE(rig.objection(ConfigurationCells{}, *c, share), "");
+    EXPECT_NE(rig.objection(ConfigurationCells{}, "configuration_cells", *c, share), "");
   }
 }
 

@@ -126,7 +126,7 @@ TEST(Disc, TheSmallerPartOfAPairInACanWithAWindowThatItDoesNotPass) {
   Rng rng(9);
   const Mesh disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
   for (const std::uint32_t sectors : {6u, 24u}) {  // of 48: a chord of 0.77, and as wide as the can
-    const auto cage = immobility::prove_pair(immobility::Disc{}, disc,
+    const auto cage = immobility::prove_pair(immobility::Disc{}, "disc", disc,
                                              shapes::can_with_window(1, 0.6, 0.3, 0.3, sectors), kDepth, rng);
     ASSERT_EQ(cage.has_value(), sectors == 6) << sectors;
     if (!cage) continue;

@@ -36,16 +36,16 @@ std::optional<Certificate> enclosed(const ProverRig& rig, const std::vector<Plac
                                     const std::vector<PlacedPart>& fixed) {
   auto found = EnclosedBall{}.prove(rig.query(moving, fixed), {});
   if (!found) return found;
-  EXPECT_EQ(rig.objection(EnclosedBall{}, *found), "");
+  EXPECT_EQ(rig.objection(EnclosedBall{}, "enclosed_ball", *found), "");
   Certificate forged = *found;
   forged.numbers.at("radius").front() *= 1.01;
-  EXPECT_NE(rig.objection(EnclosedBall{}, forged), "") << "it holds no such ball";
+  EXPECT_NE(rig.objection(EnclosedBall{}, "enclosed_ball", forged), "") << "it holds no such ball";
   forged = *found;
   forged.poses.front().t += Vec3(0, 0, 10);
-  EXPECT_NE(rig.objection(EnclosedBall{}, forged), "") << "it is outside of the room";
+  EXPECT_NE(rig.objection(EnclosedBall{}, "enclosed_ball", forged), "") << "it is outside of the room";
   forged = *found;
   forged.numbers.erase("center");
-  EXPECT_NE(rig.objection(EnclosedBall{}, forged), "");
+  EXPECT_NE(rig.objection(EnclosedBall{}, "enclosed_ball", forged), "");
   return found;
 }
 

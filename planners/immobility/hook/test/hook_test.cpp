@@ -18,7 +18,7 @@ using std::numbers::pi;
 constexpr double kAllowed = 0.01;
 
 std::optional<Certificate> look(const Mesh& a, const Mesh& b, Rng& rng) {
-  return prove_pair(Hook{}, a, b, kAllowed, rng);
+  return prove_pair(Hook{}, "hook", a, b, kAllowed, rng);
 }
 
 bool comes_out(const Mesh& part, const Mesh& of, const Vec3& by) {

@@ -44,7 +44,7 @@ std::optional<Interlocked> interlocked(const ProverRig& rig, const std::vector<P
   const auto c =
       rig.prove(InterlockLp{}, {parts.begin(), parts.begin() + 1}, {parts.begin() + 1, parts.end()}, 0.5, context);
   if (!c) return std::nullopt;
-  EXPECT_EQ(rig.objection(InterlockLp{}, *c, 0.5), "");
+  EXPECT_EQ(rig.objection(InterlockLp{}, "interlock_lp", *c, 0.5), "");
   for (const PartId id : parts) EXPECT_NE(c->text.find(rig.assembly().parts[id].name), std::string::npos) << c->text;
   const auto number = [&](const char* name) { return c->numbers.at(name).front(); };
   return Interlocked{c->parts, number("depth"), number("shift"), number("turn"), number("half_spaces")};

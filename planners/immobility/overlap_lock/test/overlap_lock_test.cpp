@@ -40,11 +40,11 @@ TEST(OverlapLock, APinThroughAPlateWhoseOverlapIsCalledSmall) {
     }
     ASSERT_LT(overlap + kAllowed, 0.5);
     EXPECT_GT(found->numbers.at("depth").front(), overlap + kAllowed);
-    EXPECT_EQ(rig.objection(OverlapLock{}, *found), "");
+    EXPECT_EQ(rig.objection(OverlapLock{}, "overlap_lock", *found), "");
     for (const Vec3& by : {Vec3(5, 0, 0), Vec3(0.6, 0.6, 0)}) {
       Certificate forged = *found;
       for (int k = 0; k < 3; ++k) forged.numbers.at("point")[static_cast<std::size_t>(k)] += by[k];
-      EXPECT_NE(rig.objection(OverlapLock{}, forged), "");
+      EXPECT_NE(rig.objection(OverlapLock{}, "overlap_lock", forged), "");
     }
   }
 }

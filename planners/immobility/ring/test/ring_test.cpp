@@ -18,7 +18,7 @@ using shapes::Vec3;
 constexpr double kAllowed = 0.01;
 
 std::optional<Certificate> look(const Mesh& a, const Mesh& b, Rng& rng) {
-  return prove_pair(Ring{}, a, b, kAllowed, rng);
+  return prove_pair(Ring{}, "ring", a, b, kAllowed, rng);
 }
 
 bool comes_out(const Mesh& part, const Mesh& of, const Vec3& by) {

@@ -17,7 +17,7 @@ using shapes::Vec3;
 constexpr double kAllowed = 0.01;
 
 std::optional<Certificate> look(const Mesh& a, const Mesh& b, Rng& rng) {
-  return prove_pair(Spool{}, a, b, kAllowed, rng);
+  return prove_pair(Spool{}, "spool", a, b, kAllowed, rng);
 }
 
 bool comes_out(const Mesh& part, const Mesh& of, const Vec3& by) {

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
 
@@ -31,12 +35,19 @@ struct LinearBoundIn {
 };
 using LinearBound = LinearBoundIn<6>;
 
-/// Of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the dual
-/// multipliers, so that errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004).
-template <int N>
-LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope);
+/// Rows of a polytope, and multipliers >= 0 of them.
+using Multipliers = std::vector<std::pair<std::size_t, double>>;
 
-extern template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&);
-extern template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&);
+/// Of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the dual
+/// multipliers, so that errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004). The value is
+/// infinite when `context`, which may be null, says to stop. Fills `multipliers`, which may be null, with those that
+/// prove the value, but for what the bounds lo and hi add.
+template <int N>
+LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope,
+                         const RunContext* context = nullptr, Multipliers* multipliers = nullptr);
+
+extern template LinearBoundIn<6> maximum(const Vector6&, const PolytopeIn<6>&, const RunContext*, Multipliers*);
+extern template LinearBoundIn<Eigen::Dynamic> maximum(const Eigen::VectorXd&, const PolytopeIn<Eigen::Dynamic>&,
+                                                      const RunContext*, Multipliers*);
 
 }  // namespace dismantle::immobility

@@ -1,0 +1,55 @@
+#include "certificates/nearest.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace dismantle::certificates {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+void NearestTriangles::add(const Body& body, const Pose& pose, double keep) {
+  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+    Item item{body.corners(t), keep, Vec3::Zero(), 0};
+    for (Vec3& c : item.corners) {
+      c = pose * c;
+      item.middle += c / 3;
+      box_.extend(c);
+    }
+    for (const Vec3& c : item.corners) item.radius = std::max(item.radius, (c - item.middle).norm());
+    all_.push_back(static_cast<std::uint32_t>(items_.size()));
+    items_.push_back(item);
+  }
+}
+
+double NearestTriangles::clearance(const Vec3& p, const List& list, double radius, List& kept) const {
+  std::vector<std::pair<std::uint32_t, double>> near;
+  double least = kInfinity;
+  const double reach = 2 * radius * (1 + 1e-9);  // and a little, for rounding
+  for (const std::uint32_t t : list) {
+    const Item& item = items_[t];
+    if ((p - item.middle).norm() - item.radius - item.keep > least + reach) continue;
+    const double here = distance(p, item.corners) - item.keep;
+    near.emplace_back(t, here);
+    least = std::min(least, here);
+  }
+  kept.clear();
+  for (const auto& [t, here] : near)
+    if (here <= least + reach) kept.push_back(t);
+  return least;
+}
+
+double NearestTriangles::clearance(const Vec3& p, const List& list) const {
+  double least = kInfinity;
+  for (const std::uint32_t t : list) {
+    const Item& item = items_[t];
+    if ((p - item.middle).norm() - item.radius - item.keep > least) continue;
+    least = std::min(least, distance(p, item.corners) - item.keep);
+  }
+  return least;
+}
+
+}  // namespace dismantle::certificates

@@ -1,0 +1,184 @@
+/// spool: a circle lies deep in the second part; the first goes through it, between two rims that are wider.
+///
+/// Let the second part rest. The surface of the first never meets the circle: it would be deeper than is allowed. So
+/// neither does a line on it from rim to rim; nor do the convex curves H beside the rims, and the short ways from rims
+/// to them, since the circle is deeper by what these are off the surface. A plane cuts H in two points or none, and H
+/// is never linked with the circle; so H crosses the circle's disc in two points or none. The chord between them is at
+/// most as long as the circle is wide, and does not reach the middle of H, from which H is further on all sides: it
+/// cuts off one arc, beyond which the middle is not. That arc begins and ends with no length. Count the crossings of
+/// the line with the disc, and the ends of the line that are on such arcs. The sum stays even or odd: it changes only
+/// when an end crosses the disc, and then by one in both counts. At first it is one. If the parts were apart it would
+/// be 0.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "certificates/body.h"
+#include "certificates/checker.h"
+#include "certificates/circle.h"
+#include "certificates/section.h"
+
+namespace dismantle::certificates {
+namespace {
+
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Against the clock.
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  std::vector<Vec2> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t first = hull.size();
+    for (const Vec2& p : points) {
+      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+double distance_to_curve(const Vec2& p, const std::vector<Vec2>& corners) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec2 &a = corners[k], edge = corners[(k + 1) % corners.size()] - a;
+    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (a + t * edge - p).norm());
+  }
+  return least;
+}
+
+/// A rim and its convex curve.
+struct Rim {
+  Loop loop;
+  double reach = 0;    ///< of the curve from its middle, the foot of the circle's centre; 0: the middle is not within
+  double off = 0;      ///< how far the rim is off the curve
+  bool above = false;  ///< the circle's plane
+};
+
+Rim rim_of(Loop loop, const Plane& plane, const Vec3& center) {
+  const Vec3 e = plane.normal.unitOrthogonal(), f = plane.normal.cross(e);
+  const auto flat = [&](const Vec3& p) { return Vec2(e.dot(p), f.dot(p)); };
+  std::vector<Vec2> points;
+  for (const Vec3& p : loop.points) points.push_back(flat(p));
+  const std::vector<Vec2> hull = convex_hull(points);
+  Rim rim{std::move(loop), 0, 0, false};
+  if (hull.size() < 3) return rim;
+  const Vec2 middle = flat(center);
+  for (std::size_t k = 0; k < hull.size(); ++k)
+    if (!(cross(hull[(k + 1) % hull.size()] - hull[k], middle - hull[k]) > 0)) return rim;
+  rim.reach = distance_to_curve(middle, hull);
+  for (const Vec2& p : points) rim.off = std::max(rim.off, distance_to_curve(p, hull));
+  return rim;
+}
+
+/// Vertices on one side of the plane that edges on that side join to a vertex.
+std::vector<char> joined(const std::vector<std::vector<std::uint32_t>>& edges, const Body& body, const Plane& plane,
+                         std::uint32_t from) {
+  const bool above = plane.above(body.vertices[from]);
+  std::vector<char> seen(body.vertices.size(), 0);
+  std::vector<std::uint32_t> pending{from};
+  seen[from] = 1;
+  while (!pending.empty()) {
+    const std::uint32_t v = pending.back();
+    pending.pop_back();
+    for (const std::uint32_t w : edges[v])
+      if (!seen[w] && plane.above(body.vertices[w]) == above) {
+        seen[w] = 1;
+        pending.push_back(w);
+      }
+  }
+  return seen;
+}
+
+/// Is there a line along the edges of the surface from rim to rim, one above the circle's plane and one below it, that
+/// crosses the plane once, within the circle?
+bool passes(const Circle& circle, const Body& body, const Neighbours& neighbours, const std::vector<Rim>& rims,
+            double rounding) {
+  const Plane plane{circle.axis, circle.axis.dot(circle.center)};
+  std::vector<std::vector<std::uint32_t>> edges(body.vertices.size());
+  for (const Triangle& t : body.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges[t[k]].push_back(t[(k + 1) % 3]);
+      edges[t[(k + 1) % 3]].push_back(t[k]);
+    }
+  // The line ends where a rim crosses an edge, one end of which it has reached without leaving its side of the plane.
+  const auto reaches_rim = [&](std::uint32_t from) {
+    const auto seen = joined(edges, body, plane, from);
+    return std::any_of(rims.begin(), rims.end(), [&](const Rim& rim) {
+      return rim.above == plane.above(body.vertices[from]) &&
+             std::any_of(rim.loop.edges.begin(), rim.loop.edges.end(),
+                         [&](const auto& e) { return seen[e[0]] != 0 || seen[e[1]] != 0; });
+    });
+  };
+  for (const Loop& neck : section(body, neighbours, plane)) {
+    for (std::size_t k = 0; k < neck.points.size(); ++k) {
+      if (!((neck.points[k] - circle.center).norm() < circle.radius - rounding)) continue;
+      if (reaches_rim(neck.edges[k][0]) && reaches_rim(neck.edges[k][1])) return true;
+      break;  // the ends of the next edge of this curve are joined to the same vertices
+    }
+  }
+  return false;
+}
+
+std::string objection_to_rims(const Circle& circle, const std::vector<double>& planes, double width, const Body& spool,
+                              double& off) {
+  const double rounding = rounding_of(spool.box);
+  const Neighbours neighbours = neighbours_of(spool);
+  std::vector<Rim> rims;
+  double side = 1;
+  for (const double offset : planes) {
+    const Plane plane{circle.axis, offset};
+    const double height = plane.height(circle.center);
+    if (!(std::abs(height) > rounding)) return "the circle is in the plane of a rim";
+    side *= height;
+    std::optional<Rim> best;  // the most convex of those that are wide enough
+    double widest = 0;
+    for (Loop& loop : section(spool, neighbours, plane)) {
+      Rim rim = rim_of(std::move(loop), plane, circle.center);
+      widest = std::max(widest, 2 * rim.reach);
+      if (2 * rim.reach >= width - rounding && (!best || rim.off < best->off)) best = std::move(rim);
+    }
+    if (!best) return fmt::format("a rim is {:.6g} wide, not {:.6g}", widest, width);
+    best->above = height < 0;  // the circle is below the rim's plane
+    off = std::max(off, best->off);
+    rims.push_back(std::move(*best));
+  }
+  if (!(side < 0)) return "both rims are on one side of the circle";
+  return passes(circle, spool, neighbours, rims, rounding) ? "" : "the first part does not go through the circle";
+}
+
+}  // namespace
+
+std::string objection_to_spool(const Certificate& certificate, const SeparationQuery& query,
+                               const RunContext& context) {
+  const PartId inner = certificate.parts[0], outer = certificate.parts[1];
+  const Circle circle = circle_of(certificate, "circle");
+  const double width = certificate.numbers.at("rim").front();
+  if (!(circle.radius > 0)) return "its numbers make no circle";
+  if (!(width > 2 * circle.radius + 4 * rounding_of(query, inner))) return "its rim is not wider than its circle";
+  std::string objection = "the first part is empty";
+  for (const Body& body : bodies_of(query, inner)) {
+    if (context.should_stop()) return "the check was stopped";
+    double off = 0;
+    objection = objection_to_rims(circle, certificate.numbers.at("planes"), width, body, off);
+    if (!objection.empty()) continue;
+    const auto& holders = bodies_of(query, outer);
+    if (std::any_of(holders.begin(), holders.end(), [&](const Body& b) {
+          return lies_deep(circle, b, allowed_depth(query, inner, outer) + off + rounding_of(body.box));
+        }))
+      return {};
+    objection = "its circle is not deep enough in the second part";
+  }
+  return objection;
+}
+
+}  // namespace dismantle::certificates

@@ -1,0 +1,226 @@
+// Independent checkers of certificates: they accept what provers prove, refuse numbers that are not true, and accept no
+// numbers whatever of parts that can leave.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/part_memo.h"
+#include "dismantle/testing/built_in_provers.h"
+#include "dismantle/testing/held_shapes.h"
+#include "dismantle/testing/trials.h"
+#include "dismantle/verification/check_certificate.h"
+
+namespace dismantle::trust {
+namespace {
+
+using shapes::Vec3;
+using Numbers = std::vector<double>;
+
+/// Makes a number of a certificate say more than is true.
+struct Forgery {
+  std::string name;
+  std::function<void(Numbers&, Rng&)> forge;
+};
+
+/// Parts that a prover of one kind proves held, and the same with a way out.
+struct Kind {
+  std::string id;
+  std::function<Assembly(Rng&, bool held)> assembly;
+  std::vector<Forgery> forgeries;
+  double margin = 0.01;
+  int share = 1;  ///< of the trials one in so many: proofs take seconds
+  int trials(int daily, int nightly) const { return std::max(1, testing_support::trials(daily, nightly) / share); }
+};
+
+Assembly placed(std::vector<Mesh> meshes, Rng& rng) {
+  const Pose at = shapes::random_pose(rng, 2);
+  for (Mesh& m : meshes) m = shapes::moved(m, at);
+  return shapes::assembly_of(meshes);
+}
+
+Forgery scaled(const std::string& name, double least, double most) {
+  return {name, [=](Numbers& n, Rng& rng) {
+            const double by = rng.uniform(least, most);
+            for (double& x : n) x *= by;
+          }};
+}
+Forgery shifted(const std::string& name, double by) {
+  return {name, [=](Numbers& n, Rng& rng) {
+            const Vec3 d = by * (shapes::random_pose(rng, 1).q * Vec3::UnitX());
+            for (std::size_t k = 0; k < 3; ++k) n[k] += d[static_cast<Eigen::Index>(k)];
+          }};
+}
+
+/// A pin through a plate without a hole; or pressed into it as deep as it is allowed to be, and free above.
+Assembly pinned(Rng& rng, bool held) {
+  const double overlap = rng.uniform(0.02, 0.2), foot = held ? -1 : 0.5 - overlap;
+  Assembly a = placed({shapes::box({-2, -2, -0.5}, {2, 2, 0.5}), shapes::box({-0.6, -0.6, foot}, {0.6, 0.6, 1})}, rng);
+  a.overlaps = {{0, 1, overlap}};
+  return a;
+}
+
+/// A cube in a case whose opening is narrower than its ball, or wide enough for all of it.
+Assembly cased(Rng& rng, bool held) {
+  const double half = rng.uniform(0.4, 0.6), play = rng.uniform(0.005, 0.05);
+  const shapes::Cased c{Vec3::Constant(half), play, held ? rng.uniform(0.2, 0.5) * half : -rng.uniform(0, 1) * play,
+                        0.15};
+  return placed({c.block(), c.around()}, rng);
+}
+
+/// A ring in a can, one of whose openings may let it out.
+Assembly canned(Rng& rng, bool held) {
+  const double radius = rng.uniform(0.6, 0.9), below = radius * rng.uniform(0.1, 0.75);
+  const double narrow = radius * rng.uniform(0.1, 0.75), wide = radius + rng.uniform(0.02, 0.08);
+  return placed({shapes::tube(0.5 * radius, radius, -0.1, 0.1, 48), shapes::can(1, 0.6, below, held ? narrow : wide)},
+                rng);
+}
+
+/// A spool in a plate; one of its rims may be narrower than the hole.
+Assembly spooled(Rng& rng, bool held) {
+  const double hole = rng.uniform(0.3, 0.6), neck = hole * rng.uniform(0.5, 0.95),
+               below = hole + rng.uniform(0.05, 0.3);
+  const double wide = hole + rng.uniform(0.05, 0.3), narrow = hole - rng.uniform(0, 0.4) * (hole - neck);
+  const double above = held ? wide : narrow;
+  const Mesh spool = shapes::lathe(
+      {{0.05, -0.4}, {below, -0.4}, {below, -0.2}, {neck, -0.2}, {neck, 0.2}, {above, 0.2}, {above, 0.4}, {0.05, 0.4}},
+      40);
+  return placed({spool, shapes::plate(hole, 0.3)}, rng);
+}
+
+/// A slab, a tray and a block that hold each other; without the roof over the slab it leaves upwards.
+Assembly keyed(Rng& rng, bool held) {
+  shapes::Keyed k;
+  k.length = rng.uniform(0.5, 0.7);
+  k.play = rng.uniform(0.001, 0.004);
+  k.roofed = held ? rng.uniform(0.3, 0.45) : 0;
+  return placed({k.slab(), k.tray(), k.block()}, rng);
+}
+
+/// A bar through a hole, bent on both sides; or on one side only.
+Assembly hooked(Rng& rng, bool held) {
+  const double half = rng.uniform(0.08, 0.12), thick = rng.uniform(3, 6) * half, reach = 0.5 * thick + 2 * half;
+  const double bend = rng.uniform(1.45, 1.7);  // rad
+  const Mesh bar = shapes::bent_bar(shapes::crank(-reach, held ? reach : 1, bend, held ? bend : 0, 1.5), half);
+  return placed({bar, shapes::plate(half * rng.uniform(1.5, 1.7), thick)}, rng);
+}
+
+Forgery elsewhere(const std::string& name) {
+  return {name, [](Numbers& n, Rng& rng) { n.front() += rng.uniform(3, 5); }};
+}
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"overlap_lock",
+       pinned,
+       {scaled("depth", 1.0001, 2), scaled("depth", 0, 0.049), scaled("allowed", 0, 0.9999), scaled("allowed", 25, 50),
+        shifted("point", 3)}},
+      {"enclosed_ball", cased, {scaled("radius", 1.0001, 2), shifted("center", 2), scaled("cell", 20, 40)}},
+      {"ring",
+       canned,
+       {scaled("diameter", 1.2, 2), scaled("diameter", 0.2, 0.4), scaled("opening", 0, 0.999),
+        scaled("opening", 20, 30), shifted("center", 3), scaled("axis", 1.01, 2), elsewhere("planes")}},
+      {"spool",
+       spooled,
+       {scaled("circle", 2.5, 4), scaled("circle", 0.2, 0.5), scaled("rim", 1.0001, 2), scaled("rim", 0, 0.1),
+        shifted("center", 3), scaled("axis", 1.01, 2), elsewhere("planes")}},
+      {"hook",
+       hooked,
+       {scaled("width", 0, 0.999), shifted("hole", 3), shifted("first_bend", 3), shifted("second_bend", 3),
+        scaled("path", 1.2, 2), scaled("steps", 10, 20), scaled("points", 10, 20)},
+       0.01,
+       4},
+      {"interlock_lp",
+       keyed,
+       {scaled("depth", 0, 0.99), scaled("shift", 0, 0.99), scaled("turn", 0, 0.99), scaled("half_spaces", 2, 3),
+        scaled("axes", 1.01, 2), scaled("order", 2, 3), scaled("bounds", 0, 0.5), scaled("pairs", 0, 0.5),
+        scaled("rows", 1.5, 2), scaled("multipliers", 1.5, 2)},
+       0.002},
+  };
+  return all;
+}
+
+std::string objection(const Kind& kind, const Assembly& assembly, const Certificate& c) {
+  PartMemo memo;
+  SeparationQuery query{assembly, {}, {}, kind.margin, 1, memo};
+  for (std::size_t i = 0; i < c.parts.size(); ++i)
+    (i == 0 ? query.moving : query.fixed).push_back({c.parts[i], c.poses.empty() ? Pose{} : c.poses[i]});
+  const auto found = independent_objection(c, query, {});
+  return found ? *found : "no checker";
+}
+
+Certificate certificate_of(const Kind& kind, const Assembly& assembly) {
+  PartMemo memo;
+  SeparationQuery query{assembly, {{0, Pose{}}}, {}, kind.margin, 1, memo};
+  for (PartId id = 1; id < assembly.parts.size(); ++id) query.fixed.push_back({id, Pose{}});
+  auto found = fake::prover_of_kind(kind.id)->prove(query, {});
+  if (!found) return {};
+  found->kind = kind.id;
+  return *found;
+}
+
+TEST(Certificates, AreAcceptedWhenTheirNumbersAreTrue) {
+  for (const Kind& kind : kinds()) {
+    Rng rng(5);
+    for (int i = 0; i < kind.trials(4, 100); ++i) {
+      const Assembly assembly = kind.assembly(rng, true);
+      const Certificate c = certificate_of(kind, assembly);
+      ASSERT_FALSE(c.parts.empty()) << kind.id << " " << i;
+      EXPECT_EQ(objection(kind, assembly, c), "") << kind.id << " " << i;
+    }
+  }
+}
+
+TEST(Certificates, AreRefusedWhenANumberSaysMoreThanIsTrue) {
+  for (const Kind& kind : kinds()) {
+    Rng rng(6);
+    for (int i = 0; i < kind.trials(2, 50); ++i) {
+      const Assembly assembly = kind.assembly(rng, true);
+      const Certificate c = certificate_of(kind, assembly);
+      ASSERT_FALSE(c.parts.empty()) << kind.id << " " << i;
+      for (const Forgery& f : kind.forgeries) {
+        Certificate forged = c;
+        f.forge(forged.numbers.at(f.name), rng);
+        EXPECT_NE(objection(kind, assembly, forged), "") << kind.id << ": " << f.name;
+      }
+      for (const auto& [name, numbers] : c.numbers) {
+        Certificate forged = c;
+        forged.numbers.erase(name);
+        EXPECT_NE(objection(kind, assembly, forged), "") << kind.id << ": without " << name;
+        forged = c;
+        forged.numbers[name].push_back(1e3);
+        EXPECT_NE(objection(kind, assembly, forged), "") << kind.id << ": one number more in " << name;
+      }
+    }
+  }
+}
+
+TEST(Certificates, AreRefusedWhateverTheyAreMadeOfWhenPartsCanLeave) {
+  int tried = 0;
+  for (const Kind& kind : kinds()) {
+    Rng rng(7);
+    for (int i = 0; i < kind.trials(4, 200); ++i) {
+      const Rng same = rng;
+      Rng for_held = same;
+      const Assembly held = kind.assembly(for_held, true), free = kind.assembly(rng, false);
+      const Certificate honest = certificate_of(kind, held);
+      ASSERT_FALSE(honest.parts.empty()) << kind.id << " " << i;
+      for (int k = 0; k < 25; ++k, ++tried) {
+        Certificate c = honest;
+        const double by = k == 0 ? 0 : rng.uniform(0, 0.5);
+        for (auto& [name, numbers] : c.numbers)
+          for (double& x : numbers) x = x * (1 + by * rng.uniform(-1, 1)) + 0.1 * by * rng.uniform(-1, 1);
+        EXPECT_NE(objection(kind, free, c), "") << kind.id << " " << i << " " << k;
+      }
+    }
+  }
+  std::cout << tried << " certificates of parts that can leave, all refused\n";
+}
+
+}  // namespace
+}  // namespace dismantle::trust
