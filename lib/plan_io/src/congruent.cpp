@@ -6,11 +6,6 @@
 #include "dismantle/geometry/congruence.h"
 
 namespace dismantle {
-namespace {
-
-constexpr double kSameShape = 1e-4;  // of the part's size: files round coordinates to six digits
-
-}  // namespace
 
 std::vector<ShapePlacement> find_congruent(const std::vector<Part>& parts) {
   std::vector<ShapePlacement> out;
@@ -22,7 +17,9 @@ std::vector<ShapePlacement> find_congruent(const std::vector<Part>& parts) {
     auto& known = originals[{mesh.vertices.size(), mesh.triangles.size()}];
     for (const std::size_t original : known) {
       const Mesh& other = *parts[original].mesh;
-      if (const auto pose = geometry::congruence(other, mesh, kSameShape * mesh.box().size().norm())) {
+      // Files round coordinates to six digits, of positions that may be a hundred times the part's size.
+      const double rounding = 1e-4 * mesh.box().size().norm();
+      if (const auto pose = geometry::congruence(other, mesh, rounding)) {
         placement = {original, *pose};
         break;
       }

@@ -22,9 +22,6 @@ namespace {
 using PageJson = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "typed arrays are little-endian on all that run a browser");
 
-constexpr const char* kPlace = "@DISMANTLE_DATA@";
-constexpr double kPageCrease = 30.0 * std::numbers::pi / 180.0;
-
 template <class Scalar>
 std::string base64_of(const std::vector<Scalar>& values) {
   std::vector<std::uint8_t> bytes(values.size() * sizeof(Scalar));
@@ -69,7 +66,7 @@ std::vector<std::uint32_t> sharp_edges(const ShadedMesh& mesh) {
 PageJson shape_json(const Part& part, const Normalization& units, const Eigen::Vector3d& center) {
   Mesh local = *part.mesh;
   for (auto& v : local.vertices) v = units.to_input(v) - center;
-  const ShadedMesh shaded = shade(local, kPageCrease);
+  const ShadedMesh shaded = shade(local);
   std::vector<float> positions;
   std::vector<std::int16_t> normals;
   for (std::size_t i = 0; i < shaded.positions.size(); ++i)
@@ -124,13 +121,14 @@ std::string for_script(const std::string& json) {
 }  // namespace
 
 std::string to_page(const Plan& plan, const Assembly& assembly, const std::string& page_template) {
-  const std::size_t place = page_template.find(kPlace);
-  if (place == std::string::npos || page_template.find(kPlace, place + 1) != std::string::npos)
+  const std::string_view mark = "@DISMANTLE_DATA@";
+  const std::size_t place = page_template.find(mark);
+  if (place == std::string::npos || page_template.find(mark, place + 1) != std::string::npos)
     throw Error("the viewer's template does not have exactly one place for the data");
   std::string data = "{\"format\":\"dismantle.page\",\"version\":1,\"plan\":" + to_json(plan);
   data +=
       ",\"geometry\":" + geometry_json(plan, assembly).dump(-1, ' ', false, PageJson::error_handler_t::replace) + "}";
-  return page_template.substr(0, place) + for_script(data) + page_template.substr(place + std::strlen(kPlace));
+  return page_template.substr(0, place) + for_script(data) + page_template.substr(place + mark.size());
 }
 
 }  // namespace dismantle

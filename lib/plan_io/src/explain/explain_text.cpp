@@ -33,15 +33,15 @@ std::string search_text(const LeftPart& part) {
 }
 
 std::string blockers_text(const Plan& plan, const LeftPart& part) {
-  constexpr std::size_t kShown = 6;
+  const std::size_t shown = 6;  // what fits into a line or two
   std::string out;
-  for (std::size_t i = 0; i < std::min(part.blockers.size(), kShown); ++i) {
+  for (std::size_t i = 0; i < std::min(part.blockers.size(), shown); ++i) {
     const Blocker& b = part.blockers[i];
     out += (i == 0 ? "" : ", ") + b.part;
     if (b.at) out += " at " + place_text(*b.at);
     if (b.overlap > 0) out += fmt::format(" (overlaps it by {} when assembled)", length_text(plan, b.overlap));
   }
-  if (part.blockers.size() > kShown) out += fmt::format(" and {} more", part.blockers.size() - kShown);
+  if (part.blockers.size() > shown) out += fmt::format(" and {} more", part.blockers.size() - shown);
   return out;
 }
 

@@ -55,10 +55,10 @@ std::vector<std::string> part_names(const Plan& plan, const std::vector<std::siz
 
 /// All names of a few parts; of many the first ones and how many there are.
 std::string node_label(std::vector<std::string> names) {
-  constexpr std::size_t kShown = 4;
+  const std::size_t shown = 4;
   const std::size_t count = names.size();
-  if (count <= kShown) return text::joined(names);
-  names.resize(kShown - 1);
+  if (count <= shown) return text::joined(names);
+  names.resize(shown - 1);
   return fmt::format("{} parts: {}, ...", count, text::joined(names));
 }
 

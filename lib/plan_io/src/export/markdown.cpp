@@ -11,8 +11,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kStraight = 0.01;  // of the assembly's largest edge: what a leg of a path may leave out
-
 /// A cell of a table: no line breaks, nothing that Markdown or HTML would take for its own.
 std::string markdown_text(const std::string& raw) {
   std::string out;
@@ -50,7 +48,8 @@ std::string steps_markdown(const Plan& plan, const InputFrame& frame) {
     for (const PlanStep& step : plan.disassembly) {
       std::string motion = "-";
       if (!step.moves.empty())
-        motion = motion_words(summarize_motion(step.moves.front().poses, middle, kStraight * size), unit, frame.y_up);
+        motion =
+            motion_words(summarize_motion(step.moves.front().poses, middle, leg_tolerance(size)), unit, frame.y_up);
       const std::string what = step.separates.empty() ? " (shifted, stays)" : "";
       out += fmt::format("| {} | {}{} | {} | {} | {} | {} |\n", step.step, markdown_text(text::names_of(step)), what,
                          markdown_text(motion), step.layer > 0 ? steps_list(step.after) : "not recorded",

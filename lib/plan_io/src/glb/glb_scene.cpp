@@ -1,7 +1,6 @@
 #include "glb/glb_scene.h"
 
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "dismantle/plan_io/shading.h"
@@ -9,8 +8,6 @@
 
 namespace dismantle {
 namespace {
-
-constexpr double kCreaseAngle = 30.0 * std::numbers::pi / 180.0;
 
 template <class Scalar, class Vector>
 std::vector<Scalar> flat(const std::vector<Vector>& vectors) {
@@ -24,7 +21,7 @@ std::vector<Scalar> flat(const std::vector<Vector>& vectors) {
 GlbJson surface(const Part& part, const Normalization& units, const Eigen::Vector3d& center, GlbBuffer& buffer) {
   Mesh local = *part.mesh;
   for (auto& v : local.vertices) v = units.to_input(v) - center;
-  const ShadedMesh shaded = shade(local, kCreaseAngle);
+  const ShadedMesh shaded = shade(local);
   if (shaded.indices.empty()) return nullptr;
   const std::size_t n = shaded.positions.size();
   GlbJson attributes;

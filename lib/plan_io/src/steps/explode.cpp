@@ -12,7 +12,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kGap = 0.04;  // between boxes, of the assembly's largest edge
 using Offsets = std::vector<Eigen::Vector3d>;
 using PartIndices = std::vector<std::size_t>;
 
@@ -79,6 +78,7 @@ Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
   Offsets offsets(boxes.size(), Eigen::Vector3d::Zero());
   if (all.empty()) return offsets;
   const double size = all.size().maxCoeff();
+  const double gap = 0.04 * size;  // between boxes
 
   // Backwards, as in assembling: what goes in as one is exploded already when it has to keep clear of the rest.
   for (std::size_t s = plan.disassembly.size(); s-- > 0;)
@@ -93,10 +93,10 @@ Offsets exploded_offsets(const Plan& plan, const Assembly& assembly) {
           for (const std::size_t i : piece) u += boxes[i].center() - all.center();
         }
         u = u.norm() > 1e-9 * size ? Eigen::Vector3d(u.normalized()) : Eigen::Vector3d::UnitZ();
-        double far = 2 * kGap * size;
+        double far = 2 * gap;
         for (const std::size_t i : piece)
           for (const std::size_t j : obstacles)
-            far = std::max(far, passing(shifted(boxes[i], offsets[i]), shifted(boxes[j], offsets[j]), u, kGap * size));
+            far = std::max(far, passing(shifted(boxes[i], offsets[i]), shifted(boxes[j], offsets[j]), u, gap));
         for (const std::size_t i : piece) offsets[i] += far * u;
         obstacles.insert(obstacles.end(), piece.begin(), piece.end());
       }

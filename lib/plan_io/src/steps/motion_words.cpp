@@ -11,10 +11,8 @@
 namespace dismantle {
 namespace {
 
-constexpr double kOneAxis = 0.996;   // cosine of 5 degrees: within, a direction is that of an axis
-constexpr double kNoticeable = 0.2;  // share of a unit direction below which an axis is not named
-constexpr double kTurned = 1.0;      // degrees below which a turn is not told
-constexpr std::size_t kManyLegs = 4;
+constexpr double kOneAxis = 0.996;  // cosine of 5 degrees: within it a direction is that of an axis
+constexpr double kTurned = 1.0;     // degrees: a smaller turn is not mentioned
 
 /// Appends the kept points of points[begin..end], without the first.
 void simplify(const std::vector<Eigen::Vector3d>& points, std::size_t begin, std::size_t end, double tolerance,
@@ -103,7 +101,7 @@ std::string direction_words(const Eigen::Vector3d& direction, bool y_up) {
       return fmt::format("{} ({}{})", d[axis.k] > 0 ? axis.plus : axis.minus, d[axis.k] > 0 ? '+' : '-', "XYZ"[axis.k]);
   std::string words;
   for (const Axis& axis : axes)
-    if (std::abs(d[axis.k]) > kNoticeable)
+    if (std::abs(d[axis.k]) > 0.2)  // a smaller share of the direction is not named
       words += (words.empty() ? "" : " and ") + std::string(d[axis.k] > 0 ? axis.plus : axis.minus);
   const auto rounded = [](double x) { return std::round(100 * x) / 100 + 0.0; };
   return fmt::format("{} ({}, {}, {})", words, rounded(d.x()), rounded(d.y()), rounded(d.z()));
@@ -112,7 +110,7 @@ std::string direction_words(const Eigen::Vector3d& direction, bool y_up) {
 std::string motion_words(const MotionSummary& motion, const std::string& unit, bool y_up) {
   const std::string of_unit = unit.empty() ? "" : " " + unit;
   std::string out;
-  if (motion.legs.size() > kManyLegs) {
+  if (motion.legs.size() > 4) {
     out = fmt::format("along the line that is drawn, {}{} in all", figure_text(motion.length), of_unit);
     if (motion.displacement.norm() > 1e-3 * motion.length)
       out += fmt::format(", to a place {}{} {}", figure_text(motion.displacement.norm()), of_unit,

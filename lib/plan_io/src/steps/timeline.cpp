@@ -11,9 +11,12 @@
 namespace dismantle {
 namespace {
 
-constexpr double kLead = 0.5, kPause = 0.3, kEndPause = 1.0;  // s
-constexpr double kShortest = 1.0, kLongest = 3.0;             // s per step
-constexpr double kSecondsPerSize = 1.5;                       // for a way as long as the assembly
+/// The pace of an animation, seconds: a viewer can follow it.
+struct Pace {
+  double before = 0.5, between = 0.3, after = 1.0;  // pauses: before the first step, between steps, after the last
+  double shortest = 1.0, longest = 3.0;             // duration of a step
+  double per_size = 1.5;                            // duration of a path as long as the assembly
+};
 
 struct Body {
   PartId id = 0;
@@ -61,7 +64,8 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
   const auto known = bodies_of(assembly);
   const double size = std::max(assembly.input_box.size().maxCoeff(), 1e-300);
   std::map<PartId, Track> tracks;
-  double now = kLead;
+  const Pace pace;
+  double now = pace.before;
   for (const PlanStep& step : steps) {
     if (step.moves.empty()) continue;
     std::vector<Body> bodies;
@@ -73,7 +77,7 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
       bodies.push_back(it->second);
     }
     const std::vector<double> way = way_of(step, bodies);
-    const double duration = std::clamp(kSecondsPerSize * way.back() / size, kShortest, kLongest);
+    const double duration = std::clamp(pace.per_size * way.back() / size, pace.shortest, pace.longest);
     std::vector<double> times;
     for (std::size_t k = 0; k < way.size(); ++k)
       times.push_back(now + duration * (way.back() > 0 ? way[k] / way.back() : double(k) / double(way.size())));
@@ -84,10 +88,10 @@ Timeline timeline(const std::vector<PlanStep>& steps, const Assembly& assembly) 
     }
     out.steps.push_back({step.step, static_cast<float>(now), static_cast<float>(now + duration), {}, std::move(times)});
     for (const Body& body : bodies) out.steps.back().parts.push_back(body.id);
-    now += duration + kPause;
+    now += duration + pace.between;
   }
   for (auto& [id, track] : tracks) {
-    append(track.keys, now - kPause + kEndPause, track.keys.back().pose);
+    append(track.keys, now - pace.between + pace.after, track.keys.back().pose);
     out.tracks.push_back(std::move(track));
   }
   return out;

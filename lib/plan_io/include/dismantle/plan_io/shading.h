@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "dismantle/export.h"
@@ -19,6 +20,6 @@ struct ShadedMesh {
 
 /// Triangles that share an edge and meet at less than `crease_angle` (rad) share a normal along it, so that
 /// cylinders look round and boxes keep their edges. Triangles without area are left out.
-DISMANTLE_API ShadedMesh shade(const Mesh& mesh, double crease_angle);
+DISMANTLE_API ShadedMesh shade(const Mesh& mesh, double crease_angle = std::numbers::pi / 6);
 
 }  // namespace dismantle
