@@ -98,7 +98,7 @@ void paint_picture(cairo_t* page, const Picture& picture, double x, double y, do
   cairo_fill(page);
   cairo_rectangle(page, 0, 0, image.width, image.height);
   cairo_clip(page);
-  const double thick = std::max(0.75, image.width / double(kStepWidth));
+  const double thick = std::max(0.75, image.width / double(PictureStyle{}.step.width));
   for (const auto& arrow : picture.arrows) stroke_arrow(page, arrow, thick);
   for (const auto& [middle, radius] : picture.rings) {
     cairo_set_source_rgb(page, 0.80, 0.11, 0.11);

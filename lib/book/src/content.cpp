@@ -16,8 +16,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kLegTolerance = 0.01;  // of the assembly's largest edge
-
 /// "bolt" of "bolt_1", "bolt_2"; the first name when they have too little in common.
 std::string common_name(const std::vector<std::string>& names) {
   std::string stem = names.front();
@@ -133,10 +131,10 @@ class ContentWriter {
   }
 
   static std::string listed(std::vector<std::string> names) {
-    constexpr std::size_t kMost = 8;
-    if (names.size() <= kMost) return text::joined(names);
-    const std::size_t more = names.size() - kMost + 1;
-    names.resize(kMost - 1);
+    const std::size_t most = 8;  // names that one sentence can hold
+    if (names.size() <= most) return text::joined(names);
+    const std::size_t more = names.size() - most + 1;
+    names.resize(most - 1);
     return fmt::format("{} and {} more", text::joined(names), more);
   }
 
@@ -170,7 +168,7 @@ class ContentWriter {
                                        ? assembly_.parts[mover.parts.front()].name
                                        : fmt::format("{} × {}", n, content_.items[item].name));
       }
-      const MotionSummary motion = summarize_motion(mover.poses, mover.center, kLegTolerance * size_);
+      const MotionSummary motion = summarize_motion(mover.poses, mover.center, leg_tolerance(size_));
       const std::string who = step.movers.size() > 1 ? names_of(mover.parts) + ": " : "";
       page.motions.push_back(who + motion_words(motion, unit_, frame_.y_up));
       add_vectors(motion, who, page.facts);

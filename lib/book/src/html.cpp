@@ -9,7 +9,8 @@
 namespace dismantle {
 namespace {
 
-constexpr const char* kBookStyle = R"(
+const char* book_style() {
+  return R"(
 :root { --ink: #20242c; --soft: #667085; --line: #d7dce3; --accent: #c2410c; --paper: #fff; }
 * { box-sizing: border-box; }
 body { margin: 0; background: #eef0f3; color: var(--ink); font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; }
@@ -40,6 +41,7 @@ dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 @media print { @page { size: A4 landscape; margin: 9mm; } body { background: none; }
   section { margin: 0; max-width: none; box-shadow: none; padding: 0; break-after: page; } section:last-child { break-after: auto; } }
 )";
+}
 
 std::string img(const Picture& picture, const std::string& alt) {
   return fmt::format("<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
@@ -90,7 +92,7 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
       "data:\">\n<link rel=\"icon\" href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
-      escaped_markup(content.title), kBookStyle);
+      escaped_markup(content.title), book_style());
   std::string warnings;
   for (const std::string& w : content.warnings)
     warnings += fmt::format("<p class=\"warning\">{}</p>", escaped_markup(w));
@@ -104,17 +106,15 @@ std::string book_html(const Plan& plan, const Assembly& assembly, const BookOpti
     out += fmt::format(
         "<div class=\"item\"><span class=\"count\">{} ×</span>{}{}<div><strong>{}</strong></div>{}"
         "<div class=\"soft\">{}</div></div>\n",
-        item.parts.size(), badge(item.number),
-        img(illustrator.part(item.parts.front(), kItemWidth, kItemHeight), item.name), escaped_markup(item.name),
+        item.parts.size(), badge(item.number), img(illustrator.part(item.parts.front()), item.name),
+        escaped_markup(item.name),
         item.parts.size() > 1 ? fmt::format("<div class=\"soft\">{}</div>", escaped_markup(names)) : "",
         escaped_markup(item.size));
   }
   out += "</div></section>\n";
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
-    out += step_page(
-        page, illustrator.step(*page.step, options.disassembly, kStepWidth, kStepHeight, kPlacedWidth, kPlacedHeight),
-        options.disassembly);
+    out += step_page(page, illustrator.step(*page.step, options.disassembly), options.disassembly);
   }
   return out + "</body>\n</html>\n";
 }

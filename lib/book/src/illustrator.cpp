@@ -13,15 +13,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kBookCrease = 30.0 * std::numbers::pi / 180.0;
-constexpr double kMargin = 1.12;     // of what is shown, around it
-constexpr double kSmallest = 0.14;   // share of a picture that what moves has to take
-constexpr double kFurthest = 1.1;    // of the size of what stands: no part is shown further away from its place
-constexpr double kNearest = 0.16;    // of that size: and none nearer to it
-constexpr double kSpeck = 0.07;      // of a picture's width: what is smaller gets a circle
-constexpr double kBetterView = 1.5;  // times as much of the part has to be seen before the side changes
-const Eigen::Vector3f kAccent(0.98f, 0.62f, 0.10f);
-
 /// Paler, so that what moves stands out.
 Eigen::Vector3f pale(const Eigen::Vector3f& c) { return 0.55f * c + Eigen::Vector3f::Constant(0.45f); }
 
@@ -44,7 +35,7 @@ Illustrator::Illustrator(const Assembly& assembly, bool y_up)
     if (placements_[i].original == i) {
       Mesh local = *part.mesh;
       for (auto& v : local.vertices) v = assembly.normalization.to_input(v) - centers_[i];
-      meshes_.back() = shade(local, kBookCrease);
+      meshes_.back() = shade(local);
     }
     // A CAD program that gives every part the same colour has given none.
     Eigen::Vector3f colour(0.62f, 0.68f, 0.75f);
@@ -58,8 +49,8 @@ DrawnBody Illustrator::body_of(const PlacedPart& placed, bool marked) const {
   const ShapePlacement& placement = placements_[placed.part];
   const Pose shape = assembly_.normalization.pose_to_input(placement.pose);
   const Pose local{centers_[placement.original], Eigen::Quaterniond::Identity()};
-  return {&meshes_[placement.original], placed.pose * shape * local, marked ? kAccent : pale(colours_[placed.part]),
-          marked};
+  return {&meshes_[placement.original], placed.pose * shape * local,
+          marked ? style_.accent : pale(colours_[placed.part]), marked};
 }
 
 Eigen::Matrix3d Illustrator::axes_of(const Viewpoint& view) const {
@@ -91,18 +82,19 @@ Camera Illustrator::camera_for(const std::vector<Eigen::Vector3d>& points, const
   out.axes = axes;
   if (box.empty()) return out;
   out.target = axes.transpose() * box.center();
-  const Eigen::Vector3d size = kMargin * box.size().cwiseMax(1e-9 * box.size().maxCoeff() + 1e-300);
+  const Eigen::Vector3d size = style_.margin * box.size().cwiseMax(1e-9 * box.size().maxCoeff() + 1e-300);
   out.scale = std::min(width / size.x(), height / size.y());
   return out;
 }
 
-Picture Illustrator::scene(const std::vector<PlacedPart>& parts, int width, int height) const {
+Picture Illustrator::scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const {
   std::vector<DrawnBody> bodies;
   for (const PlacedPart& placed : parts) {
     bodies.push_back(body_of(placed, false));
     bodies.back().colour = colours_[placed.part];
   }
-  return {draw(bodies, camera_for(corners(parts), axes_of({}), width, height), width, height), {}, {}};
+  const Camera camera = camera_for(corners(parts), axes_of({}), size.width, size.height);
+  return {draw(bodies, camera, size.width, size.height, style_.lines), {}, {}};
 }
 
 void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const {
@@ -110,13 +102,11 @@ void Illustrator::ring_specks(Picture& picture, const std::vector<PlacedPart>& p
   Aabb box;
   for (const auto& p : corners(parts)) box.extend(camera.project(p, width, height));
   const double radius = box.empty() ? 0 : 0.5 * box.size().head<2>().norm();
-  if (radius > 0 && 2 * radius < kSpeck * width)
+  if (radius > 0 && 2 * radius < style_.speck * width)
     picture.rings.emplace_back(box.center().head<2>(), radius + 0.02 * width);
 }
 
-Picture Illustrator::part(std::size_t index, int width, int height) const {
-  return scene({{index, Pose{}}}, width, height);
-}
+Picture Illustrator::part(std::size_t index) const { return scene({{index, Pose{}}}, style_.item); }
 
 std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
                                                const std::vector<std::size_t>& pose_indices) const {
@@ -129,14 +119,14 @@ std::vector<PlacedPart> Illustrator::movers_at(const BookStep& step,
 Eigen::Vector3d Illustrator::stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const {
   const Eigen::Vector3d from = mover.poses[place] * mover.center, to = mover.poses[away] * mover.center;
   const double distance = (to - from).norm();
-  if (distance >= kNearest * extent || !(distance > 1e-6 * extent)) return Eigen::Vector3d::Zero();
-  return (kNearest * extent / distance - 1) * (to - from);
+  if (distance >= style_.nearest * extent || !(distance > 1e-6 * extent)) return Eigen::Vector3d::Zero();
+  return (style_.nearest * extent / distance - 1) * (to - from);
 }
 
 Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedPart>& away,
                                  const std::vector<PlacedPart>& placed) const {
-  constexpr int kWidth = 160, kHeight = 120;
-  const auto seen = [&](const std::vector<PlacedPart>& movers, const Viewpoint& view) {
+  const auto [width, height] = style_.view_test;
+  const auto seen = [&, width = width, height = height](const std::vector<PlacedPart>& movers, const Viewpoint& view) {
     std::vector<DrawnBody> bodies, alone;
     std::vector<PlacedPart> all = step.standing;
     all.insert(all.end(), movers.begin(), movers.end());
@@ -144,9 +134,9 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
     for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
     for (const PlacedPart& p : movers) alone.push_back(body_of(p, true));
     // Near the moving parts: in a picture of the whole, a screw is less than a pixel.
-    const Camera camera = camera_for(corners(movers), axes_of(view), kWidth, kHeight);
-    const std::size_t whole = visible_pixels(alone, camera, kWidth, kHeight);
-    return whole == 0 ? 0.0 : double(visible_pixels(bodies, camera, kWidth, kHeight)) / double(whole);
+    const Camera camera = camera_for(corners(movers), axes_of(view), width, height);
+    const std::size_t whole = visible_pixels(alone, camera, width, height);
+    return whole == 0 ? 0.0 : double(visible_pixels(bodies, camera, width, height)) / double(whole);
   };
   Viewpoint best;
   double most = 0;
@@ -155,7 +145,7 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
       for (const bool left : {false, true}) {
         const Viewpoint view{left, back, below};
         const double score = seen(placed, view) + 0.7 * seen(away, view);
-        if (view.usual() || score > kBetterView * most) {
+        if (view.usual() || score > style_.better_view * most) {
           best = view;
           most = std::max(score, 0.05);
         }
@@ -163,8 +153,10 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
   return best;
 }
 
-StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width, int height, int small_width,
-                               int small_height) const {
+StepPictures Illustrator::step(const BookStep& step, bool disassembly, double scale) const {
+  const auto scaled = [scale](int pixels) { return static_cast<int>(scale * pixels); };
+  const int width = scaled(style_.step.width), height = scaled(style_.step.height);
+  const int small_width = scaled(style_.placed.width), small_height = scaled(style_.placed.height);
   // Which pose shows a part in its place, and which away from it: the end of its path unless that is very far.
   std::vector<std::size_t> at_place, at_away;
   double extent = 0;
@@ -184,7 +176,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
     const Eigen::Vector3d goal = mover.poses[place] * mover.center;
     for (std::size_t k = 0; k <= last; ++k) {  // from the place outwards
       const std::size_t at = disassembly ? k : last - k;
-      if ((mover.poses[at] * mover.center - goal).norm() < kFurthest * extent) continue;
+      if ((mover.poses[at] * mover.center - goal).norm() < style_.furthest * extent) continue;
       away = at;
       break;
     }
@@ -217,11 +209,11 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
   all.insert(all.end(), moving.begin(), moving.end());
   Camera camera = camera_for(all, axes, width, height);
   const Camera near = camera_for(moving, axes, width, height);
-  if (camera.scale < kSmallest * near.scale) {
+  if (camera.scale < style_.smallest * near.scale) {
     camera = near;
-    camera.scale *= 2 * kSmallest;
+    camera.scale *= 2 * style_.smallest;
   }
-  out.apart.image = draw(bodies_with(away), camera, width, height);
+  out.apart.image = draw(bodies_with(away), camera, width, height, style_.lines);
   for (std::size_t m = 0; m < step.movers.size(); ++m) {
     const BookMover& mover = step.movers[m];
     std::vector<Eigen::Vector2d> line;
@@ -236,7 +228,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, int width
   std::vector<Eigen::Vector3d> whole = corners(step.standing);
   whole.insert(whole.end(), there.begin(), there.end());
   const Camera around = camera_for(whole, axes, small_width, small_height);
-  out.placed.image = draw(bodies_with(placed), around, small_width, small_height);
+  out.placed.image = draw(bodies_with(placed), around, small_width, small_height, style_.lines);
   ring_specks(out.placed, placed, around);
   return out;
 }
@@ -257,7 +249,8 @@ BookPictures front_pictures(const Plan& plan, const Assembly& assembly, const Il
     whole.push_back({part, Pose{}});
     exploded.push_back({part, {offsets[i], Eigen::Quaterniond::Identity()}});
   }
-  return {illustrator.scene(whole, kFrontWidth, kFrontHeight), illustrator.scene(exploded, kFrontWidth, kFrontHeight)};
+  const PictureSize& size = illustrator.style().front;
+  return {illustrator.scene(whole, size), illustrator.scene(exploded, size)};
 }
 
 }  // namespace dismantle

@@ -11,6 +11,7 @@
 #include "dismantle/plan_io/congruent.h"
 #include "instructions.h"
 #include "raster.h"
+#include "style.h"
 
 namespace dismantle {
 
@@ -38,10 +39,6 @@ struct StepPictures {
   bool stretched = false;  ///< parts are drawn further from their place than the plan takes them
 };
 
-/// Pixels of the pictures of a book.
-inline constexpr int kStepWidth = 760, kStepHeight = 570, kPlacedWidth = 360, kPlacedHeight = 240, kItemWidth = 200,
-                     kItemHeight = 140, kFrontWidth = 520, kFrontHeight = 420;
-
 /// "seen from the back left; drawn further apart than needed", or nothing.
 std::string caption_of(const StepPictures& pictures);
 
@@ -58,14 +55,15 @@ class Illustrator {
  public:
   Illustrator(const Assembly& assembly, bool y_up);
 
-  /// The parts at these places, from the usual side; with `height` of the picture filled.
-  Picture scene(const std::vector<PlacedPart>& parts, int width, int height) const;
+  /// The parts at these places, from the usual side.
+  Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const;
   /// One part as assembled.
-  Picture part(std::size_t index, int width, int height) const;
+  Picture part(std::size_t index) const;
   /// Two parts as assembled and a ring around a place, input coordinates.
-  Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at, int width, int height) const;
-  StepPictures step(const BookStep& step, bool disassembly, int width, int height, int small_width,
-                    int small_height) const;
+  Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at) const;
+  /// `scale`: of the style's sizes in pixels.
+  StepPictures step(const BookStep& step, bool disassembly, double scale = 1) const;
+  const PictureStyle& style() const { return style_; }
   /// By part: the first part of its shape.
   const std::vector<ShapePlacement>& shapes() const { return placements_; }
 
@@ -84,6 +82,7 @@ class Illustrator {
                       const std::vector<PlacedPart>& placed) const;
 
   const Assembly& assembly_;
+  PictureStyle style_;
   bool y_up_;
   std::vector<ShapePlacement> placements_;
   std::vector<ShadedMesh> meshes_;        // by part; empty but for originals

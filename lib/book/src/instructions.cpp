@@ -11,8 +11,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kStill = 1e-6;  // of the assembly's size: what moves less relative to the base stands
-
 class InstructionWriter {
  public:
   InstructionWriter(const Plan& plan, const Assembly& assembly, bool disassembly)
@@ -23,7 +21,8 @@ class InstructionWriter {
       centers_.push_back(assembly.normalization.to_input(box.center()));
       radii_.push_back(0.5 * box.size().norm() / assembly.normalization.scale);
     }
-    size_ = assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff();
+    const double size = assembly.input_box.empty() ? 1 : assembly.input_box.size().maxCoeff();
+    still_ = 1e-6 * size;  // poses in a plan are rounded
   }
 
   std::vector<BookChapter> write() {
@@ -132,13 +131,12 @@ class InstructionWriter {
   }
 
   bool moves(std::size_t part, const std::vector<Pose>& poses) const {
-    return std::ranges::any_of(poses, [&](const Pose& p) {
-      return screw_travel(poses.front(), p, centers_[part], radii_[part]) > kStill * size_;
-    });
+    return std::ranges::any_of(
+        poses, [&](const Pose& p) { return screw_travel(poses.front(), p, centers_[part], radii_[part]) > still_; });
   }
   bool together(const std::vector<Pose>& a, const std::vector<Pose>& b, std::size_t part) const {
     for (std::size_t k = 0; k < a.size(); ++k)
-      if (screw_travel(a[k], b[k], centers_[part], radii_[part]) > kStill * size_) return false;
+      if (screw_travel(a[k], b[k], centers_[part], radii_[part]) > still_) return false;
     return true;
   }
 
@@ -161,7 +159,7 @@ class InstructionWriter {
   std::map<std::string, std::size_t> index_;
   std::vector<Eigen::Vector3d> centers_;
   std::vector<double> radii_;
-  double size_ = 1;
+  double still_ = 0;  // input units: what moves less relative to the base does not move
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;
   std::vector<Pose> now_;

@@ -3,8 +3,8 @@
 namespace dismantle {
 
 const BookLibrary* dismantle_book_library() {
-  static constexpr BookLibrary kLibrary{book_html, book_pdf, pair_png};
-  return &kLibrary;
+  static const BookLibrary library{book_html, book_pdf, pair_png};
+  return &library;
 }
 
 }  // namespace dismantle

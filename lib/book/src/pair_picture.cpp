@@ -5,28 +5,23 @@
 #include "dismantle/book/book.h"
 
 namespace dismantle {
-namespace {
-
-constexpr double kRing = 0.045;  // radius of the ring around the place, share of the width
-
-}  // namespace
-
-Picture Illustrator::pair(PartId other, PartId marked, const Eigen::Vector3d& at, int width, int height) const {
+Picture Illustrator::pair(PartId other, PartId marked, const Eigen::Vector3d& at) const {
+  const auto [width, height] = style_.step;
   const PlacedPart seen{marked, Pose{}};
   const Eigen::Matrix3d axes = axes_of(Viewpoint{});
   std::vector<Eigen::Vector3d> points = corners({seen});
   points.push_back(at);
   const Camera camera = camera_for(points, axes, width, height);
   Picture picture;
-  picture.image = draw({body_of({other, Pose{}}, false), body_of(seen, true)}, camera, width, height);
-  picture.rings.emplace_back(camera.project(at, width, height).head<2>(), kRing * width);
+  picture.image = draw({body_of({other, Pose{}}, false), body_of(seen, true)}, camera, width, height, style_.lines);
+  picture.rings.emplace_back(camera.project(at, width, height).head<2>(), style_.ring * width);
   return picture;
 }
 
 std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at, bool y_up) {
   Assembly two = assembly;
   two.parts = {assembly.parts.at(other), assembly.parts.at(marked)};
-  const std::vector<std::uint8_t> png = png_of(Illustrator(two, y_up).pair(0, 1, at, kStepWidth, kStepHeight));
+  const std::vector<std::uint8_t> png = png_of(Illustrator(two, y_up).pair(0, 1, at));
   return {png.begin(), png.end()};
 }
 

@@ -13,10 +13,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kPageWidth = 842, kPageHeight = 595, kPaper = 40;  // points; margin
-constexpr double kTextColour[3] = {0.13, 0.15, 0.19}, kSoftColour[3] = {0.4, 0.44, 0.52},
-                 kAccentColour[3] = {0.76, 0.25, 0.05}, kForcedColour[3] = {0.8, 0, 0};
-
 cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned length) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
@@ -26,7 +22,7 @@ cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned lengt
 class PdfPages {
  public:
   explicit PdfPages(const std::string& title)
-      : surface_(cairo_pdf_surface_create_for_stream(append_pdf, &bytes_, kPageWidth, kPageHeight)),
+      : surface_(cairo_pdf_surface_create_for_stream(append_pdf, &bytes_, style_.width, style_.height)),
         page_(cairo_create(surface_)) {
     // Without a date: the same plan gives the same file.
     cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_TITLE, title.c_str());
@@ -41,7 +37,7 @@ class PdfPages {
   PdfPages& operator=(const PdfPages&) = delete;
 
   /// Text in a column of `width`, at most `most` high (the rest becomes an ellipsis). Returns its height.
-  double text(double x, double y, double width, const std::string& words, double size, const double colour[3],
+  double text(double x, double y, double width, const std::string& words, double size, const Eigen::Vector3d& colour,
               bool bold = false, double most = 400) {
     const std::unique_ptr<PangoLayout, decltype(&g_object_unref)> layout(pango_cairo_create_layout(page_),
                                                                          g_object_unref);
@@ -69,8 +65,8 @@ class PdfPages {
     for (const auto& [name, value] : facts) {
       if (y + 1.4 * size > bottom) break;
       const double most = bottom - y;
-      const double a = text(x, y, column - 6, name, size, kSoftColour, false, most);
-      const double b = text(x + column, y, width - column, value, size, kTextColour, false, std::min(most, 3.9 * size));
+      const double a = text(x, y, column - 6, name, size, style_.soft, false, most);
+      const double b = text(x + column, y, width - column, value, size, style_.text, false, std::min(most, 3.9 * size));
       y += std::max(a, b) + 2;
     }
     return y - begin;
@@ -99,75 +95,85 @@ class PdfPages {
     return std::move(bytes_);
   }
 
+  const PageStyle& style() const { return style_; }
+
  private:
+  PageStyle style_;
   std::string bytes_;
   cairo_surface_t* surface_;
   cairo_t* page_;
 };
 
 void title_page(PdfPages& pdf, const BookContent& content, const BookPictures& fronts) {
-  double y = kPaper;
-  const double width = kPageWidth - 2 * kPaper;
-  y += pdf.text(kPaper, y, width, content.title, 30, kTextColour, true, 80) + 2;
-  y += pdf.text(kPaper, y, width, content.subtitle, 14, kSoftColour) + 6;
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin;
+  double y = margin;
+  const double width = style.width - 2 * margin;
+  y += pdf.text(margin, y, width, content.title, 30, style.text, true, 80) + 2;
+  y += pdf.text(margin, y, width, content.subtitle, 14, style.soft) + 6;
   for (const std::string& warning : content.warnings)
-    y += pdf.text(kPaper, y, width, warning, 10.5, kAccentColour, false, 42) + 4;
-  const double facts_height = 118, height = kPageHeight - kPaper - facts_height - y;
-  pdf.picture(fronts.whole, kPaper, y, 0.5 * width - 10, height - 8);
-  pdf.picture(fronts.exploded, kPaper + 0.5 * width + 10, y, 0.5 * width - 10, height - 8);
-  pdf.facts(kPaper, kPageHeight - kPaper - facts_height, width, content.facts, 11, kPageHeight - kPaper);
+    y += pdf.text(margin, y, width, warning, 10.5, style.accent, false, 42) + 4;
+  const double facts_height = 118, height = style.height - margin - facts_height - y;
+  pdf.picture(fronts.whole, margin, y, 0.5 * width - 10, height - 8);
+  pdf.picture(fronts.exploded, margin + 0.5 * width + 10, y, 0.5 * width - 10, height - 8);
+  pdf.facts(margin, style.height - margin - facts_height, width, content.facts, 11, style.height - margin);
   pdf.end_page();
 }
 
 void item_pages(PdfPages& pdf, const BookContent& content, const Assembly& assembly, const Illustrator& illustrator) {
-  constexpr int kColumns = 5, kRows = 3;
-  const double width = kPageWidth - 2 * kPaper, top = kPaper + 34, gap = 8;
-  const double w = (width - (kColumns - 1) * gap) / kColumns,
-               h = (kPageHeight - kPaper - top - (kRows - 1) * gap) / kRows;
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin;
+  const int columns = style.item_columns, rows = style.item_rows;
+  const auto per_page = static_cast<std::size_t>(columns * rows);
+  const double width = style.width - 2 * margin, top = margin + 34, gap = 8;
+  const double w = (width - (columns - 1) * gap) / columns, h = (style.height - margin - top - (rows - 1) * gap) / rows;
   for (std::size_t i = 0; i < content.items.size(); ++i) {
-    const std::size_t at = i % (kColumns * kRows);
-    if (at == 0) pdf.text(kPaper, kPaper, width, "Bill of materials", 19, kTextColour, true);
+    const std::size_t at = i % per_page;
+    if (at == 0) pdf.text(margin, margin, width, "Bill of materials", 19, style.text, true);
     const BookItem& item = content.items[i];
-    const double x = kPaper + double(at % kColumns) * (w + gap), y = top + double(at / kColumns) * (h + gap);
+    const double x = margin + double(at % style.item_columns) * (w + gap),
+                 y = top + double(at / style.item_columns) * (h + gap);
     pdf.frame(x, y, w, h);
-    pdf.text(x + 6, y + 5, 40, fmt::format("({})", item.number), 11, kTextColour, true);
-    pdf.text(x + w - 46, y + 5, 42, fmt::format("{} ×", item.parts.size()), 11, kTextColour, true);
-    pdf.picture(illustrator.part(item.parts.front(), kItemWidth, kItemHeight), x + 6, y + 18, w - 12, h - 64);
+    pdf.text(x + 6, y + 5, 40, fmt::format("({})", item.number), 11, style.text, true);
+    pdf.text(x + w - 46, y + 5, 42, fmt::format("{} ×", item.parts.size()), 11, style.text, true);
+    pdf.picture(illustrator.part(item.parts.front()), x + 6, y + 18, w - 12, h - 64);
     std::string names;
     for (const std::size_t part : item.parts) names += (names.empty() ? "" : ", ") + assembly.parts[part].name;
     double line = y + h - 44;
-    line += pdf.text(x + 6, line, w - 12, item.name, 9.5, kTextColour, true, 12);
-    if (item.parts.size() > 1) line += pdf.text(x + 6, line, w - 12, names, 7.5, kSoftColour, false, 10);
-    pdf.text(x + 6, line, w - 12, item.size, 7.5, kSoftColour, false, 10);
-    if (at + 1 == kColumns * kRows || i + 1 == content.items.size()) pdf.end_page();
+    line += pdf.text(x + 6, line, w - 12, item.name, 9.5, style.text, true, 12);
+    if (item.parts.size() > 1) line += pdf.text(x + 6, line, w - 12, names, 7.5, style.soft, false, 10);
+    pdf.text(x + 6, line, w - 12, item.size, 7.5, style.soft, false, 10);
+    if (at + 1 == per_page || i + 1 == content.items.size()) pdf.end_page();
   }
 }
 
 void pdf_step(PdfPages& pdf, const BookPage& page, const StepPictures& pictures, bool disassembly) {
-  const double width = kPageWidth - 2 * kPaper, column = 0.33 * width, large = width - column - 18;
-  pdf.text(kPaper, kPaper - 14, 0.7 * width, page.chapter, 10.5, kSoftColour);
-  pdf.text(kPageWidth - kPaper - 96, kPaper - 14, 96, fmt::format("step {} of {}", page.number, page.count), 10.5,
-           kSoftColour);
-  pdf.picture(pictures.apart, kPaper, kPaper + 8, large, kPageHeight - 2 * kPaper - 24);
+  const PageStyle& style = pdf.style();
+  const double margin = style.margin;
+  const double width = style.width - 2 * margin, column = 0.33 * width, large = width - column - 18;
+  pdf.text(margin, margin - 14, 0.7 * width, page.chapter, 10.5, style.soft);
+  pdf.text(style.width - margin - 96, margin - 14, 96, fmt::format("step {} of {}", page.number, page.count), 10.5,
+           style.soft);
+  pdf.picture(pictures.apart, margin, margin + 8, large, style.height - 2 * margin - 24);
   if (const std::string caption = caption_of(pictures); !caption.empty())
-    pdf.text(kPaper, kPageHeight - kPaper - 12, large, caption, 10, kSoftColour);
+    pdf.text(margin, style.height - margin - 12, large, caption, 10, style.soft);
 
-  const double x = kPageWidth - kPaper - column, placed_height = 150,
-               bottom = kPageHeight - kPaper - placed_height - 24;
-  double y = kPaper + 6;
-  y += pdf.text(x, y, column, std::to_string(page.number), 36, kTextColour, true) + 2;
-  y += pdf.text(x, y, column, page.verb + ":", 13, kTextColour) + 1;
+  const double x = style.width - margin - column, placed_height = 150,
+               bottom = style.height - margin - placed_height - 24;
+  double y = margin + 6;
+  y += pdf.text(x, y, column, std::to_string(page.number), 36, style.text, true) + 2;
+  y += pdf.text(x, y, column, page.verb + ":", 13, style.text) + 1;
   for (const auto& [item, words] : page.moving) {
     if (y + 16 > bottom) break;
-    y += pdf.text(x, y, column, item == 0 ? words : fmt::format("({}) {}", item, words), 13, kTextColour, true, 34) + 1;
+    y += pdf.text(x, y, column, item == 0 ? words : fmt::format("({}) {}", item, words), 13, style.text, true, 34) + 1;
   }
   for (const std::string& motion : page.motions) {
     if (y + 16 > bottom) break;
-    y += pdf.text(x, y, column, motion, 12, kAccentColour, true, 64) + 4;
-    if (!page.warning.empty()) y += pdf.text(x, y, column, page.warning, 12, kForcedColour, true, 64) + 4;
+    y += pdf.text(x, y, column, motion, 12, style.accent, true, 64) + 4;
+    if (!page.warning.empty()) y += pdf.text(x, y, column, page.warning, 12, style.forced, true, 64) + 4;
   }
   pdf.facts(x, y + 2, column, page.facts, 9.5, bottom);
-  pdf.text(x, bottom + 6, column, disassembly ? "before" : "after", 9.5, kSoftColour);
+  pdf.text(x, bottom + 6, column, disassembly ? "before" : "after", 9.5, style.soft);
   pdf.frame(x, bottom + 22, column, placed_height);
   pdf.picture(pictures.placed, x + 4, bottom + 25, column - 8, placed_height - 6);
   pdf.end_page();
@@ -183,10 +189,7 @@ std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptio
   item_pages(pdf, content, assembly, illustrator);
   for (const BookPage& page : content.pages) {
     options.on_page(page.number, page.count);
-    pdf_step(pdf, page,
-             illustrator.step(*page.step, options.disassembly, kStepWidth * 3 / 2, kStepHeight * 3 / 2,
-                              kPlacedWidth * 3 / 2, kPlacedHeight * 3 / 2),
-             options.disassembly);
+    pdf_step(pdf, page, illustrator.step(*page.step, options.disassembly, 1.5), options.disassembly);
   }
   return pdf.finish();
 }

@@ -8,10 +8,6 @@
 namespace dismantle {
 namespace {
 
-constexpr int kSamples = 2;             // per pixel and axis
-constexpr float kCreaseCosine = 0.82f;  // normals of neighbouring samples further apart than 35 degrees: an edge
-constexpr float kOutline = 0.8f, kCrease = 0.4f, kShimmer = 0.28f;  // opacities
-
 /// Depth, body and normal of the front surface at each sample.
 struct Layer {
   int width, height;
@@ -82,8 +78,8 @@ Layer render(const std::vector<DrawnBody>& bodies, const Camera& camera, int wid
 }
 
 /// How dark the line between two neighbouring samples is, 0 for none.
-float edge_between(const Layer& layer, std::size_t a, std::size_t b, int axis, float distance) {
-  if (layer.body[a] != layer.body[b]) return kOutline;
+float edge_between(const Layer& layer, std::size_t a, std::size_t b, int axis, float distance, const LineStyle& style) {
+  if (layer.body[a] != layer.body[b]) return style.outline;
   if (layer.body[a] < 0) return 0;
   const Eigen::Vector3f &m = layer.normal[a], &n = layer.normal[b];
   // Where the surface goes on as its normal says, depth changes by this much.
@@ -91,16 +87,16 @@ float edge_between(const Layer& layer, std::size_t a, std::size_t b, int axis, f
     return (axis == 0 ? -v.x() : v.y()) / std::max(v.z(), 0.05f) * distance;
   };
   const float jump = std::abs(layer.depth[b] - layer.depth[a]);
-  if (jump > 6 * distance + 2 * std::max(std::abs(slope(m)), std::abs(slope(n)))) return kOutline;
-  return m.normalized().dot(n.normalized()) < kCreaseCosine ? kCrease : 0;
+  if (jump > 6 * distance + 2 * std::max(std::abs(slope(m)), std::abs(slope(n)))) return style.outline;
+  return m.normalized().dot(n.normalized()) < style.crease_cosine ? style.crease : 0;
 }
 
-float line_at(const Layer& layer, int x, int y) {
+float line_at(const Layer& layer, int x, int y, const LineStyle& style) {
   float dark = 0;
   const std::size_t here = layer.at(x, y);
   for (int d = 1; d <= 2; ++d) {
-    if (x + d < layer.width) dark = std::max(dark, edge_between(layer, here, layer.at(x + d, y), 0, float(d)));
-    if (y + d < layer.height) dark = std::max(dark, edge_between(layer, here, layer.at(x, y + d), 1, float(d)));
+    if (x + d < layer.width) dark = std::max(dark, edge_between(layer, here, layer.at(x + d, y), 0, float(d), style));
+    if (y + d < layer.height) dark = std::max(dark, edge_between(layer, here, layer.at(x, y + d), 1, float(d), style));
   }
   return dark;
 }
@@ -115,19 +111,19 @@ Eigen::Vector3f lit(const Eigen::Vector3f& colour, const Eigen::Vector3f& normal
 
 }  // namespace
 
-Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height) {
+Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height, const LineStyle& style) {
   Camera fine = camera;
-  fine.scale *= kSamples;
-  const Layer front = render(bodies, fine, width * kSamples, height * kSamples, true);
-  const Layer marked = render(bodies, fine, width * kSamples, height * kSamples, false);
-  const Eigen::Vector3f ink(0.13f, 0.15f, 0.19f);
+  fine.scale *= style.samples;
+  const Layer front = render(bodies, fine, width * style.samples, height * style.samples, true);
+  const Layer marked = render(bodies, fine, width * style.samples, height * style.samples, false);
+  const Eigen::Vector3f& ink = style.ink;
 
   Image out{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       Eigen::Vector4f sum = Eigen::Vector4f::Zero();  // premultiplied
-      for (int s = 0; s < kSamples * kSamples; ++s) {
-        const int sx = x * kSamples + s % kSamples, sy = y * kSamples + s / kSamples;
+      for (int s = 0; s < style.samples * style.samples; ++s) {
+        const int sx = x * style.samples + s % style.samples, sy = y * style.samples + s / style.samples;
         const std::size_t at = front.at(sx, sy);
         Eigen::Vector3f rgb = ink;
         float alpha = 0;
@@ -137,19 +133,20 @@ Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width
         };
         if (const std::int32_t b = front.body[at]; b >= 0)
           over(lit(bodies[static_cast<std::size_t>(b)].colour, front.normal[at]), 1);
-        if (const float line = line_at(front, sx, sy); line > 0) over(ink, line);
+        if (const float line = line_at(front, sx, sy, style); line > 0) over(ink, line);
         if (const std::int32_t b = marked.body[at]; front.body[at] >= 0 && front.body[at] != b) {
           const bool hidden = b >= 0;
-          if (hidden) over(bodies[static_cast<std::size_t>(b)].colour, kShimmer);
-          if (line_at(marked, sx, sy) > 0 && (hidden || !bodies[static_cast<std::size_t>(front.body[at])].marked))
-            over(hidden ? bodies[static_cast<std::size_t>(b)].colour * 0.6f : ink, kCrease);
+          if (hidden) over(bodies[static_cast<std::size_t>(b)].colour, style.shimmer);
+          if (line_at(marked, sx, sy, style) > 0 &&
+              (hidden || !bodies[static_cast<std::size_t>(front.body[at])].marked))
+            over(hidden ? bodies[static_cast<std::size_t>(b)].colour * 0.6f : ink, style.crease);
         }
         sum += Eigen::Vector4f(alpha * rgb.x(), alpha * rgb.y(), alpha * rgb.z(), alpha);
       }
       std::uint32_t word = 0;
       for (const int channel : {3, 0, 1, 2})
         word = word << 8 | static_cast<std::uint32_t>(
-                               std::lround(255 * std::clamp(sum[channel] / (kSamples * kSamples), 0.f, 1.f)));
+                               std::lround(255 * std::clamp(sum[channel] / (style.samples * style.samples), 0.f, 1.f)));
       out.pixels[static_cast<std::size_t>(y) * width + x] = word;
     }
   return out;

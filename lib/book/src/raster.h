@@ -11,6 +11,7 @@
 
 #include "dismantle/plan_io/shading.h"
 #include "dismantle/pose.h"
+#include "style.h"
 
 namespace dismantle {
 
@@ -41,7 +42,8 @@ struct Image {
 };
 
 /// Edges are drawn where parts, depths or normals break.
-Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height);
+Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height,
+           const LineStyle& style = {});
 
 /// Pixels in which a marked body is the front one. Coarser pictures answer faster.
 std::size_t visible_pixels(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height);
