@@ -1,17 +1,34 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "solids.h"
 
 namespace dismantle::samples {
 namespace {
 
-constexpr double kSame = 1e-9;  // mm; coordinates closer than this are one grid plane
+/// The planes of a grid along one axis, ascending; coordinates that differ by rounding only are one plane.
+class Planes {
+ public:
+  explicit Planes(std::vector<double> all) : planes_(std::move(all)) {
+    std::sort(planes_.begin(), planes_.end());
+    same_ = 1e-9 * std::max(std::abs(planes_.front()), std::abs(planes_.back()));
+    planes_.erase(std::unique(planes_.begin(), planes_.end(), [this](double a, double b) { return b - a < same_; }),
+                  planes_.end());
+  }
+  std::size_t index(double x) const {
+    return static_cast<std::size_t>(std::lower_bound(planes_.begin(), planes_.end(), x - same_) - planes_.begin());
+  }
+  std::size_t size() const { return planes_.size(); }
+  double operator[](std::size_t i) const { return planes_[i]; }
 
-std::size_t plane_of(const std::vector<double>& planes, double x) {
-  return static_cast<std::size_t>(std::lower_bound(planes.begin(), planes.end(), x - kSame) - planes.begin());
-}
+ private:
+  std::vector<double> planes_;
+  double same_ = 0;  // mm
+};
 
 }  // namespace
 
@@ -26,24 +43,20 @@ Cells& Cells::cut(const Point& lo, const Point& hi) {
 }
 
 Mesh Cells::mesh() const {
-  std::array<std::vector<double>, 3> planes;
-  for (int axis = 0; axis < 3; ++axis) {
-    auto& p = planes[static_cast<std::size_t>(axis)];
-    for (const auto& op : ops_) {
-      p.push_back(op.lo[axis]);
-      p.push_back(op.hi[axis]);
-    }
-    std::sort(p.begin(), p.end());
-    p.erase(std::unique(p.begin(), p.end(), [](double a, double b) { return b - a < kSame; }), p.end());
-  }
+  const auto planes_across = [this](int axis) {
+    std::vector<double> all;
+    for (const auto& op : ops_) all.insert(all.end(), {op.lo[axis], op.hi[axis]});
+    return Planes(std::move(all));
+  };
+  const std::array<Planes, 3> planes{planes_across(0), planes_across(1), planes_across(2)};
   const std::array<std::size_t, 3> n = {planes[0].size() - 1, planes[1].size() - 1, planes[2].size() - 1};
   std::vector<char> solid(n[0] * n[1] * n[2], 0);
   const auto at = [&n](std::size_t i, std::size_t j, std::size_t k) { return (k * n[1] + j) * n[0] + i; };
   for (const auto& op : ops_) {
     std::array<std::size_t, 3> lo{}, hi{};
     for (std::size_t a = 0; a < 3; ++a) {
-      lo[a] = plane_of(planes[a], op.lo[static_cast<int>(a)]);
-      hi[a] = plane_of(planes[a], op.hi[static_cast<int>(a)]);
+      lo[a] = planes[a].index(op.lo[static_cast<int>(a)]);
+      hi[a] = planes[a].index(op.hi[static_cast<int>(a)]);
     }
     for (std::size_t k = lo[2]; k < hi[2]; ++k)
       for (std::size_t j = lo[1]; j < hi[1]; ++j)

@@ -72,22 +72,26 @@ Model spring_between_seats(const SpringParams& p) {
   if (p.pitch < 1.5 * p.wire || p.pitch > p.diameter)
     throw std::invalid_argument("spring_between_seats: pitch is not between 1.5 times wire and diameter");
   if (p.cut > p.wire / 6) throw std::invalid_argument("spring_between_seats: cut is more than a sixth of wire");
-  constexpr int kSides = 16, kPerTurn = 48, kSeat = 64;  // the lowest and the highest point of a section are corners
+  // Corners of the wire's section (a multiple of four, so that its lowest and highest point are corners), sections per
+  // turn, and corners of the seats.
+  const int sides = 16, per_turn = 48, seat_corners = 64;
   Model model;
   const double w = p.wire / 2, coil = p.diameter / 2, rise = p.pitch * p.turns, top = rise + 2 * (w - p.cut);
   const double seat = coil + 2 * p.wire, thick = 1.5 * p.wire;
   model.clearance = 0.9 * top;
-  add_part(model, "lower_seat", Loft().to(circle(seat, -thick, kSeat)).to(circle(seat, 0, kSeat)).capped());
-  const int pieces = static_cast<int>(std::ceil(kPerTurn * p.turns));
+  add_part(model, "lower_seat",
+           Loft().to(circle(seat, -thick, seat_corners)).to(circle(seat, 0, seat_corners)).capped());
+  const int pieces = static_cast<int>(std::ceil(per_turn * p.turns));
   Loft spring;
   for (int i = 0; i <= pieces; ++i) {
     const double share = static_cast<double>(i) / pieces;
-    Loop section = tube_section(coil, w, 2 * pi * p.turns * share, kSides);
+    Loop section = tube_section(coil, w, 2 * pi * p.turns * share, sides);
     for (Point& point : section) point.z() += w - p.cut + rise * share;
     spring.to(section);
   }
   add_part(model, "spring", spring.capped());
-  add_part(model, "upper_seat", Loft().to(circle(seat, top, kSeat)).to(circle(seat, top + thick, kSeat)).capped());
+  add_part(model, "upper_seat",
+           Loft().to(circle(seat, top, seat_corners)).to(circle(seat, top + thick, seat_corners)).capped());
   const Point up(0, 0, top + thick + p.wire), down = -up;
   model.truth.base = "lower_seat";
   model.truth.steps.push_back(slide("upper_seat", up, true));
@@ -118,7 +122,7 @@ constexpr double kPressureAngle = 20 * pi / 180;
 
 /// Section of a spur gear with involute teeth (20 degrees) about the z axis, a tooth at angle `phase`; height z.
 Loop gear_section(int teeth, double module, double phase, double z) {
-  constexpr int kPoints = 12;  // per flank
+  const int points = 12;  // per flank
   const double pitch_radius = module * teeth / 2, base = pitch_radius * std::cos(kPressureAngle);
   const double root = pitch_radius - 1.25 * module, tip = pitch_radius + module, foot = std::max(base, root);
   const auto involute = [base](double r) {
@@ -132,8 +136,8 @@ Loop gear_section(int teeth, double module, double phase, double z) {
   if (root < base - 1e-6 * module) flank.emplace_back(root, half_angle(base) + 0.1 * (base - root) / base);
   const double from = std::sqrt(std::max(0.0, foot * foot / (base * base) - 1));
   const double to = std::sqrt(tip * tip / (base * base) - 1);
-  for (int i = 0; i < kPoints; ++i) {
-    const double t = from + (to - from) * i / (kPoints - 1), r = base * std::sqrt(1 + t * t);
+  for (int i = 0; i < points; ++i) {
+    const double t = from + (to - from) * i / (points - 1), r = base * std::sqrt(1 + t * t);
     flank.emplace_back(r, half_angle(r));
   }
   Loop loop;

@@ -8,8 +8,11 @@ namespace dismantle::samples {
 namespace {
 
 using std::numbers::pi;
-constexpr int kPieces = 12;                 // pieces of each side of the twisted square
-constexpr double kLayer = 2.5 * pi / 180;  // twist from layer to layer
+/// Resolution of a twisted bar.
+struct TwistMesh {
+  int pieces = 12;                // of each side of the square
+  double layer = 2.5 * pi / 180;  // turn from layer to layer, rad
+};
 
 struct InterlockParams {
   double size = 12, turn = 180, clearance = 0.2;
@@ -22,20 +25,21 @@ struct InterlockParams {
   }
 };
 
-/// Square of half edge `half`, turned by `angle`, every side in kPieces pieces.
+/// Square of half edge `half`, turned by `angle`, every side in pieces.
 Loop twisted_square(double half, double angle, double z) {
   Loop loop;
+  const int pieces = TwistMesh{}.pieces;
   const Loop corners = rectangle(half, half, z);
   const Eigen::AngleAxisd turn(angle, Point::UnitZ());
   for (std::size_t side = 0; side < 4; ++side)
-    for (int i = 0; i < kPieces; ++i)
-      loop.push_back(turn * (corners[side] + (corners[(side + 1) % 4] - corners[side]) * (double(i) / kPieces)));
+    for (int i = 0; i < pieces; ++i)
+      loop.push_back(turn * (corners[side] + (corners[(side + 1) % 4] - corners[side]) * (double(i) / pieces)));
   return loop;
 }
 
 /// Layers of a bar that turns `rate` rad / mm and starts untwisted at z = start.
 void twist(Loft& loft, double half, double rate, double start, double from, double to) {
-  const int layers = static_cast<int>(std::ceil(std::abs(to - from) * rate / kLayer));
+  const int layers = static_cast<int>(std::ceil(std::abs(to - from) * rate / TwistMesh{}.layer));
   for (int i = 0; i <= layers; ++i) {
     const double z = from + (to - from) * i / layers;
     loft.to(twisted_square(half, rate * (z - start), z));
@@ -63,7 +67,8 @@ Model interlock3(const InterlockParams& p) {
 
   // The hole's sides stand off by the clearance measured square to the helical surface, and by what the flat
   // triangles of both surfaces stray from it.
-  const double stray = 2 * (s / kPieces) * kLayer / 4 + 2 * corner * (1 - std::cos(kLayer / 2));
+  const TwistMesh mesh;
+  const double stray = 2 * (s / mesh.pieces) * mesh.layer / 4 + 2 * corner * (1 - std::cos(mesh.layer / 2));
   const double hole = half + 1.02 * c * std::hypot(1.0, rate * corner * 1.2) + stray;
   Loft block;
   block.to(rectangle(block_half, block_half, start)).to(rectangle(block_half, block_half, block_top));

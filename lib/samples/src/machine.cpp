@@ -19,10 +19,13 @@ struct MachineParams {
   }
 };
 
-constexpr double kTile = 24;  // mm; one module each
-constexpr double kRoot = 3;   // half width of the square foot of every module
-constexpr double kDeep = 6;   // depth of the foot in the base
-constexpr double kLift = 80;  // mm; lifts any part of a module above every other part
+/// What all modules have in common, mm.
+struct ModuleShape {
+  double tile = 24;  // edge of the square on the base that a module has for itself
+  double root = 3;   // half width of its square foot
+  double deep = 6;   // depth of the foot in the base
+  double lift = 80;  // takes any part of a module above every other part
+};
 
 enum class ModuleKind { stack, pinned, fork };
 
@@ -56,7 +59,7 @@ class ModuleMaker {
     const int washers = parts - 1, n = p_.segments;
     const double flange = 3, r = 3, step = 4, height = flange + washers * step + 4;
     Loft shaft;
-    shaft.to(rectangle(kRoot, kRoot, c_ - kDeep)).to(rectangle(kRoot, kRoot, c_));
+    shaft.to(rectangle(shape_.root, shape_.root, c_ - shape_.deep)).to(rectangle(shape_.root, shape_.root, c_));
     shaft.to(circle(8, c_, n)).to(circle(8, flange, n)).to(circle(r, flange, n)).to(circle(r, height, n));
     const std::string shaft_name = add("shaft_" + number_, shaft.capped());
     const double bore = around(r + c_, n);
@@ -75,8 +78,8 @@ class ModuleMaker {
     const int bridges = parts - 1;
     const double bar = 4, step = 4, height = bar + bridges * step + 4;
     Cells body;
-    body.add(Point(-kRoot, -kRoot, c_ - kDeep), Point(kRoot, kRoot, c_));
-    body.add(Point(-8, -kRoot, c_), Point(8, kRoot, bar));
+    body.add(Point(-shape_.root, -shape_.root, c_ - shape_.deep), Point(shape_.root, shape_.root, c_));
+    body.add(Point(-8, -shape_.root, c_), Point(8, shape_.root, bar));
     for (const double x : {-8.0, 4.0}) body.add(Point(x, -2, bar), Point(x + 4, 2, height));
     const std::string fork_name = add("fork_" + number_, body.mesh());
     std::vector<std::string> names;
@@ -94,9 +97,9 @@ class ModuleMaker {
   void unstack(const std::vector<std::string>& names, const std::string& carrier) {
     for (std::size_t k = names.size(); k-- > 0;) {
       before(names[k], k > 0 ? names[k - 1] : carrier);
-      remove(names[k], Point(0, 0, kLift));
+      remove(names[k], Point(0, 0, shape_.lift));
     }
-    remove(carrier, Point(0, 0, kLift));
+    remove(carrier, Point(0, 0, shape_.lift));
   }
 
   /// A tower, a cap over it and a pin with a head through both, which leaves to the outside.
@@ -112,7 +115,7 @@ class ModuleMaker {
     };
     const double pin = 1.5, axis = 9;  // half width and height of the pin
     Cells tower, cap, bolt;
-    box(tower, true, Point(-kRoot, -kRoot, c_ - kDeep), Point(kRoot, kRoot, c_));
+    box(tower, true, Point(-shape_.root, -shape_.root, c_ - shape_.deep), Point(shape_.root, shape_.root, c_));
     box(tower, true, Point(-5, -5, c_), Point(5, 5, 14));
     box(tower, false, Point(-pin - c_, -5, axis - pin - c_), Point(pin + c_, 5, axis + pin + c_));
     box(cap, true, Point(-8, -8, 2), Point(8, 8, 17));
@@ -126,8 +129,8 @@ class ModuleMaker {
     before(pin_name, cap_name);
     before(cap_name, tower_name);
     remove(pin_name, Point(0, out * 25, 0));
-    remove(cap_name, Point(0, 0, kLift));
-    remove(tower_name, Point(0, 0, kLift));
+    remove(cap_name, Point(0, 0, shape_.lift));
+    remove(tower_name, Point(0, 0, shape_.lift));
   }
 
   Model& model_;
@@ -136,6 +139,7 @@ class ModuleMaker {
   Point place_;
   std::string number_;
   double outward_;
+  ModuleShape shape_;
 };
 
 /// Modules that use up `parts` parts. Pinned towers stand in the first and last row only, where their pins
@@ -176,15 +180,16 @@ Model machine(const MachineParams& p) {
       modules[i].kind = ModuleKind::stack;
   }
 
-  const Point size(columns * kTile, rows * kTile, 0);
+  const ModuleShape shape;
+  const Point size(columns * shape.tile, rows * shape.tile, 0);
   Cells base;
-  base.add(Point(0, 0, -kDeep - 6), size);
-  const double half = kRoot + p.clearance;
+  base.add(Point(0, 0, -shape.deep - 6), size);
+  const double half = shape.root + p.clearance;
   const auto place = [&](std::size_t i) {
-    return Point((static_cast<int>(i) % columns + 0.5) * kTile, (row_of(i) + 0.5) * kTile, 0);
+    return Point((static_cast<int>(i) % columns + 0.5) * shape.tile, (row_of(i) + 0.5) * shape.tile, 0);
   };
   for (std::size_t i = 0; i < modules.size(); ++i)
-    base.cut(place(i) + Point(-half, -half, -kDeep), place(i) + Point(half, half, 0));
+    base.cut(place(i) + Point(-half, -half, -shape.deep), place(i) + Point(half, half, 0));
   model.truth.base = add_part(model, "base", base.mesh());
   for (std::size_t i = 0; i < modules.size(); ++i)
     ModuleMaker(model, p, place(i), static_cast<int>(i) + 1, row_of(i) == 0 ? -1.0 : 1.0).make(modules[i]);

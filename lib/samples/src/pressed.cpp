@@ -128,7 +128,7 @@ struct ORingParams {
 Model o_ring(const ORingParams& p) {
   if (p.section > p.diameter / 4) throw std::invalid_argument("o_ring: section is more than a quarter of diameter");
   if (p.squeeze > p.section / 8) throw std::invalid_argument("o_ring: squeeze is more than an eighth of section");
-  constexpr int kSides = 24;  // of the ring's section; a multiple of four, so that its extremes are corners
+  const int sides = 24;  // of the ring's section; a multiple of four, so that its extremes are corners
   Model model;
   model.clearance = p.clearance;
   const double shaft = p.diameter / 2, bore = around(shaft + p.clearance, p.segments), w = p.section / 2;
@@ -143,13 +143,13 @@ Model o_ring(const ORingParams& p) {
   add_part(model, "housing", Loft().to(at(bore, 0)).to(at(outer, 0)).to(at(outer, length)).to(at(bore, length)).ring());
   Loft ring;
   for (int i = 0; i < p.segments; ++i) {
-    Loop section = tube_section(middle, w, 2 * pi * i / p.segments, kSides);
+    Loop section = tube_section(middle, w, 2 * pi * i / p.segments, sides);
     for (Point& point : section) point.z() += z;
     ring.to(section);
   }
   add_part(model, "ring", ring.ring());
   const Point travel(0, 0, length + 2 * over);
-  const double facets = (floor + w) * (1 - std::cos(pi / p.segments)) + w * (1 - std::cos(pi / kSides));
+  const double facets = (floor + w) * (1 - std::cos(pi / p.segments)) + w * (1 - std::cos(pi / sides));
   model.truth.contacts.push_back(
       {"ring", "housing", ContactClass::uniform_interference, p.squeeze, facets, along(travel)});
   model.truth.contacts.push_back({"ring", "shaft", ContactClass::uniform_interference, p.squeeze, facets, {}});

@@ -7,7 +7,7 @@
 namespace dismantle::samples {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+using std::numbers::pi;
 
 /// Phases in [-pitch / 2, pitch / 2) at which the profile has a corner.
 std::array<double, 4> corners(const ThreadProfile& p) {
@@ -17,21 +17,22 @@ std::array<double, 4> corners(const ThreadProfile& p) {
 /// Uniform angles, with those added at which a corner of the profile leaves through an end plane, so that the
 /// end loops are exact. Uniform ones too close to an added one would make slivers and are left out.
 std::vector<double> column_angles(const ThreadProfile& profile, double z0, double z1, int segments) {
-  const double step = kTurn / segments;
+  const double step = 2 * pi / segments;
   std::vector<double> exact;
   for (const double z : {z0, z1})
     for (const double phase : corners(profile)) {
       const double turns = (z - phase) / profile.pitch;
-      const double angle = kTurn * (turns - std::floor(turns));
+      const double angle = 2 * pi * (turns - std::floor(turns));
       const bool known = std::any_of(exact.begin(), exact.end(),
-                                     [&](double e) { return std::abs(std::remainder(e - angle, kTurn)) < 1e-6; });
+                                     [&](double e) { return std::abs(std::remainder(e - angle, 2 * pi)) < 1e-6; });
       if (!known) exact.push_back(angle);
     }
   std::vector<double> angles = exact;
   for (int i = 0; i < segments; ++i) {
     const double angle = step * i;
-    const bool crowded = std::any_of(
-        exact.begin(), exact.end(), [&](double e) { return std::abs(std::remainder(e - angle, kTurn)) < 0.25 * step; });
+    const bool crowded = std::any_of(exact.begin(), exact.end(), [&](double e) {
+      return std::abs(std::remainder(e - angle, 2 * pi)) < 0.25 * step;
+    });
     if (!crowded) angles.push_back(angle);
   }
   std::sort(angles.begin(), angles.end());
@@ -58,7 +59,7 @@ ThreadWall thread_wall(const ThreadProfile& profile, double z0, double z1, int s
   const auto angles = column_angles(profile, z0, z1, segments);
   std::vector<std::vector<ColumnPoint>> columns;
   for (const double angle : angles) {
-    const double climb = pitch * angle / kTurn;
+    const double climb = pitch * angle / (2 * pi);
     std::vector<ColumnPoint> column;
     const auto put = [&](double phase, double z) {
       const double r = profile.radius(phase);
@@ -85,7 +86,7 @@ ThreadWall thread_wall(const ThreadProfile& profile, double z0, double z1, int s
     const auto& left = columns[c];
     const auto& right = columns[wraps ? 0 : c + 1];
     const double shift = wraps ? -pitch : 0.0;  // the right column is met one turn further up
-    const double gap = wraps ? angles.front() + kTurn - angles.back() : angles[c + 1] - angles[c];
+    const double gap = wraps ? angles.front() + 2 * pi - angles.back() : angles[c + 1] - angles[c];
     wall.half_gap = std::max(wall.half_gap, gap / 2);
     std::size_t l = 0, r = 0;
     while (l + 1 < left.size() || r + 1 < right.size()) {
