@@ -14,8 +14,8 @@
 namespace dismantle {
 namespace {
 
-/// Where handlers of signals run (SA_ONSTACK) in a thread whose own stack may be what has overflowed. Without one, such a
-/// thread ends the process before any handler can say why.
+/// Where handlers of signals run (SA_ONSTACK) in a thread whose own stack may be what has overflowed. Without one, such
+/// a thread ends the process before any handler can say why.
 class SignalStack {
  public:
   SignalStack() {
@@ -159,18 +159,17 @@ bool Executor::TaskHandle::done() const {
 }
 
 void Executor::TaskHandle::wait() {
-  constexpr std::chrono::milliseconds kLong{1000};
-  if (const auto error = pool_->wait_for(*task_, kLong, [] {})) std::rethrow_exception(error);
+  // The end of the task wakes the caller; the period does not matter.
+  if (const auto error = pool_->wait_for(*task_, std::chrono::seconds(1), [] {})) std::rethrow_exception(error);
 }
 
 void Executor::TaskHandle::wait(const RunContext& context, const CancelToken& cancel) {
   // The caller's flag and deadline cannot wake a sleeper, so they are polled. Affects how soon an interruption is
   // noticed, never a result.
-  constexpr std::chrono::milliseconds kPoll{5};
   const auto poll = [&] {
     if (context.should_stop()) cancel.cancel();
   };
-  if (const auto error = pool_->wait_for(*task_, kPoll, poll)) std::rethrow_exception(error);
+  if (const auto error = pool_->wait_for(*task_, std::chrono::milliseconds(5), poll)) std::rethrow_exception(error);
 }
 
 Executor::BlockingScope::BlockingScope(Executor* executor) : executor_(executor) {

@@ -7,11 +7,9 @@
 namespace dismantle {
 namespace {
 
-/// Reads of a number before a thread that waits for it sleeps: what it waits for mostly takes less time than waking.
-constexpr int kSpins = 20'000;
-
+/// Spins for about ten microseconds before it sleeps: most waits are shorter than the time to wake a thread.
 void wait_until(const std::atomic<unsigned>& number, unsigned value) {
-  for (int k = 0; k < kSpins; ++k)
+  for (int k = 0; k < 20'000; ++k)
     if (number.load(std::memory_order_acquire) == value) return;
   for (unsigned now = number.load(std::memory_order_acquire); now != value;
        now = number.load(std::memory_order_acquire))
