@@ -21,9 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kPollMilliseconds = 50;
-constexpr std::chrono::seconds kRenewEvery{20}, kLookForOthersEvery{1};
-
 std::string host_name() {
   const std::string host = this_host();
   return host.substr(0, host.find(' '));
@@ -70,7 +67,7 @@ class Campaign {
       if (running_.empty() && !more) {
         count_again();
         if (tally_.done == tally_.total) break;
-        std::this_thread::sleep_for(kLookForOthersEvery);  // others run the rest; if they die, it is ours
+        std::this_thread::sleep_for(std::chrono::seconds(1));  // others run the rest; if they die, it is ours
         continue;
       }
       wait();
@@ -103,7 +100,7 @@ class Campaign {
     std::vector<pollfd> streams;
     for (const auto& trial : running_)
       if (trial->stream() >= 0) streams.push_back({trial->stream(), POLLIN, 0});
-    ::poll(streams.data(), streams.size(), kPollMilliseconds);
+    ::poll(streams.data(), streams.size(), 50);  // ms; the end of a process closes no stream that is waited for
   }
 
   void take_ended() {
@@ -121,7 +118,7 @@ class Campaign {
   }
 
   void renew() {
-    if (Clock::now() - renewed_ < kRenewEvery) return;
+    if (Clock::now() - renewed_ < kLease / 6) return;  // some renewals may be late
     for (const auto& trial : running_) results_.renew(trial->place());
     renewed_ = Clock::now();
   }

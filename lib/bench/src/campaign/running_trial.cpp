@@ -93,17 +93,17 @@ void RunningTrial::take_plan(const ChildEnd& end) {
   row_.cpu_seconds = end.cpu_seconds;
   row_.peak_rss_mb = end.peak_rss_mb;
   row_.last_words = end.last_words;
-  read_progress(folder_ / kProgressFile, row_);
+  read_progress(TrialFiles(folder_).progress, row_);
   std::error_code error;
-  if (fs::is_regular_file(folder_ / kPlanFile, error)) row_.plan = read_text(folder_ / kPlanFile);
+  if (fs::is_regular_file(TrialFiles(folder_).plan, error)) row_.plan = read_text(TrialFiles(folder_).plan);
   row_.outcome = outcome_of(end);
   if (!row_.progress.empty()) row_.removed = row_.progress.back().second;
-  if (end.signal == 0 && end.status == 0 && fs::is_regular_file(folder_ / kResultFile, error)) take_result();
+  if (end.signal == 0 && end.status == 0 && fs::is_regular_file(TrialFiles(folder_).result, error)) take_result();
 }
 
 void RunningTrial::take_result() {
   try {
-    const nlohmann::json r = read_json(folder_ / kResultFile);
+    const nlohmann::json r = read_json(TrialFiles(folder_).result);
     row_.input = r.at("input").get<std::string>();
     row_.input_sha256 = r.at("input_sha256").get<std::string>();
     row_.parts = r.at("parts").get<std::int64_t>();
@@ -139,7 +139,7 @@ void RunningTrial::take_result() {
 void RunningTrial::take_verification(const ChildEnd& end) {
   row_.verify_seconds = end.wall_seconds;
   std::error_code error;
-  const fs::path file = folder_ / kVerificationFile;
+  const fs::path file = TrialFiles(folder_).verification;
   if (end.signal != 0 || end.status != 0 || !fs::is_regular_file(file, error)) {
     row_.verification = fmt::format("no verification: {} {}", outcome_of(end), end.last_words);
     return;

@@ -18,9 +18,6 @@
 namespace dismantle::bench {
 namespace {
 
-constexpr std::size_t kLastWords = 4096;
-constexpr rlim_t kMaxFile = rlim_t{1} << 30;  // a planner that writes for ever does not fill the disk
-
 double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
 
 void limit(int what, rlim_t soft, rlim_t hard) {
@@ -37,7 +34,8 @@ void limit(int what, rlim_t soft, rlim_t hard) {
   const auto cpu = static_cast<rlim_t>(std::ceil(spec.cpu));
   limit(RLIMIT_CPU, cpu, cpu + 1);
   limit(RLIMIT_AS, static_cast<rlim_t>(spec.memory) << 20, static_cast<rlim_t>(spec.memory) << 20);
-  limit(RLIMIT_FSIZE, kMaxFile, kMaxFile);
+  const rlim_t file_size = rlim_t{1} << 30;  // bytes: a planner that writes without end does not fill the disk
+  limit(RLIMIT_FSIZE, file_size, file_size);
   limit(RLIMIT_CORE, 0, 0);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(stream, STDOUT_FILENO);
@@ -97,7 +95,8 @@ void Child::listen() {
     const ssize_t n = ::read(stream_, buffer, sizeof buffer);
     if (n > 0) {
       end_.last_words.append(buffer, static_cast<std::size_t>(n));
-      if (end_.last_words.size() > kLastWords) end_.last_words.erase(0, end_.last_words.size() - kLastWords);
+      const std::size_t most = 4096;  // bytes that a report can show
+      if (end_.last_words.size() > most) end_.last_words.erase(0, end_.last_words.size() - most);
       continue;
     }
     if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;

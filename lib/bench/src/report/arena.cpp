@@ -9,22 +9,6 @@
 namespace dismantle::bench {
 namespace {
 
-// The tables that `ompl_benchmark_statistics.py` makes and Planner Arena reads. `runs` has a column for each property
-// that any planner reports, named and typed as in OMPL's benchmark logs.
-constexpr const char* kArenaTables = R"(
-CREATE TABLE experiments (id INTEGER PRIMARY KEY ON CONFLICT REPLACE AUTOINCREMENT, name VARCHAR(512), totaltime REAL,
-  timelimit REAL, memorylimit REAL, runcount INTEGER, version VARCHAR(128), hostname VARCHAR(1024), cpuinfo TEXT, date DATETIME,
-  seed INTEGER, setup TEXT);
-CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512) NOT NULL, settings TEXT);
-CREATE TABLE enums (name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
-CREATE TABLE runs (id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER,
-  time REAL, solved BOOLEAN, status ENUM, memory REAL, parts INTEGER, parts_out INTEGER, max_penetration REAL, cpu_time REAL,
-  FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE,
-  FOREIGN KEY (plannerid) REFERENCES plannerConfigs(id) ON DELETE CASCADE);
-CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY (runid, time),
-  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
-)";
-
 /// The configuration that a row was run with, and when.
 struct Origin {
   std::string config, ended, cpu;
@@ -44,7 +28,23 @@ Origin origin_of(std::map<std::filesystem::path, std::unique_ptr<Sqlite>>& open,
 
 class Arena {
  public:
-  explicit Arena(Sqlite& db) : db_(db) { db_.run(kArenaTables); }
+  explicit Arena(Sqlite& db) : db_(db) {
+    // The tables that `ompl_benchmark_statistics.py` makes and Planner Arena reads. `runs` has a column for each
+    // property that any planner reports, named and typed as in OMPL's benchmark logs.
+    db_.run(R"(
+CREATE TABLE experiments (id INTEGER PRIMARY KEY ON CONFLICT REPLACE AUTOINCREMENT, name VARCHAR(512), totaltime REAL,
+  timelimit REAL, memorylimit REAL, runcount INTEGER, version VARCHAR(128), hostname VARCHAR(1024), cpuinfo TEXT, date DATETIME,
+  seed INTEGER, setup TEXT);
+CREATE TABLE plannerConfigs (id INTEGER PRIMARY KEY AUTOINCREMENT, name VARCHAR(512) NOT NULL, settings TEXT);
+CREATE TABLE enums (name VARCHAR(512), value INTEGER, description TEXT, PRIMARY KEY (name, value));
+CREATE TABLE runs (id INTEGER PRIMARY KEY AUTOINCREMENT, experimentid INTEGER, plannerid INTEGER,
+  time REAL, solved BOOLEAN, status ENUM, memory REAL, parts INTEGER, parts_out INTEGER, max_penetration REAL, cpu_time REAL,
+  FOREIGN KEY (experimentid) REFERENCES experiments(id) ON DELETE CASCADE,
+  FOREIGN KEY (plannerid) REFERENCES plannerConfigs(id) ON DELETE CASCADE);
+CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY (runid, time),
+  FOREIGN KEY (runid) REFERENCES runs(id) ON DELETE CASCADE);
+)");
+  }
 
   void add(const ReportRow& row, const Origin& origin) {
     const std::int64_t run = add_run(row, experiment_of(row, origin), planner_of(row, origin));

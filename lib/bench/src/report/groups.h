@@ -15,14 +15,6 @@ struct Contender {
 /// In the order of the suite; those without rows are left out.
 std::vector<Contender> contenders_of(const ReportData& data);
 
-/// The paper's sizes.
-struct SizeClass {
-  const char* label;
-  std::int64_t least, most;  ///< number of parts
-};
-inline constexpr SizeClass kSizes[] = {
-    {"two-part (2)", 2, 2}, {"small (3-9)", 3, 9}, {"medium (10-49)", 10, 49}, {"large (50+)", 50, INT64_MAX}};
-
 /// Time that counts for a trial: what it took to plan, or, when it did not end by itself, until it was killed.
 double time_of(const ReportRow& row);
 

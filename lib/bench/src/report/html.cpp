@@ -6,7 +6,8 @@
 namespace dismantle::bench {
 namespace {
 
-constexpr const char* kStyle = R"(
+std::string_view report_style() {
+  return R"(
 :root { color-scheme: light dark; --line: #8884; --soft: #8881; }
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 1200px; margin: 0 auto; padding: 1rem 1.5rem; }
 h2 { margin: 2rem 0 .25rem; } p.note { margin: .25rem 0 .75rem; opacity: .75; max-width: 60rem; }
@@ -22,8 +23,10 @@ input { font: inherit; padding: .3rem .5rem; margin: 0 0 .5rem; width: 20rem; ma
 svg { max-width: 760px; width: 100%; height: auto; } svg text { font: 12px system-ui, sans-serif; fill: currentColor; }
 .grid { stroke: var(--line); } .curve { fill: none; stroke-width: 2.2; }
 )";
+}
 
-constexpr const char* kScript = R"(
+std::string_view report_script() {
+  return R"(
 for (const table of document.querySelectorAll('table')) {
   const body = table.tBodies[0];
   table.tHead.rows[0].querySelectorAll('button').forEach((button, column) => button.addEventListener('click', () => {
@@ -48,6 +51,7 @@ for (const table of document.querySelectorAll('table')) {
   });
 }
 )";
+}
 
 bool is_number_column(const Table& table, std::size_t column) {
   for (const auto& row : table.rows)
@@ -91,8 +95,8 @@ std::string report_html(const ReportData& data, const std::vector<Table>& tables
   const std::string title = escaped_markup(data.name);
   std::string out = "<!doctype html>\n<html lang='en'><head><meta charset='utf-8'>\n";
   out += "<meta name='viewport' content='width=device-width, initial-scale=1'>\n";
-  out +=
-      fmt::format("<title>{} - Dismantle</title>\n<style>{}</style></head><body>\n<h1>{}</h1>\n", title, kStyle, title);
+  out += fmt::format("<title>{} - Dismantle</title>\n<style>{}</style></head><body>\n<h1>{}</h1>\n", title,
+                     report_style(), title);
   out += fmt::format("<p>{} trials of {} planners.", data.rows.size(), data.planners.size());
   for (const auto& note : data.notes) out += " " + escaped_markup(note);
   out += "</p>\n";
@@ -100,7 +104,7 @@ std::string report_html(const ReportData& data, const std::vector<Table>& tables
     if (table.id == "curves") out += "<h2>Success over time</h2>\n" + svg_of(curves_of(data));
     out += html_of(table);
   }
-  return out + fmt::format("<script>{}</script>\n</body></html>\n", kScript);
+  return out + fmt::format("<script>{}</script>\n</body></html>\n", report_script());
 }
 
 }  // namespace dismantle::bench

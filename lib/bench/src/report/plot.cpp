@@ -10,16 +10,16 @@
 namespace dismantle::bench {
 namespace {
 
-constexpr double kLeft = 56, kTop = 16, kWidth = 640, kHeight = 320, kLegend = 20;
-
 /// From seconds and shares to the picture.
 struct Axes {
-  double first = 0.1, last = 10;  // seconds
+  double first = 0.1, last = 10;                          // seconds
+  double left = 56, top = 16, width = 640, height = 320;  // of the plot area, pixels; the labels need the margins
+  double legend = 20;                                     // height of a line of the legend, pixels
   double x(double seconds) const {
     const double t = std::clamp(seconds, first, last);
-    return kLeft + kWidth * std::log(t / first) / std::log(last / first);
+    return left + width * std::log(t / first) / std::log(last / first);
   }
-  static double y(double share) { return kTop + kHeight * (1 - share); }
+  double y(double share) const { return top + height * (1 - share); }
 };
 
 Axes axes_of(const std::vector<Curve>& curves) {
@@ -43,21 +43,21 @@ std::string line(double x1, double y1, double x2, double y2, const char* style) 
 std::string grid(const Axes& axes) {
   std::string out;
   for (int percent = 0; percent <= 100; percent += 20) {
-    const double y = Axes::y(percent / 100.0);
-    out += line(kLeft, y, kLeft + kWidth, y, "grid");
-    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{}%</text>\n", kLeft - 6, y + 4, percent);
+    const double y = axes.y(percent / 100.0);
+    out += line(axes.left, y, axes.left + axes.width, y, "grid");
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{}%</text>\n", axes.left - 6, y + 4, percent);
   }
   for (double t = axes.first; t <= axes.last; t *= 10) {
-    out += line(axes.x(t), kTop, axes.x(t), kTop + kHeight, "grid");
+    out += line(axes.x(t), axes.top, axes.x(t), axes.top + axes.height, "grid");
     out += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g} s</text>\n", axes.x(t),
-                       kTop + kHeight + 18, t);
+                       axes.top + axes.height + 18, t);
   }
   return out;
 }
 
 std::string path_of(const Curve& curve, const Axes& axes) {
-  std::string d = fmt::format("M{:.1f} {:.1f}", axes.x(0), Axes::y(0));
-  for (const auto& [seconds, share] : curve.steps) d += fmt::format("H{:.1f}V{:.1f}", axes.x(seconds), Axes::y(share));
+  std::string d = fmt::format("M{:.1f} {:.1f}", axes.x(0), axes.y(0));
+  for (const auto& [seconds, share] : curve.steps) d += fmt::format("H{:.1f}V{:.1f}", axes.x(seconds), axes.y(share));
   return d + fmt::format("H{:.1f}", axes.x(curve.end));
 }
 
@@ -71,13 +71,15 @@ std::string colour_of(std::size_t i) {
 
 std::string svg_of(const std::vector<Curve>& curves, const std::string& style) {
   const Axes axes = axes_of(curves);
-  const double width = kLeft + kWidth + 24, height = kTop + kHeight + 40 + kLegend * double(curves.size());
+  const double width = axes.left + axes.width + 24,
+               height = axes.top + axes.height + 40 + axes.legend * double(curves.size());
   std::string out = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {0:.0f} {1:.0f}' role='img' "
       "aria-label='Share of trials solved over time'>\n",
       width, height);
   if (!style.empty())
-    out += fmt::format("<style>{}</style>\n<rect width='{:.0f}' height='{:.0f}' class='page'/>\n", style, width, height);
+    out +=
+        fmt::format("<style>{}</style>\n<rect width='{:.0f}' height='{:.0f}' class='page'/>\n", style, width, height);
   out += grid(axes);
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::string look = fmt::format("stroke='{}'{}", colour_of(i), i >= 8 ? " stroke-dasharray='6 4'" : "");
@@ -86,10 +88,10 @@ std::string svg_of(const std::vector<Curve>& curves, const std::string& style) {
         fmt::format("{}: {:.1f} % after {:.3g} s", escaped_markup(curves[i].label), 100 * share, curves[i].end);
     out +=
         fmt::format("<path d='{}' class='curve' {}><title>{}</title></path>\n", path_of(curves[i], axes), look, label);
-    const double y = kTop + kHeight + 44 + kLegend * double(i);
-    out += fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='curve' {}/>\n", kLeft, y,
-                       kLeft + 28, y, look);
-    out += fmt::format("<text x='{:.1f}' y='{:.1f}'>{}</text>\n", kLeft + 36, y + 4, label);
+    const double y = axes.top + axes.height + 44 + axes.legend * double(i);
+    out += fmt::format("<line x1='{:.1f}' y1='{:.1f}' x2='{:.1f}' y2='{:.1f}' class='curve' {}/>\n", axes.left, y,
+                       axes.left + 28, y, look);
+    out += fmt::format("<text x='{:.1f}' y='{:.1f}'>{}</text>\n", axes.left + 36, y + 4, label);
   }
   return out + "</svg>\n";
 }

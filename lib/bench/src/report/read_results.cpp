@@ -43,13 +43,6 @@ void append_new(std::vector<std::string>& list, const std::string& lines) {
   }
 }
 
-constexpr const char* kColumns =
-    "SELECT id, assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, "
-    "coalesce(counts, ''), coalesce(input, ''), seed, signal, solved, verified, max_penetration, solve_seconds, parts, "
-    "removed, "
-    "wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout, limit_wall, limit_memory_mb, coalesce(last_words, ''), "
-    "coalesce(verification, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id";
-
 ReportRow row_of(const Statement& s, const fs::path& database) {
   ReportRow r;
   r.database = database;
@@ -95,7 +88,13 @@ class Merger {
     append_new(data_.variants, value("variants"));
     auto open = db.prepare("SELECT count(*) FROM trials WHERE state <> 'done'");
     if (open.step()) data_.missing += static_cast<std::size_t>(open.integer(0));
-    auto read = db.prepare(kColumns);
+    auto read = db.prepare(  // in the order of row_of()
+        "SELECT id, assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, "
+        "coalesce(counts, ''), coalesce(input, ''), seed, signal, solved, verified, max_penetration, solve_seconds, "
+        "parts, "
+        "removed, "
+        "wall_seconds, cpu_seconds, peak_rss_mb, limit_timeout, limit_wall, limit_memory_mb, coalesce(last_words, ''), "
+        "coalesce(verification, ''), id IN (SELECT trial FROM plans) FROM trials WHERE state = 'done' ORDER BY id");
     auto progress = db.prepare("SELECT seconds, removed FROM progress WHERE trial = ? ORDER BY seconds, removed");
     while (read.step()) {
       ReportRow row = row_of(read, file);

@@ -6,11 +6,11 @@
 namespace dismantle::bench {
 
 Proportion wilson(std::size_t hits, std::size_t n) {
-  constexpr double kZ = 1.959963984540054;  // 97.5 % quantile of the normal distribution
+  const double z = 1.959963984540054;  // 97.5 % quantile of the normal distribution
   const double count = double(n), p = double(hits) / count;
-  const double scale = 1 / (1 + kZ * kZ / count);
-  const double middle = scale * (p + kZ * kZ / (2 * count));
-  const double half = scale * kZ * std::sqrt(p * (1 - p) / count + kZ * kZ / (4 * count * count));
+  const double scale = 1 / (1 + z * z / count);
+  const double middle = scale * (p + z * z / (2 * count));
+  const double half = scale * z * std::sqrt(p * (1 - p) / count + z * z / (4 * count * count));
   // At the ends of the range the formula gives 0 or 1 but for rounding.
   return {p, hits == 0 ? 0 : std::max(0.0, middle - half), hits == n ? 1 : std::min(1.0, middle + half)};
 }

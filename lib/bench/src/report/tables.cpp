@@ -61,8 +61,17 @@ Columns by_category(const ReportData& data) {
 }
 
 Columns by_size(const ReportData& data) {
+  struct SizeClass {
+    const char* label;
+    std::int64_t least, most;  // number of parts
+  };
+  const SizeClass sizes[] = {// those of the paper
+                             {"two-part (2)", 2, 2},
+                             {"small (3-9)", 3, 9},
+                             {"medium (10-49)", 10, 49},
+                             {"large (50+)", 50, INT64_MAX}};
   Columns columns;
-  for (const auto& size : kSizes) {
+  for (const auto& size : sizes) {
     const Filter filter = [size](const ReportRow& r) {
       return r.parts && *r.parts >= size.least && *r.parts <= size.most;
     };

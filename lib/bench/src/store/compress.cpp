@@ -18,8 +18,7 @@ std::string compressed(std::string_view bytes) {
 
 std::string expanded(std::string_view bytes, std::size_t size) {
   // Deflate makes at most 1032 bytes of one, so a size that cannot be is seen before memory is taken for it.
-  constexpr std::size_t kMostExpansion = 1032;
-  if (size / kMostExpansion > bytes.size()) throw Error("the compressed plan of a row is damaged");
+  if (size / 1032 > bytes.size()) throw Error("the compressed plan of a row is damaged");
   std::string out(size, '\0');
   uLongf length = size;
   if (uncompress(reinterpret_cast<Bytef*>(out.data()), &length, reinterpret_cast<const Bytef*>(bytes.data()),

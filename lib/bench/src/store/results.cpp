@@ -14,8 +14,6 @@
 namespace dismantle::bench {
 namespace {
 
-constexpr double kLease = 120;  // seconds without a sign of life after which a trial of another machine is taken over
-
 double now() { return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count(); }
 
 void set(Sqlite& db, const std::string& key, const std::string& value) {
@@ -142,7 +140,7 @@ std::optional<std::size_t> Results::claim() {
     db_.prepare("UPDATE trials SET state = 'running', owner = ?, owner_host = ?, lease_until = ? WHERE id = ?")
         .bind(owner_)
         .bind(host_)
-        .bind(now() + kLease)
+        .bind(now() + std::chrono::duration<double>(kLease).count())
         .bind(ids_.at(*place))
         .done();
   transaction.commit();
@@ -152,7 +150,7 @@ std::optional<std::size_t> Results::claim() {
 
 void Results::renew(std::size_t trial) {
   db_.prepare("UPDATE trials SET lease_until = ? WHERE id = ? AND state = 'running' AND owner = ?")
-      .bind(now() + kLease)
+      .bind(now() + std::chrono::duration<double>(kLease).count())
       .bind(ids_.at(trial))
       .bind(owner_)
       .done();

@@ -90,6 +90,9 @@ class Results {
   std::size_t next_ = 0;
 };
 
+/// Without a sign of life for this long, a trial of another machine is taken over.
+inline constexpr std::chrono::seconds kLease{120};
+
 /// Version of the tables.
 inline constexpr int kStoreVersion = 2;
 

@@ -5,12 +5,7 @@
 #include "dismantle/errors.h"
 
 namespace dismantle::bench {
-namespace {
-
-constexpr int kPatience = 60000;          // ms that another writer may take
-constexpr int kLargestValue = 256 << 20;  // bytes of one value: plans are far below
-
-}  // namespace
+namespace {}  // namespace
 
 Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string()) {
   const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
@@ -20,11 +15,12 @@ Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string
     sqlite3_close(db_);
     throw InputError(name_, "cannot be opened as a database: " + why);
   }
-  sqlite3_busy_timeout(db_, kPatience);
-  // A database may come from anywhere: its schema calls no functions with side effects and cannot write to its own tables.
+  sqlite3_busy_timeout(db_, 60'000);  // ms that another writer may take
+  // A database may come from anywhere: its schema calls no functions with side effects and cannot write to its own
+  // tables.
   sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(db_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, kLargestValue);
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, 256 << 20);  // bytes of one value: plans are far below
 }
 
 Sqlite::~Sqlite() { sqlite3_close(db_); }

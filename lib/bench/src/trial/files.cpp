@@ -49,11 +49,11 @@ void write_request(const TrialRequest& r, const std::filesystem::path& folder) {
                                {"inputs", r.inputs.string()},
                                {"input_name", r.input_name},
                                {"max_penetration", r.max_penetration}};
-  write_file(folder / kRequestFile, json.dump(1) + "\n");
+  write_file(TrialFiles(folder).request, json.dump(1) + "\n");
 }
 
 TrialRequest read_request(const std::filesystem::path& folder) {
-  const nlohmann::json json = read_json(folder / kRequestFile);
+  const nlohmann::json json = read_json(TrialFiles(folder).request);
   TrialRequest r;
   try {
     r.config = json.at("config").get<std::string>();
@@ -76,7 +76,7 @@ TrialRequest read_request(const std::filesystem::path& folder) {
     r.input_name = json.at("input_name").get<std::string>();
     r.max_penetration = json.at("max_penetration").get<double>();
   } catch (const nlohmann::json::exception& e) {
-    throw InputError((folder / kRequestFile).string(), e.what());
+    throw InputError(TrialFiles(folder).request.string(), e.what());
   }
   return r;
 }

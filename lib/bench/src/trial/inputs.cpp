@@ -13,12 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kRotationStream = 0x726f74617465;  // "rotate"
-constexpr const char* kOffsets = "translation.json";
+fs::path offsets_file(const fs::path& folder) { return folder / "translation.json"; }
 
 /// Uniform over all rotations.
 Eigen::Quaterniond random_rotation(std::int64_t seed) {
-  Rng rng = Rng(static_cast<std::uint64_t>(seed)).fork(kRotationStream);
+  Rng rng = Rng(static_cast<std::uint64_t>(seed)).fork(0x726f74617465);  // "rotate": a stream of its own
   Eigen::Vector4d q;
   do {
     for (int i = 0; i < 4; ++i) q[i] = rng.normal();
@@ -28,7 +27,7 @@ Eigen::Quaterniond random_rotation(std::int64_t seed) {
 }
 
 void move_by_offsets(std::vector<RawPart>& parts, const fs::path& folder) {
-  const fs::path file = folder / kOffsets;
+  const fs::path file = offsets_file(folder);
   const nlohmann::json json = read_json(file);
   for (auto& part : parts) {
     const std::string key = fs::path(part.file).stem().string();
@@ -72,7 +71,7 @@ void write_folder(const std::vector<RawPart>& parts, const fs::path& folder) {
 
 bool has_offsets(const fs::path& input) {
   std::error_code error;
-  return fs::is_regular_file(input / kOffsets, error);
+  return fs::is_regular_file(offsets_file(input), error);
 }
 
 fs::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr<Importer>>& importers,

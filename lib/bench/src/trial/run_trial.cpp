@@ -53,13 +53,13 @@ RunContext context_of_trial() {
 /// Steps as they come: what a trial that is killed has done is not lost.
 class Recorder {
  public:
-  explicit Recorder(const fs::path& folder) : folder_(folder), progress_(folder / kProgressFile) {}
+  explicit Recorder(const fs::path& folder) : folder_(folder), progress_(TrialFiles(folder).progress) {}
 
   void operator()(const Plan& plan) {
     progress_ << fmt::format("{:.6f} {}\n", seconds_since(begin_), plan.assembly.parts.size() - plan.remaining.size())
               << std::flush;
     if (saved_ && seconds_since(last_) < 1) return;
-    write_file(folder_ / kPlanFile, to_json(plan));
+    write_file(TrialFiles(folder_).plan, to_json(plan));
     saved_ = true;
     last_ = Clock::now();
   }
@@ -108,7 +108,7 @@ void plan_trial(const fs::path& folder) {
   options.force.when = ForceWhen::off;  // planners are compared by what they find
   const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
-  write_file(folder / kPlanFile, to_json(result.plan));
+  write_file(TrialFiles(folder).plan, to_json(result.plan));
   fmt::print(stderr, "{}", reasons_of(result.plan));
   const nlohmann::json json = {{"outcome", to_string(result.outcome)},
                                {"input", input.string()},
@@ -127,13 +127,13 @@ void plan_trial(const fs::path& folder) {
                                {"proposed", result.counts.proposed},
                                {"counts", result.planner_counts},
                                {"peak_rss_mb", peak_memory()}};
-  write_file(folder / kResultFile, json.dump(1) + "\n");
+  write_file(TrialFiles(folder).result, json.dump(1) + "\n");
 }
 
 void verify_trial(const fs::path& folder) {
   std::set_new_handler(end_without_memory);
   const TrialRequest request = read_request(folder);
-  const fs::path file = folder / kPlanFile;
+  const fs::path file = TrialFiles(folder).plan;
   const Plan plan = plan_from_json(read_text(file), file.string());
   Registry registry;
   registry.scan();
@@ -155,7 +155,7 @@ void verify_trial(const fs::path& folder) {
                                {"complete", check.complete},
                                {"max_penetration", check.max_penetration / size},
                                {"problems", problems}};
-  write_file(folder / kVerificationFile, json.dump(1) + "\n");
+  write_file(TrialFiles(folder).verification, json.dump(1) + "\n");
 }
 
 }  // namespace dismantle::bench

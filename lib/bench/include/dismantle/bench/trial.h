@@ -23,12 +23,20 @@ struct TrialRequest {
   double max_penetration = 0.01;  ///< of an assembly of size 10; for the verifier
 };
 
-/// Files in the folder of a trial.
-inline constexpr const char* kRequestFile = "request.json";
-inline constexpr const char* kResultFile = "result.json";     ///< absent when the trial did not end by itself
-inline constexpr const char* kProgressFile = "progress.txt";  ///< a line "seconds removed" per step
-inline constexpr const char* kPlanFile = "plan.json";         ///< saved while it grows
-inline constexpr const char* kVerificationFile = "verification.json";
+/// The files in the folder of a trial.
+struct TrialFiles {
+  explicit TrialFiles(const std::filesystem::path& folder)
+      : request(folder / "request.json"),
+        result(folder / "result.json"),
+        progress(folder / "progress.txt"),
+        plan(folder / "plan.json"),
+        verification(folder / "verification.json") {}
+  std::filesystem::path request;
+  std::filesystem::path result;    ///< absent when the trial did not end by itself
+  std::filesystem::path progress;  ///< a line "seconds removed" per step
+  std::filesystem::path plan;      ///< saved while it grows
+  std::filesystem::path verification;
+};
 
 /// Exit status of a trial whose memory was not enough: it ends at the first request that is refused.
 inline constexpr int kOutOfMemory = 86;
