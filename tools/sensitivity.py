@@ -24,10 +24,11 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "verify")
+SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "force", "verify")
 SEARCH_ONLY = ("path_planner.", "simulator.")
-ALWAYS_LEFT_OUT = {  # what the user asks for, no way of finding it
-    "verify.max_penetration", "immobility.deadline_share"}
+ALWAYS_LEFT_OUT = {  # what the user asks for, or what matters under a time limit only
+    "verify.max_penetration", "immobility.deadline_share", "force.share", "force.verified_share", "force.quick_margin",
+    "force.overtime"}
 
 
 def call(command, seconds=None):

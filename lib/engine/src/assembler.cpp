@@ -20,15 +20,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kWave = 16;        // steps per thread whose ways are looked for together
-constexpr double kGoalTolerance = 1e-6;  // of a pose's coefficients, assembly units or 1
-
-bool near(const Pose& a, const Pose& b) {
-  const double turn = std::min((a.q.coeffs() - b.q.coeffs()).cwiseAbs().maxCoeff(),
-                               (a.q.coeffs() + b.q.coeffs()).cwiseAbs().maxCoeff());
-  return turn <= kGoalTolerance && (a.t - b.t).cwiseAbs().maxCoeff() <= kGoalTolerance * (1 + b.t.norm());
-}
-
 bool contains(const std::vector<PartId>& parts, PartId id) {
   return std::find(parts.begin(), parts.end(), id) != parts.end();
 }
@@ -139,7 +130,7 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
   for (const auto& [name, pose] : layout.poses) {
     const auto part = std::find_if(assembly_.parts.begin(), assembly_.parts.end(),
                                    [&, &wanted = name](const Part& p) { return p.name == wanted; });
-    if (part == assembly_.parts.end()) continue;  // run() has told the user
+    if (part == assembly_.parts.end()) continue;  // run() has reported it
     const std::size_t g = scenery.stands[part->id].back().group;
     if (g == 0) {
       remarks.push_back(fmt::format("layout: '{}' is not removed, so it stays where it is", name));
@@ -147,7 +138,8 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
       remarks.push_back(fmt::format("layout: '{}' lies with parts whose place was given already", name));
     } else {
       given[g] = true;
-      scenery.place[g] = assembly_.normalization.pose_to_internal(pose) * scenery.stands[part->id].back().pose.inverse();
+      scenery.place[g] =
+          assembly_.normalization.pose_to_internal(pose) * scenery.stands[part->id].back().pose.inverse();
       taken.push_back(geometry::box_under(rooms[g], scenery.place[g]));
     }
   }
@@ -203,7 +195,7 @@ class Assembler::Checker final : public PathChecker {
     answer.reason = written.problem;
     if (!answer.reason.empty()) return answer;
     for (std::size_t k = 0; k < goal_.size(); ++k) {
-      if (!near(written.path.back()[k], goal_[k])) {
+      if (!same_pose(written.path.back()[k], goal_[k], kPoseError, assembler_.normalizer_.size())) {
         answer.reason = "the path does not end at the goal";
         return answer;
       }
@@ -360,7 +352,8 @@ AssemblyPlan Assembler::put_together(const std::vector<RecordedStep>& steps, con
 
   // In the order of the disassembly: where a group is put in is known before it is asked how to get there. A group that
   // is left out lies elsewhere from then on, so what was found for later steps does not count.
-  const std::size_t wave = context.threads > 1 ? kWave * context.threads : 1;
+  // Several per thread, so that one long search does not leave the others without work.
+  const std::size_t wave = context.threads > 1 ? 16 * context.threads : 1;
   for (std::size_t first = 0; first < steps.size();) {
     std::vector<Way> ways = transfers(scenery, first, std::min(first + wave, steps.size()), context);
     bool as_supposed = true;

@@ -11,7 +11,7 @@
 
 namespace dismantle {
 
-/// SHA-256 of who moves and who stay fixed, and where, and the goal; without the depth.
+/// SHA-256 of the moving and the fixed parts, their poses and the goal; without the depth.
 using SceneDigest = std::array<unsigned char, 32>;
 
 struct AttemptKey {

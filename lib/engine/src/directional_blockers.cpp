@@ -12,8 +12,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kUnset = -std::numeric_limits<double>::infinity();
-
 bool among(const std::vector<PlacedPart>& parts, PartId id) {
   return std::any_of(parts.begin(), parts.end(), [id](const PlacedPart& p) { return p.part == id; });
 }
@@ -21,9 +19,9 @@ bool among(const std::vector<PlacedPart>& parts, PartId id) {
 }  // namespace
 
 std::array<int, 3> rounded_direction(const Eigen::Vector3d& d) {
-  constexpr double kSteps = 1e6;
-  return {static_cast<int>(std::lround(kSteps * d.x())), static_cast<int>(std::lround(kSteps * d.y())),
-          static_cast<int>(std::lround(kSteps * d.z()))};
+  const Eigen::Vector3d steps = 1e6 * d;  // directions of the same face differ by rounding only
+  return {static_cast<int>(std::lround(steps.x())), static_cast<int>(std::lround(steps.y())),
+          static_cast<int>(std::lround(steps.z()))};
 }
 
 bool may_meet(const Aabb& moving, const Aabb& fixed, const Eigen::Vector3d& along) {
@@ -90,7 +88,7 @@ const std::vector<DirectionalBlockers::Blocker>& DirectionalBlockers::blockers(R
 }
 
 DirectionalBlockers::Along::Along(DirectionalBlockers& all, const Eigen::Vector3d& direction)
-    : all_(all), row_(0), furthest_(kUnset), second_(kUnset) {
+    : all_(all), row_(0), furthest_(-std::numeric_limits<double>::infinity()), second_(furthest_) {
   auto& rows = all.rows_;
   while (row_ < rows.size() && !(rounded_direction(rows[row_].direction) == rounded_direction(direction))) ++row_;
   if (row_ == rows.size()) rows.push_back({direction, std::vector<Entry>(all.boxes_.size())});
@@ -114,10 +112,10 @@ double DirectionalBlockers::Along::thickness(const Placed& unit) const {
 
 double DirectionalBlockers::Along::length(const Placed& unit) const {
   Row& row = all_.rows_[row_];
-  double ahead = among(unit, front_) ? second_ : furthest_, behind = kUnset;
+  double ahead = among(unit, front_) ? second_ : furthest_, behind = -std::numeric_limits<double>::infinity();
   for (const PlacedPart& p : unit) behind = std::max(behind, all_.measured(row, p).behind);
   if (unit.size() > 1 && among(unit, front_)) {  // the second may move along, too
-    ahead = kUnset;
+    ahead = -std::numeric_limits<double>::infinity();
     for (const PlacedPart& p : *all_.group_)
       if (!among(unit, p.part)) ahead = std::max(ahead, all_.measured(row, p).ahead);
   }

@@ -13,21 +13,12 @@
 #include <utility>
 
 #include "group_oracle.h"
+#include "rng_streams.h"
 #include "stopwatch.h"
 
 namespace dismantle {
 
 namespace {
-
-constexpr double kCoarse = 8;         // resolution of the first measurement, in tolerances
-constexpr double kCoarseShare = 0.1;  // or this share of the depth
-constexpr std::uint64_t kCoarsePoses = 200;
-constexpr double kFineShare = 0.03;  // of the depth, in the statement
-constexpr std::uint64_t kFinePoses = 400;
-constexpr std::size_t kFinalists = 4;            // measured again, more exactly
-constexpr double kAlike = 0.9;                   // cosine: directions of one set of parts differ by 25 degrees
-constexpr std::size_t kOfOneSet = 4;             // motions of the same parts that are measured, at least
-constexpr std::uint64_t kStream = 0x666f726365;  // "force"
 
 /// Passes removals of a group on as removals of the whole.
 class GroupObserver final : public SequenceObserver {
@@ -60,12 +51,14 @@ ForceSteps::ForceSteps(const Assembly& assembly, const Verifier& verifier, Oracl
 std::vector<const ForcedMotion*> ForceSteps::chosen(const std::vector<ForcedMotion>& all) const {
   std::map<std::vector<PartId>, std::vector<const ForcedMotion*>> of_set;
   for (const ForcedMotion& m : all) of_set.try_emplace(ids_of_placed(m.moving));
-  const std::size_t most = std::max(kOfOneSet, options_.force.candidates / of_set.size());
+  const std::size_t most =
+      std::max<std::size_t>(options_.force.set_candidates, options_.force.candidates / of_set.size());
   std::vector<const ForcedMotion*> list;
   for (const ForcedMotion& m : all) {
     std::vector<const ForcedMotion*>& same = of_set[ids_of_placed(m.moving)];
     const auto alike = [&](const ForcedMotion* other) {
-      return m.straight() && other->straight() && m.twist.linear.dot(other->twist.linear) > kAlike;
+      return m.straight() && other->straight() &&
+             m.twist.linear.dot(other->twist.linear) > options_.force.set_similarity;
     };
     if (same.size() >= most || std::any_of(same.begin(), same.end(), alike)) continue;
     same.push_back(&m);
@@ -75,12 +68,14 @@ std::vector<const ForcedMotion*> ForceSteps::chosen(const std::vector<ForcedMoti
   return list;
 }
 
-/// The motion that cuts in least: all roughly, then those that may be the best. Told to stop: the best of those that
-/// were compared; nothing when there are none.
+/// The motion that cuts in least: all are measured coarsely, then the best of them finely. When stopped: the best of
+/// those that were compared, if any.
 std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const ForcedMotion*>& list,
                                                       const RunContext& context) {
   const double tolerance = verifier_.options().max_penetration;
-  MotionDepthOptions options{kCoarse * tolerance, kCoarseShare, std::numeric_limits<double>::infinity(), kCoarsePoses};
+  const ForceOptions& force = options_.force;
+  MotionDepthOptions options{force.coarse_resolution * tolerance, force.coarse_share,
+                             std::numeric_limits<double>::infinity(), static_cast<std::uint64_t>(force.coarse_poses)};
   const auto unsure = [&](double excess) { return excess + std::max(options.absolute, options.relative * excess); };
   std::vector<std::pair<Choice, std::size_t>> measured;  // with the place in the list
   double least = std::numeric_limits<double>::infinity();
@@ -95,9 +90,11 @@ std::optional<ForceSteps::Choice> ForceSteps::best_of(const std::vector<const Fo
                    [](const auto& a, const auto& b) { return a.first.excess() < b.first.excess(); });
   if (measured.empty()) return std::nullopt;
   const double worth_a_look = unsure(least);
-  options = {tolerance, kFineShare, std::numeric_limits<double>::infinity(), kFinePoses};
+  options = {tolerance, force.fine_share, std::numeric_limits<double>::infinity(),
+             static_cast<std::uint64_t>(force.fine_poses)};
   std::optional<Choice> best;
-  for (std::size_t k = 0; k < measured.size() && k < kFinalists && measured[k].first.excess() <= worth_a_look; ++k) {
+  for (std::size_t k = 0; k < measured.size() && k < force.finalists && measured[k].first.excess() <= worth_a_look;
+       ++k) {
     Choice now{measured[k].first.motion, motions_.depth(measured[k].first.motion, options, context)};
     if (context.should_stop()) break;
     if (best && now.excess() >= options.stop_above) continue;
@@ -160,8 +157,8 @@ bool ForceSteps::force_one(ForceBudget& budget, const RunContext& context) {
   if (!written.problem.empty()) throw std::logic_error("a forced path is unusable: " + written.problem);
   if (!choice->exact) {
     const auto from = std::chrono::steady_clock::now();
-    const auto found =
-        motions_.depth(motion, written.path, {verifier_.options().max_penetration, kFineShare}, to_the_end);
+    const auto found = motions_.depth(motion, written.path,
+                                      {verifier_.options().max_penetration, options_.force.fine_share}, to_the_end);
     if (!choice->depth || (found && found->excess() >= choice->excess())) choice->depth = found;
     choice->exact = !to_the_end.should_stop();
     least_time += seconds_since(from);
@@ -191,7 +188,7 @@ void ForceSteps::take_apart(const ForceBudget& budget, RunContext& context) {
     if (!tried_.insert(ids_of_placed(group)).second) continue;
     GroupOracle oracle(assembly_, oracle_, group, options_.force.retry_depth);
     GroupObserver observer(oracle, observer_);
-    own.rng = Rng(options_.seed).fork(kStream);
+    own.rng = Rng(options_.seed).fork(force_stream);
     try {
       planner_.plan(oracle.assembly(), oracle, observer, own);
     } catch (const std::exception& e) {
@@ -208,7 +205,7 @@ std::size_t ForceSteps::steps_left() const {
 }
 
 void ForceSteps::run(bool searches, RunContext& context) {
-  ForceBudget budget(context.deadline);
+  ForceBudget budget(context.deadline, options_.force);
   for (const Placed& group : builder_.open_groups()) tried_.insert(ids_of_placed(group));
   while (!context.cancel.cancelled() && !builder_.fulfilled() && force_one(budget, context))
     if (searches && !builder_.fulfilled()) take_apart(budget, context);

@@ -17,7 +17,7 @@ namespace dismantle {
 
 class ForceSteps {
  public:
-  /// All outlive it. `observer`: told of verified removals; those that were taken apart before are not repeated.
+  /// All outlive it. `observer`: gets the verified removals; those that were taken apart before are not repeated.
   ForceSteps(const Assembly& assembly, const Verifier& verifier, Oracle& oracle, PlanBuilder& builder,
              SequencePlanner& planner, SequenceObserver& observer, const RunOptions& options);
 

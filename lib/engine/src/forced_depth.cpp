@@ -1,6 +1,5 @@
 // How deep the motions of forced steps cut in: samples first, then measured along the whole way.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,20 +11,16 @@ namespace dismantle {
 
 namespace {
 
-constexpr std::size_t kDepthSamples = 48;  // from each part, spread over its vertices
-
-/// Told of depths below the surface of a part at some points of a ray that starts on or outside it, over its ways
-/// through the part.
+/// Calls `found` with depths below the surface of a part at some points of a ray that starts on or outside it, where
+/// the ray is inside the part.
 template <class Found>
 void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, const Eigen::Vector3d& along, double reach,
                   const Found& found) {
-  constexpr std::size_t kMostWays = 4;
-  constexpr std::array<double, 3> kShares{0.25, 0.5, 0.75};
   const auto enters = [&](std::uint32_t t) { return solid.normals[t].dot(along) < 0; };
   const auto leaves = [&](std::uint32_t t) { return solid.normals[t].dot(along) > 0; };
   double at = 0;
   bool inside = solid.box.squared_distance(from) == 0 && solid.bvh.inside(from);
-  for (std::size_t way = 0; way < kMostWays && at < reach; ++way) {
+  for (int way = 0; way < 4 && at < reach; ++way) {  // few rays cross a part more often
     if (!inside) {
       const double in = geometry::first_hit(solid.bvh, from + at * along, along, reach - at, enters);
       if (!std::isfinite(in)) return;
@@ -33,7 +28,7 @@ void depths_along(const geometry::Solid& solid, const Eigen::Vector3d& from, con
     }
     const double out =
         std::min(reach - at, geometry::first_hit(solid.bvh, from + at * along, along, reach - at, leaves));
-    for (const double share : kShares) {
+    for (const double share : {0.25, 0.5, 0.75}) {  // depth is largest away from both surfaces
       const double s = at + share * out;
       found(-solid.bvh.signed_distance(from + s * along), s);
     }
@@ -52,12 +47,12 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
 /// The first vertex found that is deeper in another part, at one of a few instants, than it was when assembled by more
 /// than `enough`; nothing when there is none among those that were tried.
 std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& motion, double enough) const {
-  constexpr std::size_t kInstants = 6;
+  const std::size_t instants = 6;  // a witness saves a measurement; what is missed here is measured
   const Path all = path(motion);
   const auto try_points = [&](const PlacedPart& of, const PlacedPart& in) -> std::optional<MotionDepth> {
     const double allowed = assembly_.initial_overlap(of.part, in.part);
     const auto& vertices = assembly_.parts[of.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kDepthSamples);
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.depth_samples);
     for (const geometry::Solid& solid : verifier_.solids(in.part)) {
       const Pose back = (in.pose * solid.frame).inverse() * of.pose;
       for (std::size_t v = 0; v < vertices.size(); v += stride) {
@@ -70,8 +65,8 @@ std::optional<MotionDepth> ForcedMotions::depth_at_instants(const ForcedMotion& 
     }
     return {};
   };
-  for (std::size_t k = 1; k < kInstants; ++k) {
-    const double at = static_cast<double>(k * (all.size() - 1)) / kInstants;
+  for (std::size_t k = 1; k < instants; ++k) {
+    const double at = static_cast<double>(k * (all.size() - 1)) / instants;
     const auto i = static_cast<std::size_t>(at);
     for (std::size_t m = 0; m < motion.moving.size(); ++m) {
       const PlacedPart now{motion.moving[m].part,
@@ -106,7 +101,7 @@ std::optional<MotionDepth> ForcedMotions::depth(const ForcedMotion& motion, cons
         if (distance <= 0) continue;
         const Pose end{p.pose.t + distance * motion.twist.linear, p.pose.q};
         MotionDepthOptions own = options;
-        own.known_invalid = pair.blocked > kInTheWay;
+        own.known_invalid = pair.blocked > options_.blocking_share;
         pair.depth = meter_.deepest({p.part}, {q}, {{p.pose}, {end}}, own, context);
         const bool to_the_end = !context.should_stop() && (!pair.depth || pair.depth->excess() <= options.stop_above);
         if (to_the_end) pair.resolution = options.absolute;
@@ -130,7 +125,7 @@ std::optional<MotionDepth> ForcedMotions::least_depth(const ForcedMotion& motion
     const bool moves = sign > 0;
     const double allowed = assembly_.initial_overlap(of.part, in.part);
     const auto& vertices = assembly_.parts[of.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kDepthSamples);
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.depth_samples);
     for (const geometry::Solid& solid : verifier_.solids(in.part)) {
       const Pose back = (in.pose * solid.frame).inverse();
       const Eigen::Vector3d local = back.q * Eigen::Vector3d(sign * along);

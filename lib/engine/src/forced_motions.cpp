@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/ray.h"
 #include "dismantle/geometry/slippage.h"
 #include "dismantle/geometry/solid.h"
@@ -16,17 +17,6 @@ namespace dismantle {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr std::size_t kAxes = 6;                                // of one part's faces, those of most area
-constexpr std::size_t kGroupAxes = 16;                          // of all parts of a group
-constexpr std::size_t kFewAxes = 4;                             // the same where there is no time for more
-constexpr double kAlways = std::numeric_limits<double>::max();  // area of an axis that is tried whatever the others are
-constexpr double kSameAxis = 0.9998;                            // cosine: about a degree
-constexpr std::size_t kRays = 24;                               // from each part, spread over its vertices
-constexpr double kClearance = 2;                                // between hulls at the end of the path, in tolerances
-constexpr double kFirmlyInTheWay = 0.3;  // of the rays: parts that block more than this move along
-constexpr double kMostTurns = 100;
-constexpr double kTurnStep = std::numbers::pi / 8;  // between two poses of a screw motion
-constexpr double kPitch = 1e-3;                     // least advance along the axis per radian, in sizes of the part
 
 /// Spread evenly over the sphere (Fibonacci lattice).
 std::vector<Vec3> sphere(unsigned count) {
@@ -99,9 +89,10 @@ const std::vector<geometry::FaceAxis>& ForcedMotions::axes(PartId part) {
     if (area.norm() > 0) faces.push_back({area.normalized(), 0.5 * area.norm()});
   }
   known = geometry::rounded_axes(faces);
-  geometry::sort_by_area(known, kAxes);
-  // A round part need not have a face along its axis.
-  for (const geometry::Twist& t : turns(part)) geometry::add_face(known, {t.angular.normalized(), kAlways}, kSameAxis);
+  geometry::sort_by_area(known, options_.part_axes);
+  // A round part need not have a face along its axis, and that axis is used whatever the area of others.
+  for (const geometry::Twist& t : turns(part))
+    geometry::add_face(known, {t.angular.normalized(), std::numeric_limits<double>::max()}, geometry::kSameDirection);
   return known;
 }
 
@@ -151,9 +142,10 @@ bool ForcedMotions::allowed(const Placed& moving, const Placed& group) const {
 std::vector<Vec3> ForcedMotions::directions(const Placed& group, Variety variety) {
   std::vector<geometry::FaceAxis> lines;
   for (const PlacedPart& p : group)
-    for (const geometry::FaceAxis& a : axes(p.part)) geometry::add_face(lines, {p.pose.q * a.axis, a.area}, kSameAxis);
-  geometry::sort_by_area(lines, variety == Variety::all ? kGroupAxes : kFewAxes);
-  for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, kSameAxis);
+    for (const geometry::FaceAxis& a : axes(p.part))
+      geometry::add_face(lines, {p.pose.q * a.axis, a.area}, geometry::kSameDirection);
+  geometry::sort_by_area(lines, variety == Variety::all ? options_.group_axes : options_.quick_axes);
+  for (int k = 0; k < 3; ++k) geometry::add_face(lines, {Vec3::Unit(k), 0}, geometry::kSameDirection);
   std::vector<Vec3> list;
   for (const geometry::FaceAxis& a : lines) {
     list.push_back(a.axis.normalized());
@@ -206,7 +198,7 @@ void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed,
   if (!in_reach(moving, fixed, along, distance)) return;
   const auto send = [&](const PlacedPart& from, const PlacedPart& to, const Vec3& d) {
     const auto& vertices = assembly_.parts[from.part].mesh->vertices;
-    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / kRays);
+    const std::size_t stride = std::max<std::size_t>(1, vertices.size() / options_.rays);
     std::size_t rays = 0, hits = 0;
     double length = 0;
     for (std::size_t v = 0; v < vertices.size(); v += stride, ++rays) {
@@ -234,20 +226,32 @@ void ForcedMotions::send_rays(const PlacedPart& moving, const PlacedPart& fixed,
 
 ForcedMotion ForcedMotions::straight(const Placed& moving, const Placed& group, const Vec3& along) {
   ForcedMotion m{moving, without(group, moving), {along, Vec3::Zero()}, Vec3::Zero(), 0, 0};
-  double front = -std::numeric_limits<double>::infinity(), behind = front;
-  for (const PlacedPart& p : m.fixed) front = std::max(front, reach(p, along));
-  for (const PlacedPart& p : m.moving) behind = std::max(behind, reach(p, -along));
-  m.duration = std::max(0.0, front + behind) + kClearance * verifier_.options().max_penetration;
-  for (const PlacedPart& p : m.moving)
-    for (const PlacedPart& q : m.fixed) m.thickness += blocking(p, q, along).thickness;
+  m.duration = distance_apart(m, along);
+  m.thickness = thickness(m, along);
   return m;
+}
+
+/// How far the moving parts have to go until the hulls of both sides are apart.
+double ForcedMotions::distance_apart(const ForcedMotion& motion, const Vec3& along) const {
+  double front = -std::numeric_limits<double>::infinity(), behind = front;
+  for (const PlacedPart& p : motion.fixed) front = std::max(front, reach(p, along));
+  for (const PlacedPart& p : motion.moving) behind = std::max(behind, reach(p, -along));
+  return std::max(0.0, front + behind) + options_.clearance * verifier_.options().max_penetration;
+}
+
+/// As ForcedMotion::thickness.
+double ForcedMotions::thickness(const ForcedMotion& motion, const Vec3& along) {
+  double sum = 0;
+  for (const PlacedPart& p : motion.moving)
+    for (const PlacedPart& q : motion.fixed) sum += blocking(p, q, along).thickness;
+  return sum;
 }
 
 /// The unit alone, with what is in its way, and with what is firmly in its way.
 void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
                                  const Vec3& along, std::vector<ForcedMotion>& list) {
   std::vector<Placed> sets{unit};
-  for (const double most : {kInTheWay, kFirmlyInTheWay}) {
+  for (const double most : {options_.blocking_share, options_.firm_share}) {
     std::vector<bool> moves(all.size(), false);
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < all.size(); ++k)
@@ -284,10 +288,7 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
 void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list) {
   if (unit.size() != 1 || !allowed(unit, group)) return;
   const PlacedPart& part = unit.front();
-  const double size = assembly_.parts[part.part].mesh->box().size().norm();
   for (const geometry::Twist& screw : turns(part.part)) {
-    const double pitch = std::abs(screw.linear.dot(screw.angular)) / screw.angular.squaredNorm();
-    if (pitch < kPitch * size) continue;
     for (const double sign : {1.0, -1.0}) {
       ForcedMotion m;
       m.moving = unit;
@@ -297,10 +298,10 @@ void ForcedMotions::add_screws(const Placed& unit, const Placed& group, std::vec
       const Vec3 axis = m.twist.angular.normalized();
       const double speed = axis.dot(m.twist.linear);
       const Vec3 along = speed > 0 ? axis : Vec3(-axis);
-      const ForcedMotion out = straight(unit, group, along);
-      m.duration = out.duration / std::abs(speed);
-      m.thickness = out.thickness;
-      if (m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * kMostTurns) list.push_back(std::move(m));
+      m.duration = distance_apart(m, along) / std::abs(speed);  // infinite for a mere rotation
+      if (!(m.duration * m.twist.angular.norm() <= 2 * std::numbers::pi * options_.max_turns)) continue;
+      m.thickness = thickness(m, along);
+      list.push_back(std::move(m));
     }
   }
 }
@@ -341,8 +342,10 @@ std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, 
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {
+  // Below half a turn between two poses the screw motion through them is unique; an eighth keeps clear of that.
+  const double max_turn = std::numbers::pi / 8;
   const double turn = motion.duration * motion.twist.angular.norm();
-  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(turn / kTurnStep)));
+  const auto steps = static_cast<std::size_t>(std::max(1.0, std::ceil(turn / max_turn)));
   Path path;
   for (std::size_t k = 0; k <= steps; ++k) {
     const double t = motion.duration * static_cast<double>(k) / static_cast<double>(steps);

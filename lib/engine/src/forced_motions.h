@@ -46,14 +46,14 @@ class ForcedMotions {
   /// translations of parts alone and of those that are in each other's way, and screws of threaded parts.
   std::vector<ForcedMotion> candidates(const Placed& group, const RunContext& context);
   /// The most promising of few: each part alone, along few directions. Its cost does not depend on how deep anything
-  /// cuts in. Nothing when the constraints let no part leave, or when told to stop.
+  /// cuts in. Nothing when the constraints let no part leave, or when the run is stopped.
   std::optional<ForcedMotion> quick_candidate(const Placed& group, const RunContext& context);
   /// A lower bound of how deep a straight motion cuts in, from rays, until more than `enough` is found; nothing where
   /// they meet nothing.
   std::optional<MotionDepth> least_depth(const ForcedMotion& motion,
                                          double enough = std::numeric_limits<double>::infinity()) const;
   /// How deep the motion cuts in. Cut short once it is known to be worse than options.stop_above.
-  /// Told to stop: what was found until then, not `proved`; nothing when nothing was measured. Nothing, too, when no
+  /// When stopped: what was found until then, not `proved`; nothing when nothing was measured. Nothing, too, when no
   /// two parts come near each other.
   std::optional<MotionDepth> depth(const ForcedMotion& motion, const MotionDepthOptions& options,
                                    const RunContext& context);
@@ -73,7 +73,6 @@ class ForcedMotions {
     double resolution = std::numeric_limits<double>::infinity();  // by which `depth` was measured; none yet
   };
   enum class Variety { few, all };
-  static constexpr double kInTheWay = 0.02;  // of the rays: less are taken for a small overlap that can be cut through
   std::vector<Placed> units(const Placed& group) const;
   std::vector<Eigen::Vector3d> directions(const Placed& group, Variety variety);
   const std::vector<geometry::FaceAxis>& axes(PartId part);
@@ -90,6 +89,8 @@ class ForcedMotions {
                     const Eigen::Vector3d& along, std::vector<ForcedMotion>& list);
   void add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list);
   ForcedMotion straight(const Placed& moving, const Placed& group, const Eigen::Vector3d& along);
+  double distance_apart(const ForcedMotion& motion, const Eigen::Vector3d& along) const;
+  double thickness(const ForcedMotion& motion, const Eigen::Vector3d& along);
 
   const Assembly& assembly_;
   const Verifier& verifier_;

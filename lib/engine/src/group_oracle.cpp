@@ -1,7 +1,6 @@
 #include "group_oracle.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -11,8 +10,6 @@ namespace dismantle {
 
 namespace {
 
-constexpr PartId kNone = std::numeric_limits<PartId>::max();
-
 std::shared_ptr<const Mesh> placed(const std::shared_ptr<const Mesh>& mesh, const Pose& pose) {
   if (!mesh || pose.is_identity()) return mesh;
   auto moved = std::make_shared<Mesh>(*mesh);
@@ -20,7 +17,7 @@ std::shared_ptr<const Mesh> placed(const std::shared_ptr<const Mesh>& mesh, cons
   return moved;
 }
 
-/// The same motion told of renumbered parts in their own frames: what was accepted stays accepted.
+/// The same motion of renumbered parts in their own frames: an accepted path stays accepted.
 class Renamed final : public PathChecker {
  public:
   PathCheck check(const Path&) const override {
@@ -50,7 +47,7 @@ Assembly assembly_of(const Assembly& whole, const std::vector<PlacedPart>& group
   for (std::size_t a = 0; a < group.size(); ++a)
     for (std::size_t b = a + 1; b < group.size(); ++b)
       if (const InitialOverlap* known = whole.overlap_of(group[a].part, group[b].part); known != nullptr) {
-        // The place is told in the frame of the whole; the group may have been moved since.
+        // The place is in the frame of the whole assembly; the group may have been moved since.
         out.overlaps.push_back({static_cast<PartId>(a), static_cast<PartId>(b), known->depth, {}, known->allowed()});
       }
   return out;
@@ -73,16 +70,17 @@ GroupOracle::GroupOracle(const Assembly& whole, PathOracle& oracle, std::vector<
   }
 }
 
-PartId GroupOracle::local(PartId whole) const {
+std::optional<PartId> GroupOracle::local(PartId whole) const {
   const auto at =
       std::lower_bound(group_.begin(), group_.end(), whole, [](const PlacedPart& p, PartId id) { return p.part < id; });
-  return at != group_.end() && at->part == whole ? static_cast<PartId>(at - group_.begin()) : kNone;
+  if (at == group_.end() || at->part != whole) return std::nullopt;
+  return static_cast<PartId>(at - group_.begin());
 }
 
 std::vector<PartId> GroupOracle::to_local(const std::vector<PartId>& parts) const {
   std::vector<PartId> list;
   for (const PartId id : parts)
-    if (const PartId here = local(id); here != kNone) list.push_back(here);
+    if (const auto here = local(id)) list.push_back(*here);
   return list;
 }
 
@@ -92,9 +90,8 @@ Constraints GroupOracle::constraints_of_group(const Constraints& all) const {
   for (const auto& list : all.together)
     if (auto here = to_local(list); here.size() > 1) own.together.push_back(std::move(here));
   for (const auto& [first, then] : all.before)
-    if (const PartId a = local(first), b = local(then); a != kNone && b != kNone) own.before.emplace_back(a, b);
-  if (all.target)
-    if (const PartId target = local(*all.target); target != kNone) own.target = target;
+    if (const auto a = local(first), b = local(then); a && b) own.before.emplace_back(*a, *b);
+  if (all.target) own.target = local(*all.target);
   return own;
 }
 
@@ -127,7 +124,7 @@ const AttemptResult& GroupOracle::keep(const AttemptResult& answer) {
   AttemptResult& own = results_.emplace_back(answer);
   const auto place = [&](std::vector<PlacedPart>& parts) {
     for (PlacedPart& p : parts) {
-      p.part = local(p.part);
+      p.part = local(p.part).value();
       p.pose = to_local(p.part, p.pose);
     }
   };

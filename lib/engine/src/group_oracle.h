@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,7 +40,7 @@ class GroupOracle final : public PathOracle {
  private:
   /// A pose in the group's frame and the same pose in the whole's: going there and back loses no bit.
   using Known = std::pair<Pose, Pose>;
-  PartId local(PartId whole) const;  // nothing: PartId of no part
+  std::optional<PartId> local(PartId whole) const;  // nothing: not in the group
   Attempt to_whole(const Attempt& attempt) const;
   Pose to_whole(PartId part, const Pose& pose) const;
   Pose to_local(PartId part, const Pose& pose);

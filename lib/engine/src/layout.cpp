@@ -6,12 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle {
 
 namespace {
-
-/// Room for rounding: things that keep `gap` apart must not be a rounding closer.
-constexpr double kSlack = 1e-9;
 
 struct Rectangle {
   Eigen::Vector2d lo, hi;
@@ -87,8 +86,9 @@ class Table {
   /// be is a union of rectangles; the nearest point outside of it has `middle` or an edge in either coordinate.
   Eigen::Vector2d place(const Eigen::Vector2d& size, const Eigen::Vector2d& middle) const {
     std::vector<Rectangle> blocked;
-    for (const auto& t : taken_)
-      blocked.push_back({t.lo.array() - (gap_ + kSlack) - size.array(), t.hi.array() + (gap_ + kSlack)});
+    // Things that keep the gap must not be a rounding closer, and both edges are rounded.
+    const double gap = gap_ + 2 * geometry::kRounding * gap_;
+    for (const auto& t : taken_) blocked.push_back({t.lo.array() - gap - size.array(), t.hi.array() + gap});
     std::stable_sort(blocked.begin(), blocked.end(),
                      [](const Rectangle& p, const Rectangle& q) { return p.lo.y() < q.lo.y(); });
     const Eigen::Vector2d wish = middle - size / 2;

@@ -167,7 +167,7 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
     AttemptResult stopped;
     stopped.attempt = std::move(question.attempt);
     stopped.result.fail(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout,
-                        "not begun: the run was told to stop");
+                        "not begun: the run was stopped");
     return keep(std::move(stopped));
   }
   const auto compute_it = [&](const RunContext& c) { return compute(question, c); };

@@ -7,21 +7,11 @@
 #include <utility>
 
 #include "dismantle/aabb.h"
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle {
 
 namespace {
-
-// docs/plan-format.md allows 1 % of the largest edge between two poses; the margin is for the rounding of poses
-// on their way to input units and back.
-constexpr double kTravelShare = 0.01 * 0.99;
-// How far an instant may lie off the screw motion through its neighbours to be left out. A four-hundredth of the
-// tightest fit that we know (clearance 4e-5 of the size), so leaving it out spoils no good path. What is verified is
-// the result anyway.
-constexpr double kToleranceShare = 1e-7;
-constexpr double kStartTolerance = 1e-9;  // of a pose's coefficients, assembly units or 1
-constexpr double kNormTolerance = 1e-6;   // of a quaternion's norm
-constexpr double kMaxInstants = 1e5;      // a thousand times across the assembly: no removal, but a runaway
 
 PartBall ball_of(const Mesh& mesh) {
   PartBall ball;
@@ -31,14 +21,8 @@ PartBall ball_of(const Mesh& mesh) {
   return ball;
 }
 
-bool same_pose(const Pose& a, const Pose& b) {
-  const double turn = std::min((a.q.coeffs() - b.q.coeffs()).cwiseAbs().maxCoeff(),
-                               (a.q.coeffs() + b.q.coeffs()).cwiseAbs().maxCoeff());
-  return turn <= kStartTolerance && (a.t - b.t).cwiseAbs().maxCoeff() <= kStartTolerance * (1 + b.t.norm());
-}
-
 /// Checks the shape of the path and makes its quaternions unit and continuous in sign. Returns what is wrong.
-std::string clean(Path& path, const std::vector<PlacedPart>& moving) {
+std::string clean(Path& path, const std::vector<PlacedPart>& moving, double size) {
   if (path.empty()) return "the path is empty";
   for (std::size_t k = 0; k < path.size(); ++k) {
     if (path[k].size() != moving.size())
@@ -46,9 +30,10 @@ std::string clean(Path& path, const std::vector<PlacedPart>& moving) {
     for (std::size_t i = 0; i < path[k].size(); ++i) {
       Pose& pose = path[k][i];
       if (!pose.t.allFinite() || !pose.q.coeffs().allFinite()) return fmt::format("instant {} is not finite", k);
-      if (std::abs(pose.q.norm() - 1) > kNormTolerance) return fmt::format("instant {} has no unit quaternion", k);
+      if (std::abs(pose.q.norm() - 1) > kPoseError) return fmt::format("instant {} has no unit quaternion", k);
       if (k == 0) {
-        if (!same_pose(pose, moving[i].pose)) return "the path does not start where its parts are";
+        if (!same_pose(pose, moving[i].pose, geometry::kRounding, size))
+          return "the path does not start where its parts are";
         pose = moving[i].pose;
       } else {
         pose.q.normalize();
@@ -67,9 +52,19 @@ PathNormalizer::PathNormalizer(const Assembly& assembly) {
     balls_.push_back(ball_of(*part.mesh));
     box.extend(part.mesh->box());
   }
-  const double largest = box.empty() ? 0.0 : box.size().maxCoeff();
-  max_travel_ = kTravelShare * largest;
-  tolerance_ = kToleranceShare * largest;
+  size_ = box.empty() ? 0.0 : box.size().maxCoeff();
+  // docs/plan-format.md allows 1 % of the largest edge between two poses; the margin is for the rounding of poses on
+  // their way to input units and back.
+  max_travel_ = 0.01 * 0.99 * size_;
+  // A four-hundredth of the tightest known fit (clearance 4e-5 of the size): leaving out an instant that is this near
+  // to the screw motion through its neighbours spoils no valid path. The result is what is verified.
+  tolerance_ = 1e-7 * size_;
+}
+
+bool same_pose(const Pose& a, const Pose& b, double error, double size) {
+  const double turn = std::min((a.q.coeffs() - b.q.coeffs()).cwiseAbs().maxCoeff(),
+                               (a.q.coeffs() + b.q.coeffs()).cwiseAbs().maxCoeff());
+  return turn <= error && (a.t - b.t).cwiseAbs().maxCoeff() <= error * (size + b.t.norm());
 }
 
 double PathNormalizer::travel(const std::vector<Pose>& a, const std::vector<Pose>& b,
@@ -134,7 +129,7 @@ std::vector<std::size_t> PathNormalizer::essential(const Path& path, const std::
 NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<PlacedPart>& moving) const {
   NormalizedPath result;
   Path clean_path = path;
-  result.problem = clean(clean_path, moving);
+  result.problem = clean(clean_path, moving, size_);
   if (!result.problem.empty()) return result;
   result.given_way = ways(clean_path, moving);
   const std::vector<std::size_t> kept = essential(clean_path, result.given_way, moving);
@@ -145,9 +140,10 @@ NormalizedPath PathNormalizer::normalize(const Path& path, const std::vector<Pla
     const std::vector<Pose>& b = clean_path[kept[j]];
     const double way = travel(a, b, moving);
     const double share = max_travel_ > 0 ? std::ceil(way / max_travel_) : 1.0;
-    if (!(share + static_cast<double>(result.path.size()) <= kMaxInstants)) {
+    const double max_instants = 1e5;  // a thousand times across the assembly: a planner that ran away
+    if (!(share + static_cast<double>(result.path.size()) <= max_instants)) {
       result.problem =
-          fmt::format("the path is too long: over {} assembly units of travel", kMaxInstants * max_travel_);
+          fmt::format("the path is too long: over {} assembly units of travel", max_instants * max_travel_);
       return result;
     }
     const std::size_t pieces = share > 1 ? static_cast<std::size_t>(share) : 1;

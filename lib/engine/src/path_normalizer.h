@@ -9,6 +9,12 @@
 
 namespace dismantle {
 
+/// Relative error that a planner's poses may have: they may have been computed in single precision.
+inline constexpr double kPoseError = 1e-6;
+
+/// Equal up to a relative error of quaternions and, relative to `size` of the assembly, of displacements.
+bool same_pose(const Pose& a, const Pose& b, double error, double size);
+
 /// Ball around a part, assembled frame, assembly units.
 struct PartBall {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -31,11 +37,12 @@ class PathNormalizer {
  public:
   explicit PathNormalizer(const Assembly& assembly);
 
-  /// Same motion with as few instants as describe it to within tolerance(), yet so many that no point of a part
-  /// travels further than max_travel() from one to the next. At least two instants. The first is exactly the pose
+  /// The same motion with the fewest instants that describe it to within tolerance(), but enough that no point of a
+  /// part travels further than max_travel() from one to the next. At least two instants. The first is exactly the pose
   /// of the scene. Refuses paths that are not finite, have the wrong width or start elsewhere.
   NormalizedPath normalize(const Path& path, const std::vector<PlacedPart>& moving) const;
 
+  double size() const { return size_; }              ///< largest edge of the assembly, assembly units
   double max_travel() const { return max_travel_; }  ///< assembly units
   double tolerance() const { return tolerance_; }    ///< assembly units
 
@@ -46,6 +53,7 @@ class PathNormalizer {
                                      const std::vector<PlacedPart>& moving) const;
 
   std::vector<PartBall> balls_;  // by part id
+  double size_ = 0;
   double max_travel_ = 0;
   double tolerance_ = 0;
 };

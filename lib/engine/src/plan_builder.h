@@ -1,4 +1,4 @@
-/// Books the removals of a run: who stands where, in which group, and the plan that comes of it.
+/// Records the removals of a run: the pose and group of each part, and the resulting plan.
 #pragma once
 
 #include <functional>

@@ -9,14 +9,13 @@
 #include <utility>
 
 #include "dismantle/executor.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/solid.h"
 
 namespace dismantle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-constexpr double kWhole = 1 - 1e-9;
 
 bool has_part(const std::vector<PlacedPart>& group, PartId part) {
   return std::any_of(group.begin(), group.end(), [part](const PlacedPart& p) { return p.part == part; });
@@ -67,7 +66,7 @@ bool ProofSchedule::asks(const Prover& prover, ProofEffort effort, bool depends_
   return t.effort == effort && t.depends_on_poses == depends_on_poses && parts >= t.min_parts && parts <= t.max_parts;
 }
 
-/// Nothing: told to stop.
+/// Nothing when stopped.
 std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& query, ProofEffort effort,
                                                         bool depends_on_poses, const RunContext& context) {
   const Clock::time_point begin = Clock::now();
@@ -96,7 +95,7 @@ std::optional<ProofSchedule::Answer> ProofSchedule::ask(const SeparationQuery& q
     if (!answer) continue;
     answer->kind = prover.named.id;
     answer->margin = query.margin();
-    answer->full_tolerance = query.share >= kWhole;
+    answer->full_tolerance = query.share >= 1 - geometry::kRounding;
     break;
   }
   nanoseconds_ += static_cast<std::uint64_t>(std::chrono::nanoseconds(Clock::now() - begin).count());

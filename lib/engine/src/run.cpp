@@ -17,6 +17,7 @@
 #include "oracle.h"
 #include "plan_builder.h"
 #include "precedence.h"
+#include "rng_streams.h"
 #include "step_overlaps.h"
 #include "stopwatch.h"
 
@@ -25,9 +26,6 @@ namespace dismantle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::uint64_t kSequenceStream = 0x73657175656e6365;  // "sequence": apart from the attempts' streams
-
-constexpr std::uint64_t kTransferStream = 0x7472616e73666572;  // "transfer"
 
 Outcome why_stopped(const RunContext& context) {
   return context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout;
@@ -106,7 +104,7 @@ class RemovalRecorder final : public SequenceObserver {
 SequenceResult plan_sequence(const Assembly& assembly, SequencePlanner& planner, Oracle& oracle,
                              RemovalRecorder& recorder, const RunContext& context) {
   RunContext own = context;
-  own.rng = context.rng.fork(kSequenceStream);
+  own.rng = context.rng.fork(sequence_stream);
   SequenceResult result;
   std::string problem;
   try {
@@ -290,7 +288,7 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   const auto put_together = [&] {
     if (!puts_together) return;
     RunContext putting = own;
-    putting.rng = Rng(options.seed).fork(kTransferStream);
+    putting.rng = Rng(options.seed).fork(transfer_stream);
     back = Assembler(assembly, *prepared, setup, options, verifier)
                .put_together(builder.recorded(), builder.plan().disassembly, putting);
   };

@@ -10,7 +10,6 @@ namespace dismantle {
 std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<RecordedStep>& steps,
                                                         const Assembly& assembly, const Verifier& verifier,
                                                         double least, const RunContext& context) {
-  constexpr double kShare = 0.05;  // of the depth, by which a figure may be off
   std::vector<std::vector<PlanStepOverlap>> all(steps.size());
   std::vector<const InitialOverlap*> deep;
   for (const InitialOverlap& o : assembly.overlaps)
@@ -33,7 +32,8 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
         const PartId other = o->a == part ? o->b : o->a;
         const bool moves_along = std::find(step.parts.begin(), step.parts.end(), other) != step.parts.end();
         if (moves_along || group[other] != step.from) continue;
-        MotionDepthOptions options{verifier.options().max_penetration, kShare};
+        MotionDepthOptions options;
+        options.absolute = verifier.options().max_penetration;
         options.at_most = o->allowed() + verifier.options().max_penetration;  // the step has been verified
         const auto found = meter.deepest({part}, {{other, poses[other]}}, column, options, context, true);
         if (!found || found->depth <= 0) continue;

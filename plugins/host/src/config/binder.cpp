@@ -4,12 +4,11 @@
 
 #include <algorithm>
 
+#include "config/config_limits.h"
 #include "config/list_items.h"
 
 namespace dismantle {
 namespace {
-
-constexpr unsigned kMaxNesting = 16;  // plugins that hold plugins
 
 /// Members of a map are looked at with the key `type` left out.
 const ParamSpec* spec_of(const std::vector<ParamSpec>& specs, const std::string& key) {
@@ -63,8 +62,8 @@ std::optional<PluginChoice> Binder::choice(PluginKind kind, const std::vector<Pa
     return std::nullopt;
   };
   const Deeper deeper(depth_);
-  if (depth_ > kMaxNesting)
-    return fail(node.mark, fmt::format("{}: plugins hold each other more than {} deep", name, kMaxNesting));
+  if (depth_ > kConfigLimits.plugins)
+    return fail(node.mark, fmt::format("{}: plugins hold each other more than {} deep", name, kConfigLimits.plugins));
   const ConfigMember* type = node.is_map() ? node.find("type") : nullptr;
   const ConfigNode* id = type != nullptr ? &type->value : node.is_scalar() ? &node : nullptr;
   if (!node.is_map() && !node.is_scalar())

@@ -331,6 +331,8 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
   config.layout = Schema<LayoutOptions>().bind(config.sections.at("layout"));
   config.layout.poses = std::move(poses);
   config.run = Schema<RunSettings>().bind(config.sections.at("run"));
+  config.force = Schema<ForceOptions>().bind(config.sections.at("force"));
+  config.force.when = config.run.force;
   config.proofs = Schema<ProofOptions>().bind(config.sections.at("immobility"));
   config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
   config.named_overlap = std::get<double>(config.sections.at("verify").at("named_overlap"));

@@ -14,12 +14,10 @@
 #include <system_error>
 #include <utility>
 
+#include "config/config_limits.h"
+
 namespace dismantle {
 namespace {
-
-constexpr std::size_t kMaxDepth = 64;
-constexpr std::size_t kMaxNodes = 100'000;
-constexpr std::uintmax_t kMaxBytes = std::uintmax_t{1} << 20;
 
 /// Ends the parsing; what is wrong has been reported.
 struct Stop {};
@@ -102,14 +100,16 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void count(std::size_t more, const YAML::Mark& at) {
     nodes_ += more;
-    if (nodes_ > kMaxNodes) stop(at, fmt::format("more than {} nodes: this is no configuration", kMaxNodes));
+    if (nodes_ > kConfigLimits.nodes)
+      stop(at, fmt::format("more than {} nodes: this is no configuration", kConfigLimits.nodes));
   }
   void check_tag(const YAML::Mark& at, const std::string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!")
       problems_.push_back(place(at).error(fmt::format("YAML tags are not supported: '{}'", tag)));
   }
   void open(ConfigNode node, YAML::anchor_t anchor, const YAML::Mark& at) {
-    if (open_.size() >= kMaxDepth) stop(at, fmt::format("nested more than {} levels deep", kMaxDepth));
+    if (open_.size() >= kConfigLimits.depth)
+      stop(at, fmt::format("nested more than {} levels deep", kConfigLimits.depth));
     open_.push_back({std::move(node), anchor, false, false, "", {}});
   }
   void close() {
@@ -236,9 +236,9 @@ bool read_yaml(const std::string& file, ConfigNode& node, std::vector<Diagnostic
   }
   std::string text;
   char block[65536];
-  while (text.size() <= kMaxBytes && (stream.read(block, sizeof(block)), stream.gcount() > 0))
+  while (text.size() <= kConfigLimits.bytes && (stream.read(block, sizeof(block)), stream.gcount() > 0))
     text.append(block, static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad() || text.size() > kMaxBytes) {
+  if (stream.bad() || text.size() > kConfigLimits.bytes) {
     unreadable = fmt::format("'{}' {}", file, stream.bad() ? "cannot be read" : "is larger than 1 MiB");
     return false;
   }

@@ -5,8 +5,8 @@
 namespace dismantle {
 
 ParamSpec provers_parameter(const Registry& registry) {
-  static constexpr const char* kBuiltIn[] = {"overlap_lock", "enclosed_ball",       "ring",        "spool", "hook",
-                                             "disc",         "configuration_cells", "interlock_lp"};
+  const char* const built_in[] = {"overlap_lock", "enclosed_ball",       "ring",        "spool", "hook",
+                                  "disc",         "configuration_cells", "interlock_lp"};
   ParamSpec spec;
   spec.name = "provers";
   spec.type = ParamType::plugins;
@@ -14,7 +14,7 @@ ParamSpec provers_parameter(const Registry& registry) {
   spec.may_be_empty = true;
   spec.doc = "Proofs that parts cannot be separated, in the order of asking; [] = none.";
   std::vector<PluginChoice> fallback;
-  for (const char* id : kBuiltIn)
+  for (const char* id : built_in)
     if (registry.lookup(PluginKind::immobility_prover, id) != nullptr) fallback.push_back({id, {}, {}});
   spec.fallback = std::move(fallback);
   return spec;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "config/config_limits.h"
 #include "config/list_items.h"
 #include "dismantle/host/config_bind.h"
 
@@ -14,8 +15,6 @@ namespace dismantle {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMaxChain = 32;
 
 /// Does a map of `over` choose another plugin than the map below it?
 bool changes_type(const ConfigNode& base, const ConfigNode& over) {
@@ -78,10 +77,10 @@ class FileChain {
     fs::path identity = fs::weakly_canonical(shown, error);
     if (error) identity = shown;
     const auto again = std::find(chain_.begin(), chain_.end(), identity);
-    if (from != nullptr && (again != chain_.end() || chain_.size() >= kMaxChain)) {
+    if (from != nullptr && (again != chain_.end() || chain_.size() >= kConfigLimits.files)) {
       problems_.push_back(from->error(again != chain_.end()
                                           ? fmt::format("'{}' extends itself{}", shown, way(again))
-                                          : fmt::format("more than {} files extend each other", kMaxChain)));
+                                          : fmt::format("more than {} files extend each other", kConfigLimits.files)));
       return empty();
     }
     ConfigNode root;

@@ -32,8 +32,7 @@ RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   out.proofs = config.proofs;
   out.layout = config.layout;
   out.seed = static_cast<std::uint64_t>(config.run.seed);
-  out.force = {config.run.force, config.run.force_share, config.run.force_directions, config.run.force_candidates,
-               config.run.force_retry_depth};
+  out.force = config.force;
   return out;
 }
 

@@ -3,8 +3,6 @@
 namespace dismantle {
 namespace {
 
-constexpr double kLargestTolerance = 0.5;  // assembly units: a twentieth of the assembly
-
 struct VerifySettings {
   double max_penetration = VerifyOptions{}.max_penetration;
   double named_overlap = 0.1;
@@ -13,13 +11,11 @@ struct VerifySettings {
         "max_penetration", &VerifySettings::max_penetration,
         {.unit = "assembly units",
          .min = 0,
-         .max = kLargestTolerance,
+         .max = 0.05 * PrepareOptions{}.size,
          .min_open = true,
-         .doc =
-             "Deepest penetration that a path may have, above what the pair had when assembled. The largest edge of "
-             "the "
-             "assembly is 10; at more than a twentieth of it parts pass through each other's walls, and that a plan is "
-             "valid says nothing."});
+         .doc = "Deepest penetration that a path may have, above what the pair had when assembled. The largest edge of "
+                "the assembly is 10; at more than a twentieth of it parts pass through each other's walls, and that a "
+                "plan is valid says nothing."});
     s.add("named_overlap", &VerifySettings::named_overlap,
           {.unit = "assembly units",
            .min = 0,
@@ -50,35 +46,13 @@ void RunSettings::describe(Schema<RunSettings>& s) {
        {"last_resort", ForceWhen::last_resort,
         "they are taken out where they cut in least, in steps that are marked as forced and never count as verified"}},
       "What is done with parts that no verified path was found for. Benchmarks never force.");
-  s.add("force_share", &RunSettings::force_share,
-        {.unit = "1",
-         .min = 0,
-         .max = 0.9,
-         .min_open = true,
-         .doc = "Advanced. Share of run.timeout that is kept for forced steps and for verified ones between them. Each "
-                "part that is left gets its step in it; with more time the steps cut in less."});
-  s.add("force_directions", &RunSettings::force_directions,
-        {.unit = "1",
-         .min = 0,
-         .max = 1000,
-         .doc = "Advanced. Directions of a sphere that a forced step may take, beside the axes of the parts' faces."});
-  s.add("force_candidates", &RunSettings::force_candidates,
-        {.unit = "1",
-         .min = 1,
-         .max = 100000,
-         .doc = "Advanced. Motions whose depth is measured for one forced step, the most promising ones."});
-  s.add("force_retry_depth", &RunSettings::force_retry_depth,
-        {.unit = "1",
-         .min = 1,
-         .max = 1000,
-         .doc = "Advanced. Depth of the searches for verified paths of the parts that are left after a forced step."});
   s.add(
       "grace", &RunSettings::grace,
       {.unit = "s",
        .min = 0,
        .doc =
            "Time that plugins have to end after the run's time is up or Ctrl-C; then the plan so far is saved and the "
-           "process ends with status 4. 0 = wait for ever."});
+           "process ends with status 4. 0 = wait without limit."});
 }
 
 const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_sections() {
@@ -86,6 +60,7 @@ const std::vector<std::pair<std::string, std::vector<ParamSpec>>>& fixed_section
       {"assembly", Schema<PrepareOptions>().specs()},
       {"layout", Schema<LayoutOptions>().specs()},
       {"run", Schema<RunSettings>().specs()},
+      {"force", Schema<ForceOptions>().specs()},
       {"verify", Schema<VerifySettings>().specs()}};
   return sections;
 }

@@ -5,12 +5,6 @@
 #include <algorithm>
 
 namespace dismantle {
-namespace {
-
-constexpr int kCommentColumn = 44;
-
-}  // namespace
-
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -48,7 +42,7 @@ std::string one_line(std::string text) {
 void YamlWriter::row(const std::string& lead, const std::string& text, const std::string& path) {
   const auto origin = origins_.find(path);
   std::string row = lead + text;
-  if (origin != origins_.end()) row = fmt::format("{:<{}}  # {}", row, kCommentColumn, one_line(origin->second));
+  if (origin != origins_.end()) row = fmt::format("{:<44}  # {}", row, one_line(origin->second));
   line(row);
 }
 

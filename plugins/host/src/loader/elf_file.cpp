@@ -20,18 +20,6 @@ using Segment = ElfW(Phdr);
 using Section = ElfW(Shdr);
 using Symbol = ElfW(Sym);
 
-#if defined(__x86_64__)
-constexpr unsigned kMachine = EM_X86_64;
-#elif defined(__aarch64__)
-constexpr unsigned kMachine = EM_AARCH64;
-#elif defined(__riscv)
-constexpr unsigned kMachine = EM_RISCV;
-#else
-constexpr unsigned kMachine = EM_NONE;  // unknown: left to the dynamic linker
-#endif
-constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
-constexpr unsigned char kEndian = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
-
 }  // namespace
 
 class ElfFile::Reader {
@@ -42,9 +30,9 @@ class ElfFile::Reader {
     size_ = static_cast<std::uint64_t>(std::max<std::streamoff>(0, stream_.tellg()));
     check_identity();
     if (header_.e_type != ET_DYN) fail("is an ELF file, but no shared library");
-    if (kMachine != EM_NONE && header_.e_machine != kMachine)
+    if (here_.processor != EM_NONE && header_.e_machine != here_.processor)
       fail(fmt::format("is built for another processor (ELF machine {}, this one is {}); rebuild the plugin here",
-                       header_.e_machine, kMachine));
+                       header_.e_machine, here_.processor));
     check_segments();
   }
 
@@ -60,6 +48,21 @@ class ElfFile::Reader {
   }
 
  private:
+  /// What ELF files for this machine state in their header.
+  struct ThisMachine {
+#if defined(__x86_64__)
+    unsigned processor = EM_X86_64;
+#elif defined(__aarch64__)
+    unsigned processor = EM_AARCH64;
+#elif defined(__riscv)
+    unsigned processor = EM_RISCV;
+#else
+    unsigned processor = EM_NONE;  // unknown: left to the dynamic linker
+#endif
+    unsigned char word_size = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+    unsigned char byte_order = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
+  };
+
   [[noreturn]] void fail(const std::string& problem) const { throw PluginError(file_.string(), problem); }
 
   void check_identity() {
@@ -68,9 +71,9 @@ class ElfFile::Reader {
     read(0, ident, sizeof(ident));
     if (std::memcmp(ident, ELFMAG, SELFMAG) != 0)
       fail("is no ELF shared library: name the .so file that the build of the plugin made");
-    if (ident[EI_CLASS] != kClass || ident[EI_DATA] != kEndian)
+    if (ident[EI_CLASS] != here_.word_size || ident[EI_DATA] != here_.byte_order)
       fail(fmt::format("is built for another kind of machine (ELF class {}, byte order {}; this one has {}, {})",
-                       ident[EI_CLASS], ident[EI_DATA], kClass, kEndian));
+                       ident[EI_CLASS], ident[EI_DATA], here_.word_size, here_.byte_order));
     if (size_ < sizeof(Header)) fail(truncated("header", sizeof(Header)));
     read(0, &header_, sizeof(header_));
   }
@@ -129,6 +132,7 @@ class ElfFile::Reader {
     return table<std::uint8_t>(home.sh_offset + begin, size, "header symbol");
   }
 
+  const ThisMachine here_;
   std::filesystem::path file_;
   std::ifstream stream_;
   std::uint64_t size_ = 0;

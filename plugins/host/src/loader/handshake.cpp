@@ -74,10 +74,10 @@ std::vector<std::string> tag_differences(std::string_view plugin, std::string_vi
 PluginHeader accept_header(const std::vector<std::uint8_t>& bytes, const std::string& file) {
   PluginHeader header;
   const auto fail = [&file](const std::string& problem) { throw PluginError(file, problem); };
-  constexpr std::size_t kFixed = offsetof(PluginHeader, abi_tag);  // magic, size, API version
-  if (bytes.size() < kFixed)
+  const std::size_t fixed = offsetof(PluginHeader, abi_tag);  // magic, size, API version
+  if (bytes.size() < fixed)
     fail(fmt::format("plugin header has {} bytes, expected {}; rebuild the plugin", bytes.size(), sizeof(header)));
-  std::memcpy(static_cast<void*>(&header), bytes.data(), kFixed);
+  std::memcpy(static_cast<void*>(&header), bytes.data(), fixed);
   if (header.magic != kPluginMagic)
     fail(
         fmt::format("magic is {:#010x} in the plugin, {:#010x} here: '{}' is no header of a Dismantle plugin; rebuild "

@@ -16,11 +16,6 @@
 namespace dismantle {
 namespace {
 
-/// Optional: all that a plugin registers, in that order, as "KIND ID", separated by commas
-/// (cmake/DismantlePlugin.cmake).
-constexpr char kTypesSymbol[] = "dismantle_plugin_types";
-constexpr std::size_t kMostTypes = 65536;
-
 bool word(const std::string& s) {
   if (s.empty() || s[0] < 'a' || s[0] > 'z') return false;
   return std::all_of(s.begin(), s.end(),
@@ -155,7 +150,9 @@ OfferedPlugin read_plugin(const std::filesystem::path& file, bool built_in) {
                                           "plugin lacks DISMANTLE_PLUGIN)",
                                           kPluginHeaderSymbol));
     header = accept_header(*bytes, path);
-    if (const auto text = elf.symbol(kTypesSymbol, kMostTypes)) types.assign(text->begin(), text->end());
+    // Optional: all that a plugin registers, in that order, as "KIND ID", separated by commas
+    // (cmake/DismantlePlugin.cmake).
+    if (const auto text = elf.symbol("dismantle_plugin_types", 65536)) types.assign(text->begin(), text->end());
     types.resize(std::min(types.find('\0'), types.size()));
   } catch (const PluginError& e) {
     const std::string what = e.what();

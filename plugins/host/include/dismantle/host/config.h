@@ -29,11 +29,7 @@ struct RunSettings {
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
   double timeout = 7200;        ///< seconds for the whole run, 0 = none
   ForceWhen force = ForceWhen::last_resort;
-  double force_share = 0.15;       ///< of `timeout`, kept for forced steps
-  unsigned force_directions = 26;  ///< as ForceOptions::directions
-  unsigned force_candidates = 24;
-  unsigned force_retry_depth = 3;
-  double grace = 30;  ///< seconds that plugins have to stop when they are told to, 0 = wait for ever
+  double grace = 30;  ///< seconds that plugins have to stop after they were asked to, 0 = no limit
   DISMANTLE_API static void describe(Schema<RunSettings>& s);
 };
 
@@ -78,6 +74,7 @@ struct RunConfig {
   VerifyOptions verify;
   double named_overlap = 0.1;  ///< as RunOptions::named_overlap
   ProofOptions proofs;
+  ForceOptions force;  ///< `when` is run.force
   LayoutOptions layout;
   NamedConstraints constraints;
   std::vector<ConstraintName> constraint_names;            ///< in reading order
