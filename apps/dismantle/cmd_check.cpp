@@ -25,9 +25,6 @@ struct Check {
   ConsoleOptions console;
 };
 
-/// Depths are exact to this share of the tolerance that plans are verified by.
-constexpr double kDepthShare = 0.01;
-
 #ifdef DISMANTLE_BOOK_LIBRARY
 PartId part_named(const Assembly& assembly, const std::string& name) {
   for (const Part& part : assembly.parts)
@@ -79,7 +76,8 @@ int check(const Check& options) {
   try {
     const Assembly assembly = load_assembly(options.input, config, registry, context, report);
     AssemblyCheck found = stoppable(context, [&] {
-      return check_assembly(assembly, report, kDepthShare * config.verify.max_penetration, context);
+      const double resolution = 0.01 * config.verify.max_penetration;  // far below what makes a motion valid or not
+      return check_assembly(assembly, report, resolution, context);
     });
     if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);
     return finish(found, options.input, true, console);

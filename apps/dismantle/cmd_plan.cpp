@@ -49,16 +49,15 @@ bool third_party(const std::string& id) { return id.find('.') != std::string::np
 
 /// From now on the notes follow the run.
 void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
-  constexpr double kNanoseconds = 1e9;
   notes.chosen.set(fmt::format("simulator {}, path planner {}, sequence planner {}", config.simulator.type,
                                config.path_planner.type, config.sequence_planner.type));
   // A wait of a century is one without end; more would not fit into the ticks of a clock.
-  constexpr double kCentury = 3.2e9;
-  notes.grace = static_cast<std::int64_t>(kNanoseconds * std::min(config.run.grace, kCentury));
-  if (const double left = context.deadline.seconds_left(); left < kCentury && config.run.grace > 0) {
+  const double century = 3.2e9;  // s
+  notes.grace = static_cast<std::int64_t>(std::nano::den * std::min(config.run.grace, century));
+  if (const double left = context.deadline.seconds_left(); left < century && config.run.grace > 0) {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     notes.end = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() +
-                static_cast<std::int64_t>(kNanoseconds * (left + std::min(config.run.grace, kCentury)));
+                static_cast<std::int64_t>(std::nano::den * (left + std::min(config.run.grace, century)));
   }
   context.on_progress = [&notes, shown = context.on_progress](const ProgressEvent& event) {
     notes.busy.set(fmt::format("{} {}/{}: {}", event.phase, event.done, event.total, event.detail));

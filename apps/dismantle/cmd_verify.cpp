@@ -21,24 +21,22 @@ struct Verify {
   ConsoleOptions console;
 };
 
-constexpr double kUsualSize = PrepareOptions{}.size;
-
 /// The tolerance of the verification: that of the plan, but not more than what makes a plan valid. A plan states the
 /// scale of its units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny
 /// gains nothing.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
-  const double most = VerifyOptions{}.max_penetration;
+  const double most = VerifyOptions{}.max_penetration, usual_size = PrepareOptions{}.size;
   if (plan.verified_max_penetration > most)
     console.warning(
         fmt::format("the plan was made with a tolerance of {:.3g}; it is verified with {:.3g} assembly units",
                     plan.verified_max_penetration, most));
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff();
-  const double tolerance = std::min({plan.verified_max_penetration, most, most / kUsualSize * size});
-  if (std::abs(size - kUsualSize) > 1e-6)
+  const double tolerance = std::min({plan.verified_max_penetration, most, most / usual_size * size});
+  if (std::abs(size - usual_size) > 1e-6)
     console.warning(
         fmt::format("the largest edge of the assembly is {:.6g} of the plan's units, usually it is {:g}: the "
                     "tolerance is {:.2g} of it",
-                    size, kUsualSize, tolerance / size));
+                    size, usual_size, tolerance / size));
   return tolerance;
 }
 

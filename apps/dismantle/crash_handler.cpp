@@ -32,9 +32,6 @@ struct Facts {
   std::string advice;
 };
 Facts* g_facts = nullptr;
-constexpr const char* kAdviceWhileLoading =
-    "if the plugin is none of Dismantle's own, take its file out of the plugin path (DISMANTLE_PLUGIN_PATH, "
-    "plugins.search_paths), and tell its author";
 std::atomic<bool> g_crashing{false};
 
 const char* name_of(int signal) {
@@ -192,7 +189,10 @@ void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after,
   facts->notes = &notes;
   facts->after = after;
   facts->json = json;
-  facts->advice = registry != nullptr ? advice_after_crash(false) : kAdviceWhileLoading;
+  facts->advice = registry != nullptr
+                      ? advice_after_crash(false)
+                      : "if the plugin is none of Dismantle's own, take its file out of the plugin path "
+                        "(DISMANTLE_PLUGIN_PATH, plugins.search_paths), and tell its author";
   g_facts = facts;
   void* warm[4];
   static_cast<void>(::backtrace(warm, 4));  // the first call loads a library

@@ -29,9 +29,6 @@ std::int64_t now() {
       .count();
 }
 
-/// What the child gets on top of its grace: its own watchdog comes first, and saves more.
-constexpr std::int64_t kPatience = 5'000'000'000;
-
 /// Sanitizers reserve terabytes of addresses.
 void limit_memory([[maybe_unused]] std::int64_t mib) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -80,6 +77,8 @@ IsolatedEnd Isolation::wait() {
   IsolatedEnd end;
   int passed_on = 0, status = 0;
   std::int64_t last_moment = 0;  // after Ctrl-C
+  // What the child gets on top of its grace, nanoseconds: its own watchdog comes first, and saves more.
+  const std::int64_t margin = 5'000'000'000;
   std::string killed_for;
   while (true) {
     const pid_t pid = ::waitpid(child_, &status, WNOHANG);
@@ -90,11 +89,11 @@ IsolatedEnd Isolation::wait() {
     if (told > passed_on && passed_on == 0) {
       ::kill(child_, SIGINT);
       passed_on = 1;
-      if (grace > 0) last_moment = now() + grace + kPatience;
+      if (grace > 0) last_moment = now() + grace + margin;
     }
     if (killed_for.empty()) {
-      if (told > 1) killed_for = "it was told to stop now";
-      if (limit > 0 && now() > limit + kPatience)
+      if (told > 1) killed_for = "it was interrupted twice";
+      if (limit > 0 && now() > limit + margin)
         killed_for = "its time was over (run.timeout, run.grace), and it did not stop";
       if (last_moment > 0 && now() > last_moment) killed_for = "it was interrupted, and did not stop (run.grace)";
       if (!killed_for.empty()) {

@@ -22,15 +22,9 @@ struct Template {
   const char* id;  // of the plugin that its files are written for
 };
 constexpr std::array kTemplates = {
-    Template{"path_planner", "acme.lines"},           Template{"sequence_planner", "acme.in_turn"},
-    Template{"simulator", "acme.stepper"},            Template{"importer", "acme.facets"},
-    Template{"transfer_planner", "acme.two_trees"},   Template{"immobility_prover", "acme.walled_in"}};
-/// What all kinds have in common is written for this plugin.
-constexpr const char* kCommonId = "acme.example";
-
-/// In place of the dot of a hidden file, so that the templates themselves hide nothing.
-constexpr std::string_view kHidden = "dot_";
-
+    Template{"path_planner", "acme.lines"},         Template{"sequence_planner", "acme.in_turn"},
+    Template{"simulator", "acme.stepper"},          Template{"importer", "acme.facets"},
+    Template{"transfer_planner", "acme.two_trees"}, Template{"immobility_prover", "acme.walled_in"}};
 /// "acme.in_turn" -> "acme_in_turn": names of files, targets, macros.
 std::string identifier(std::string id) {
   std::replace(id.begin(), id.end(), '.', '_');
@@ -120,7 +114,8 @@ void copy(const fs::path& from, const fs::path& to, const Renaming& renamed, std
     fs::path place;
     for (const fs::path& name : fs::relative(entry.path(), from)) {
       const std::string word = renamed(name.string());
-      place /= word.starts_with(kHidden) ? "." + word.substr(kHidden.size()) : word;
+      const std::string_view hidden = "dot_";  // the templates themselves hide nothing
+      place /= word.starts_with(hidden) ? "." + word.substr(hidden.size()) : word;
     }
     fs::create_directories((to / place).parent_path());
     std::ofstream out(to / place, std::ios::binary);
@@ -157,7 +152,7 @@ std::vector<std::string> write_plugin_project(const fs::path& folder, const std:
                             (templates / kind).string()));
   open_project_folder(folder);
   Renaming renamed(chosen->id, id);
-  renamed.add(kCommonId, id);
+  renamed.add("acme.example", id);  // what all kinds have in common is written for this plugin
   std::vector<std::string> written;
   copy(templates / "common", folder, renamed, written);
   copy(templates / kind, folder, renamed, written);

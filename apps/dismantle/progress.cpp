@@ -15,8 +15,6 @@ namespace dismantle::app {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds kRedraw{100};
-constexpr std::chrono::seconds kFirstLines{1}, kLastLines{30};  // between two lines, at first and after ten minutes
 
 std::size_t columns() {
   winsize size = {};
@@ -82,14 +80,16 @@ std::string Progress::status(Clock::time_point now) const {
   if (!detail_.empty()) out += ": " + detail_;
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   out += " (" + duration(elapsed);
-  constexpr std::size_t kSample = 3;  // items that say how long others take
-  constexpr double kWorthSaying = 5;  // s
-  if (is_even(phase_) && done_ >= kSample && 10 * done_ >= total_ && done_ < total_ && elapsed >= kWorthSaying)
+  const bool is_long = elapsed >= 5;  // s; less needs no forecast
+  // Three items, and a tenth of all, tell how long the others take.
+  if (is_long && is_even(phase_) && done_ >= 3 && 10 * done_ >= total_ && done_ < total_)
     out += fmt::format(", about {} left", duration(elapsed * double(total_ - done_) / double(done_)));
-  else if (phase_ == "sequence" && elapsed >= kWorthSaying && std::isfinite(deadline_.seconds_left()))
+  else if (is_long && phase_ == "sequence" && std::isfinite(deadline_.seconds_left()))
     out += fmt::format(", ends within {}", duration(std::max(0.0, deadline_.seconds_left())));
   return out + ")";
 }
+
+bool Progress::may_redraw(Clock::time_point now) const { return now - drawn_ >= milliseconds(100); }
 
 void Progress::event(const ProgressEvent& event) {
   const std::lock_guard lock(mutex_);
@@ -103,9 +103,10 @@ void Progress::event(const ProgressEvent& event) {
   total_ = event.total;
   if (style_ == Style::none) return;
   // Long runs say less often how far they are; each step that is found is a line of its own.
-  const auto pause = std::clamp<Clock::duration>((now - begin_) / 20, kFirstLines, kLastLines);
+  using std::chrono::seconds;
+  const auto pause = std::clamp<Clock::duration>((now - begin_) / 20, seconds(1), seconds(30));
   if (style_ == Style::bar) {
-    if (fresh || now - drawn_ >= kRedraw) draw(now);
+    if (fresh || may_redraw(now)) draw(now);
   } else if (changed && (fresh || now - drawn_ >= pause)) {
     drawn_ = now;
     put(status(now) + "\n");
@@ -129,12 +130,12 @@ void Progress::line(std::string_view text) {
 }
 
 void Progress::draw(Clock::time_point now) {
-  constexpr std::size_t kBar = 24;
+  const std::size_t cells = 24;  // of the bar
   drawn_ = now;
   std::string bar;
   if (total_ > 0) {
-    const std::size_t full = kBar * std::min(done_, total_) / total_;
-    bar = '[' + std::string(full, '#') + std::string(kBar - full, '.') + "] ";
+    const std::size_t full = cells * std::min(done_, total_) / total_;
+    bar = '[' + std::string(full, '#') + std::string(cells - full, '.') + "] ";
   }
   const std::string text = cut(bar + status(now), columns() - 1);
   const std::size_t painted = std::min(bar.size(), text.size());
@@ -152,7 +153,7 @@ void Progress::tick(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
     wake_.wait_for(lock, stop, milliseconds(500), [] { return false; });
-    if (!stop.stop_requested() && !phase_.empty() && Clock::now() - drawn_ >= kRedraw) draw(Clock::now());
+    if (!stop.stop_requested() && !phase_.empty() && may_redraw(Clock::now())) draw(Clock::now());
   }
 }
 

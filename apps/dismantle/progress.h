@@ -1,5 +1,6 @@
 /// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. The remaining time is shown only
-/// where it can be estimated: in phases whose items are alike. For the parts that are left it cannot; there the limit is shown.
+/// where it can be estimated: in phases whose items are alike. For the parts that are left it cannot; there the limit
+/// is shown.
 #pragma once
 
 #include <chrono>
@@ -40,6 +41,7 @@ class Progress {
   void clear();
   void tick(std::stop_token stop);
   std::string status(Clock::time_point now) const;
+  bool may_redraw(Clock::time_point now) const;
 
   const Style style_;
   std::mutex mutex_;

@@ -1,4 +1,4 @@
-/// A command that ended early because it was told to, or because its time was up.
+/// A command that was interrupted, or whose time was up.
 #pragma once
 
 #include "dismantle/command.h"

@@ -17,12 +17,11 @@ Watchdog::~Watchdog() {
 
 void Watchdog::watch(std::stop_token stop) {
   // Signals cannot notify a condition variable, so the flag is polled.
-  constexpr std::chrono::milliseconds kPoll{100};
   Deadline patience;
   bool told = false;
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
-    wake_.wait_for(lock, stop, kPoll, [] { return false; });
+    wake_.wait_for(lock, stop, std::chrono::milliseconds(100), [] { return false; });
     if (!told && (cancel_.cancelled() || deadline_.passed())) {
       told = true;
       patience = Deadline::after_seconds(grace_);

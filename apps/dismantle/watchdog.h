@@ -1,4 +1,4 @@
-/// Ends the process when plugins go on although they were told to stop.
+/// Ends the process when plugins do not stop after they were asked to.
 #pragma once
 
 #include <condition_variable>

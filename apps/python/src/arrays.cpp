@@ -8,9 +8,6 @@
 namespace dismantle::python {
 namespace {
 
-/// Error of the squared length of a quaternion that was normalised.
-constexpr double kUnitLength = 8 * std::numeric_limits<double>::epsilon();
-
 std::string shape_of(const py::array& array) {
   std::string text;
   for (py::ssize_t d = 0; d < array.ndim(); ++d) text += fmt::format("{}{}", d > 0 ? ", " : "", array.shape(d));
@@ -36,7 +33,8 @@ Pose read(const double* in, const std::string& what) {
     throw py::value_error(
         fmt::format("{}: the quaternion (columns 3 to 6: w, x, y, z) has length {:.6g}, not 1", what, pose.q.norm()));
   // What is of unit length to rounding stays as it is: poses that Python was given come back with the same bits.
-  if (std::abs(pose.q.squaredNorm() - 1) > kUnitLength) pose.q.normalize();
+  const double rounding = 8 * std::numeric_limits<double>::epsilon();  // of the squared length after normalising
+  if (std::abs(pose.q.squaredNorm() - 1) > rounding) pose.q.normalize();
   return pose;
 }
 

@@ -25,14 +25,13 @@ enum class OnInterrupt {
 template <class Work>
 auto run_interruptible(const CancelToken& cancel, const py::object& should_stop, OnInterrupt on_interrupt, Work work,
                        bool* interrupted = nullptr) {
-  constexpr auto kPeriod = std::chrono::milliseconds(20);
   auto result = std::async(std::launch::async, std::move(work));
   std::optional<py::error_already_set> raised;
   int interrupts = 0;
   while (true) {
     {
       py::gil_scoped_release release;
-      if (result.wait_for(kPeriod) == std::future_status::ready) break;
+      if (result.wait_for(std::chrono::milliseconds(20)) == std::future_status::ready) break;
     }
     if (PyErr_CheckSignals() != 0) {
       raised.emplace();
