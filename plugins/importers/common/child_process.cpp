@@ -18,14 +18,13 @@
 namespace dismantle::reader_process {
 namespace {
 
-constexpr int kPollMilliseconds = 50;
-constexpr std::size_t kKeptMessages = 4096;  // bytes
-
+bool can_limit_memory() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kCanLimitMemory = false;  // their shadow memory takes terabytes of address space
+  return false;  // the shadow memory of a sanitizer takes terabytes of address space
 #else
-constexpr bool kCanLimitMemory = true;
+  return true;
 #endif
+}
 
 class Descriptor {
  public:
@@ -105,7 +104,7 @@ class Child {
     return ::setrlimit(what, &both) == 0;
   };
   limit(RLIMIT_CORE, 0, 0);
-  if (kCanLimitMemory && limits.memory > 0 && !limit(RLIMIT_AS, limits.memory, limits.memory)) give_up();
+  if (can_limit_memory() && limits.memory > 0 && !limit(RLIMIT_AS, limits.memory, limits.memory)) give_up();
   const auto seconds = static_cast<rlim_t>(std::ceil(limits.seconds)) + 1;
   if (limits.seconds > 0 && !limit(RLIMIT_CPU, seconds, seconds + 1)) give_up();  // SIGXCPU at the first
   sigset_t none;
@@ -199,13 +198,14 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
       break;
     }
     pollfd polled[2] = {{output.read.get(), POLLIN, 0}, {messages.read.get(), POLLIN, 0}};
-    ::poll(polled, 2, output.read.get() < 0 && messages.read.get() < 0 ? 1 : kPollMilliseconds);
+    ::poll(polled, 2, output.read.get() < 0 && messages.read.get() < 0 ? 1 : 50);
     bool accepted = true;
     if (polled[0].revents != 0) drain(output.read, [&](auto bytes) { accepted = take(bytes); });
     if (polled[1].revents != 0)
       drain(messages.read, [&](auto bytes) {
         end.messages.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        if (end.messages.size() > 2 * kKeptMessages) end.messages.erase(0, end.messages.size() - kKeptMessages);
+        const std::size_t kept = 4096;  // bytes, the last ones
+        if (end.messages.size() > 2 * kept) end.messages.erase(0, end.messages.size() - kept);
       });
     if (!accepted || should_stop())
       stop(ChildEnd::How::stopped);

@@ -3,18 +3,16 @@
 ///   magic, then records: u8 tag, u32 length of the payload, payload. Strings in a payload: u32 length, bytes.
 ///
 /// The reader program is not trusted: it may have been broken by the file that it read. So every length has a bound
-/// that is checked before memory is taken for it.
+/// that is checked before memory is taken for it (input_limits.h).
 #pragma once
 
 #include <cstdint>
 
+#include "input_limits.h"
+
 namespace dismantle::reader_process {
 
 inline constexpr char kMagic[8] = {'D', 'S', 'M', 'R', 'E', 'A', 'D', '1'};
-inline constexpr std::uint32_t kMaxPayload = 1u << 20;  ///< bytes of one record
-inline constexpr std::uint32_t kMaxText = 1u << 12;     ///< bytes of one string
-inline constexpr std::uint32_t kMaxParents = 64;        ///< names in a path through the product structure
-inline constexpr std::uint32_t kMaxBodies = 1'000'000;
 
 enum class Tag : std::uint8_t {
   unit = 'U',       ///< text: the length unit of all coordinates

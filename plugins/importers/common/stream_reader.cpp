@@ -32,7 +32,7 @@ class StreamReader::Payload {
 
   std::string text() {
     const auto size = take<std::uint32_t>();
-    if (size > kMaxText || size > bytes_.size()) throw Broken{"a text is too long"};
+    if (size > kInputLimits.text || size > bytes_.size()) throw Broken{"a text is too long"};
     std::string out(reinterpret_cast<const char*>(bytes_.data()), size);
     bytes_ = bytes_.subspan(size);
     return out;
@@ -51,7 +51,7 @@ StreamReader::StreamReader(std::uint64_t max_triangles, OnPhase on_phase)
     : max_triangles_(max_triangles), on_phase_(std::move(on_phase)) {}
 
 bool StreamReader::feed(std::span<const std::byte> bytes) {
-  constexpr std::size_t kHead = sizeof(std::uint8_t) + sizeof(std::uint32_t);
+  const std::size_t head_size = sizeof(std::uint8_t) + sizeof(std::uint32_t);
   if (!problem_.empty()) return false;
   pending_.insert(pending_.end(), bytes.begin(), bytes.end());
   std::span<const std::byte> rest = pending_;
@@ -62,14 +62,14 @@ bool StreamReader::feed(std::span<const std::byte> bytes) {
       rest = rest.subspan(sizeof kMagic);
       magic_ = true;
     }
-    while (rest.size() >= kHead) {
-      Payload head(rest.first(kHead));
+    while (rest.size() >= head_size) {
+      Payload head(rest.first(head_size));
       const auto tag = static_cast<Tag>(head.take<std::uint8_t>());
       const auto size = head.take<std::uint32_t>();
-      if (size > kMaxPayload) throw Broken{"a record is too long"};
-      if (rest.size() < kHead + size) break;
-      record(tag, Payload(rest.subspan(kHead, size)));
-      rest = rest.subspan(kHead + size);
+      if (size > kInputLimits.record) throw Broken{"a record is too long"};
+      if (rest.size() < head_size + size) break;
+      record(tag, Payload(rest.subspan(head_size, size)));
+      rest = rest.subspan(head_size + size);
     }
   } catch (const Broken& broken) {
     problem_ = broken.what;
@@ -93,7 +93,7 @@ void StreamReader::record(Tag tag, Payload payload) {
       break;
     }
     case Tag::warning:
-      if (warnings_.size() >= kMaxBodies) throw Broken{"too many warnings"};
+      if (warnings_.size() >= kInputLimits.instances) throw Broken{"too many warnings"};
       warnings_.push_back(payload.text());
       break;
     case Tag::body:
@@ -121,11 +121,11 @@ void StreamReader::record(Tag tag, Payload payload) {
 }
 
 void StreamReader::begin_body(Payload& payload) {
-  if (parts_.size() >= kMaxBodies) throw Broken{"too many bodies"};
+  if (parts_.size() >= kInputLimits.instances) throw Broken{"too many bodies"};
   RawPart part;
   part.name = payload.text();
   const auto parents = payload.take<std::uint32_t>();
-  if (parents > kMaxParents) throw Broken{"a body is nested too deep"};
+  if (parents > kInputLimits.nesting) throw Broken{"a body is nested too deep"};
   for (std::uint32_t i = 0; i < parents; ++i) part.parents.push_back(payload.text());
   const bool coloured = payload.take<std::uint8_t>() != 0;
   const auto rgba = payload.take<std::array<std::uint8_t, 4>>();
@@ -143,8 +143,8 @@ void StreamReader::begin_body(Payload& payload) {
 
 void StreamReader::add_vertices(Payload& payload) {
   if (parts_.empty()) throw Broken{"vertices of no body"};
-  constexpr std::size_t kSize = 3 * sizeof(double);
-  const std::size_t count = payload.size() / kSize;
+  const std::size_t item = 3 * sizeof(double);
+  const std::size_t count = payload.size() / item;
   if (count > vertices_left_) throw Broken{"more vertices than were announced"};
   vertices_left_ -= count;
   auto& vertices = parts_.back().mesh.vertices;

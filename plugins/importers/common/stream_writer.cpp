@@ -18,7 +18,7 @@ void put(std::string& out, const T& value) {
 }
 
 void put_text(std::string& out, const std::string& text) {
-  const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(text.size(), kMaxText));
+  const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(text.size(), kInputLimits.text));
   put(out, size);
   out.append(text, 0, size);
 }
@@ -50,7 +50,7 @@ void StreamWriter::warning(const std::string& text) {
 void StreamWriter::body(const Body& body) {
   std::string payload;
   put_text(payload, body.name);
-  const auto parents = static_cast<std::uint32_t>(std::min<std::size_t>(body.parents.size(), kMaxParents));
+  const auto parents = static_cast<std::uint32_t>(std::min<std::size_t>(body.parents.size(), kInputLimits.nesting));
   put(payload, parents);
   for (std::uint32_t i = 0; i < parents; ++i) put_text(payload, body.parents[i]);
   put(payload, static_cast<std::uint8_t>(body.colour.has_value()));
@@ -60,7 +60,7 @@ void StreamWriter::body(const Body& body) {
   put(payload, static_cast<std::uint64_t>(body.triangles.size()));
   record(Tag::body, payload);
   const auto chunks = [&](Tag tag, const auto& items) {
-    const std::size_t most = kMaxPayload / sizeof(items[0]);
+    const std::size_t most = kInputLimits.record / sizeof(items[0]);
     for (std::size_t i = 0; i < items.size(); i += most) {
       payload.clear();
       for (std::size_t k = i; k < std::min(items.size(), i + most); ++k) put(payload, items[k]);

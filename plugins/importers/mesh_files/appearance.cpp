@@ -70,9 +70,9 @@ std::map<std::string, Rgba> read_material_library(const std::filesystem::path& f
 }
 
 std::string unit_of_length(double metres) {
-  static constexpr std::pair<double, const char*> kUnits[] = {{1, "m"},         {0.01, "cm"},     {0.001, "mm"},
-                                                              {0.0254, "inch"}, {0.3048, "foot"}, {1e-6, "micron"}};
-  for (const auto& [length, name] : kUnits)
+  const std::pair<double, const char*> units[] = {{1, "m"},         {0.01, "cm"},     {0.001, "mm"},
+                                                  {0.0254, "inch"}, {0.3048, "foot"}, {1e-6, "micron"}};
+  for (const auto& [length, name] : units)
     if (std::abs(metres - length) <= 1e-5 * length) return name;
   return {};
 }

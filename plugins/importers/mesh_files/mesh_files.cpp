@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "dismantle/errors.h"
+#include "input_limits.h"
 #include "read_in_child.h"
 #include "readers.h"
 
@@ -19,8 +20,6 @@ std::string ending(const std::filesystem::path& file) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return e;
 }
-
-constexpr std::uint64_t kMaxTriangles = 100'000'000;  // a small file can name one mesh a million times
 
 }  // namespace
 
@@ -53,7 +52,8 @@ std::vector<RawPart> MeshFiles::read_with_assimp(const std::filesystem::path& fi
                                               .coarser = ""};
   const reader_process::ChildLimits limits{params_.time_limit,
                                            static_cast<std::uint64_t>(params_.memory_limit * 1024 * 1024)};
-  std::vector<RawPart> parts = read_in_child(file, program, {}, limits, kMaxTriangles, context);
+  std::vector<RawPart> parts =
+      read_in_child(file, program, {}, limits, reader_process::kInputLimits.triangles, context);
   for (RawPart& part : parts) part.file = file.filename().string();
   return parts;
 }

@@ -15,8 +15,6 @@
 namespace dismantle::mesh_files {
 namespace {
 
-constexpr std::uint64_t kRowsPerPoll = 1024;
-
 enum class Scalar { i8, u8, i16, u16, i32, u32, f32, f64 };
 
 std::optional<Scalar> scalar_named(std::string_view name) {
@@ -80,7 +78,7 @@ class PlyReader {
     part.file = file_.filename().string();
     for (const auto& element : elements_) {
       for (std::uint64_t i = 0; i < element.count; ++i) {
-        if (i % kRowsPerPoll == 0) stop_if_told(context_, file_);
+        if (i % 1024 == 0) stop_if_told(context_, file_);
         where_ = fmt::format("{} {} of {}", element.name, i + 1, element.count);
         row(element, part.mesh);
       }

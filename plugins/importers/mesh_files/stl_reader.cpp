@@ -12,8 +12,8 @@
 namespace dismantle::mesh_files {
 namespace {
 
-constexpr std::size_t kHeader = 84, kRecord = 50;
-constexpr std::uint32_t kTrianglesPerPoll = 4096;
+/// Bytes before the triangles (a comment of 80 and their number), and of a triangle (twelve floats and two bytes).
+constexpr std::size_t kHeader = 80 + sizeof(std::uint32_t), kRecord = 12 * sizeof(float) + sizeof(std::uint16_t);
 
 /// What a binary file states about itself.
 struct BinaryHeader {
@@ -45,7 +45,8 @@ std::optional<BinaryHeader> header_of(const std::filesystem::path& file) {
 
 bool is_text(const BinaryHeader& header) { return header.says_solid && !header.fits(); }
 
-std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header, const RunContext& context) {
+std::vector<RawPart> read_binary(const std::filesystem::path& file, const BinaryHeader& header,
+                                 const RunContext& context) {
   const std::string name = file.string();
   if (header.size < kHeader)
     throw InputError(name, fmt::format("{} bytes are too short for an STL file: it is cut off or no STL", header.size));
@@ -62,7 +63,7 @@ std::vector<RawPart> read_binary(const std::filesystem::path& file, const Binary
   in.seekg(kHeader);
   unsigned char record[kRecord];
   for (std::uint32_t t = 0; t < header.triangles; ++t) {
-    if (t % kTrianglesPerPoll == 0) stop_if_told(context, file);
+    if (t % 4096 == 0) stop_if_told(context, file);
     if (!in.read(reinterpret_cast<char*>(record), kRecord))
       throw InputError(name, fmt::format("cannot be read beyond triangle {}", t));
     for (std::size_t corner = 0; corner < 3; ++corner) {

@@ -12,8 +12,6 @@
 namespace dismantle::mesh_files {
 
 namespace {
-constexpr std::size_t kLongestLine = 1 << 24;
-constexpr std::size_t kBlock = 1 << 16;  // bytes that are read at a time
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 std::string shown(std::string_view word) {
@@ -25,7 +23,7 @@ std::string shown(std::string_view word) {
 }  // namespace
 
 LineReader::LineReader(const std::filesystem::path& file, const RunContext& context)
-    : file_(file), context_(context), block_(kBlock) {
+    : file_(file), context_(context), block_(1 << 16) {
   errno = 0;
   in_.open(file, std::ios::binary);
   if (!in_) throw InputError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
@@ -58,7 +56,7 @@ bool LineReader::next(std::string_view& line) {
     const std::size_t size = ended ? static_cast<std::size_t>(stop - begin) : end_ - at_;
     buffer_.append(begin, size);
     at_ += size + (ended ? 1 : 0);
-    if (buffer_.size() > kLongestLine) {
+    if (buffer_.size() > 1 << 24) {  // bytes: this is no text file
       ++number_;
       fail("the line is too long for a mesh file");
     }

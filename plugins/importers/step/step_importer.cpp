@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 /// Refuses what is no whole STEP file before another process is started for it.
 void check_ends(const fs::path& file) {
-  constexpr std::streamoff kLook = 1 << 16;
+  const std::streamoff look = 1 << 16;  // bytes at both ends; comments may stand there
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file.string(), fmt::format("cannot be opened: {}", std::strerror(errno)));
   in.seekg(0, std::ios::end);
@@ -30,9 +30,9 @@ void check_ends(const fs::path& file) {
     text.resize(static_cast<std::size_t>(in.gcount()));
     return text;
   };
-  if (part(0, std::min(size, kLook)).find("ISO-10303-21") == std::string::npos)
+  if (part(0, std::min(size, look)).find("ISO-10303-21") == std::string::npos)
     throw InputError(file.string(), "this is no STEP file: it does not begin with ISO-10303-21");
-  const std::streamoff tail = std::min(size, kLook);
+  const std::streamoff tail = std::min(size, look);
   if (part(size - tail, tail).find("END-ISO-10303-21") == std::string::npos)
     throw InputError(file.string(),
                      "the file is cut off: its end, END-ISO-10303-21, is missing; export or copy it again");

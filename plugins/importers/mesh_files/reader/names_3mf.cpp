@@ -10,8 +10,6 @@
 namespace dismantle::mesh_files {
 namespace {
 
-constexpr std::size_t kLongestModel = std::size_t{1} << 31;
-
 struct Archive {
   explicit Archive(const std::filesystem::path& file) : handle(unzOpen64(file.c_str())) {}
   ~Archive() {
@@ -91,11 +89,11 @@ std::string attribute(std::string_view tag, std::string_view name) {
 }  // namespace
 
 void add_object_names(const std::string& xml, std::map<std::string, std::string>& names) {
-  static constexpr std::string_view kTag = "<object";
-  for (std::size_t at = xml.find(kTag); at != std::string::npos; at = xml.find(kTag, at + 1)) {
+  const std::string_view start = "<object";
+  for (std::size_t at = xml.find(start); at != std::string::npos; at = xml.find(start, at + 1)) {
     const auto end = xml.find('>', at);
     if (end == std::string::npos) return;
-    const std::string_view tag = std::string_view(xml).substr(at + kTag.size(), end - at - kTag.size());
+    const std::string_view tag = std::string_view(xml).substr(at + start.size(), end - at - start.size());
     if (tag.empty() || !is_space(tag[0])) continue;
     const std::string id = attribute(tag, "id"), name = attribute(tag, "name");
     if (!id.empty() && !name.empty()) names.emplace(id, name);
@@ -103,16 +101,16 @@ void add_object_names(const std::string& xml, std::map<std::string, std::string>
 }
 
 std::string unit_of_model(const std::string& xml) {
-  static constexpr std::string_view kTag = "<model";
-  const auto at = xml.find(kTag);
+  const std::string_view start = "<model";
+  const auto at = xml.find(start);
   const auto end = at == std::string::npos ? at : xml.find('>', at);
   if (end == std::string::npos) return {};
-  const std::string unit = attribute(std::string_view(xml).substr(at + kTag.size(), end - at - kTag.size()), "unit");
-  static const std::map<std::string, std::string> kUnits = {
+  const std::string unit = attribute(std::string_view(xml).substr(at + start.size(), end - at - start.size()), "unit");
+  static const std::map<std::string, std::string> units = {
       {"", "mm"},       {"millimeter", "mm"}, {"centimeter", "cm"}, {"meter", "m"},
       {"inch", "inch"}, {"foot", "foot"},     {"micron", "micron"}};
-  const auto found = kUnits.find(unit);
-  return found == kUnits.end() ? std::string() : found->second;
+  const auto found = units.find(unit);
+  return found == units.end() ? std::string() : found->second;
 }
 
 Facts3mf facts_of_3mf(const std::filesystem::path& file) {
@@ -127,7 +125,8 @@ Facts3mf facts_of_3mf(const std::filesystem::path& file) {
     std::string xml;
     std::vector<char> block(1 << 16);
     int n = 0;
-    while (xml.size() < kLongestModel &&
+    const std::size_t longest = std::size_t{1} << 31;  // bytes: a small archive can expand without end
+    while (xml.size() < longest &&
            (n = unzReadCurrentFile(archive.handle, block.data(), static_cast<unsigned>(block.size()))) > 0)
       xml.append(block.data(), static_cast<std::size_t>(n));
     unzCloseCurrentFile(archive.handle);

@@ -15,14 +15,11 @@
 #include "appearance.h"
 #include "dismantle/errors.h"
 #include "dismantle/referenced_file.h"
+#include "input_limits.h"
 #include "names_3mf.h"
 
 namespace dismantle::mesh_files {
 namespace {
-
-constexpr std::size_t kMaxTriangles = 100'000'000;  // a small file can name one mesh a million times
-constexpr std::size_t kMaxNodes = 1'000'000;
-constexpr std::uint32_t kUnused = static_cast<std::uint32_t>(-1);
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   Eigen::Matrix4d out;
@@ -68,10 +65,11 @@ class ReferencedFiles : public Assimp::DefaultIOSystem {
 /// Without vertices that no triangle has: those of points and lines.
 Mesh without_unused(const Mesh& mesh) {
   Mesh used;
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kUnused);
+  const auto unused = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> number(mesh.vertices.size(), unused);
   for (Triangle t : mesh.triangles) {
     for (auto& corner : t) {
-      if (number[corner] == kUnused) {
+      if (number[corner] == unused) {
         number[corner] = static_cast<std::uint32_t>(used.vertices.size());
         used.vertices.push_back(mesh.vertices[corner]);
       }
@@ -99,7 +97,8 @@ class SceneReader {
     while (!pending.empty()) {
       const Visit visit = pending.back();
       pending.pop_back();
-      if (++visited > kMaxNodes) fail(fmt::format("more than {} nodes", kMaxNodes));
+      if (++visited > reader_process::kInputLimits.instances)
+        fail(fmt::format("more than {} nodes", reader_process::kInputLimits.instances));
       Eigen::Matrix4d to_world = visit.above;
       if (visit.node != scene_.mRootNode || !ignore_root_transform) to_world *= matrix(visit.node->mTransformation);
       add(*visit.node, to_world, visit.parents);
@@ -143,7 +142,8 @@ class SceneReader {
     if (part.mesh.empty()) return;
     if (other_primitives_) part.mesh = without_unused(part.mesh);
     total_ += part.mesh.triangles.size();
-    if (total_ > kMaxTriangles) fail(fmt::format("more than {} triangles", kMaxTriangles));
+    if (total_ > reader_process::kInputLimits.triangles)
+      fail(fmt::format("more than {} triangles", reader_process::kInputLimits.triangles));
     parts_.push_back(std::move(part));
   }
 

@@ -10,13 +10,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "input_limits.h"
 #include "product_names.h"
 
 namespace dismantle::step_import {
 namespace {
-
-constexpr std::size_t kMaxInstances = 1'000'000;  // a small file can nest assemblies so that their number explodes
-constexpr std::size_t kMaxDepth = 64;
 
 std::string entry(const TDF_Label& label) {
   TCollection_AsciiString text;
@@ -59,8 +57,10 @@ class Walker {
   /// `name`: of the instance, for what has none itself.
   void visit(const TDF_Label& label, const std::string& name, const TopLoc_Location& place,
              const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
-    if (++visited_ > kMaxInstances) throw std::length_error("more than a million instances of products");
-    if (parents.size() > kMaxDepth) throw std::length_error("assemblies nested more than 64 deep");
+    if (++visited_ > reader_process::kInputLimits.instances)
+      throw std::length_error("more than a million instances of products");
+    if (parents.size() > reader_process::kInputLimits.nesting)
+      throw std::length_error("assemblies nested more than 64 deep");
     if (XCAFDoc_ShapeTool::IsReference(label)) {
       TDF_Label product;
       if (!XCAFDoc_ShapeTool::GetReferredShape(label, product)) return;

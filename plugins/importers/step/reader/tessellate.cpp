@@ -114,8 +114,8 @@ class Welder {
   }
 
   Surface take() {
-    constexpr auto kUnused = static_cast<std::uint32_t>(-1);
-    std::vector<std::uint32_t> index(points_.size(), kUnused);
+    const auto unused = static_cast<std::uint32_t>(-1);
+    std::vector<std::uint32_t> index(points_.size(), unused);
     double volume = 0;
     for (auto t : triangles_) {
       for (auto& i : t) i = find(i);
@@ -125,7 +125,7 @@ class Welder {
       const auto& c = points_[t[2]];
       volume += gp_XYZ(a[0], a[1], a[2]).Dot(gp_XYZ(b[0], b[1], b[2]).Crossed(gp_XYZ(c[0], c[1], c[2])));
       for (auto& i : t) {
-        if (index[i] == kUnused) {
+        if (index[i] == unused) {
           index[i] = static_cast<std::uint32_t>(surface_.vertices.size());
           surface_.vertices.push_back(points_[i]);
         }
