@@ -37,9 +37,6 @@ struct Question {
   }
 };
 
-/// Samples with more triangles are asked about in the long form of the tests: provers take up to a minute there.
-constexpr std::size_t kQuickTriangles = 300;
-
 std::size_t triangles_of(const Assembly& assembly) {
   std::size_t count = 0;
   for (const Part& part : assembly.parts) count += part.mesh->triangles.size();
@@ -58,7 +55,8 @@ std::vector<Question> separable() {
     RunContext context;
     PrepareReport report;
     Assembly assembly = prepare_assembly(parts, sample.name, "", options, context, report);
-    if (testing_support::nightly() || triangles_of(assembly) <= kQuickTriangles)
+    // On samples with more triangles provers take up to a minute: those belong into the long form of the tests.
+    if (testing_support::nightly() || triangles_of(assembly) <= 300)
       questions.emplace_back(sample.name, std::move(assembly));
   }
   Rng rng(5);

@@ -134,8 +134,8 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     }
     if (effort.max_steps > 0) {
       // Between two looks at the budget; and without dynamics a path that was found within it may still be simplified.
-      constexpr std::uint64_t kSimplify = 300;
-      EXPECT_LE(run.counted.steps, effort.max_steps + kLook + (run.checked.empty() ? 0 : kSimplify));
+      const std::uint64_t simplify = 300;
+      EXPECT_LE(run.counted.steps, effort.max_steps + kLook + (run.checked.empty() ? 0 : simplify));
     }
     for (const auto& [path, accepted] : run.checked) {
       ASSERT_GE(path.size(), 2u);

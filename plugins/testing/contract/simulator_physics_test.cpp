@@ -73,7 +73,7 @@ TEST_P(SimulatorContract, NormalsAreGradientsOfTheDepth) {
   const Capabilities has = make()->capabilities();
   if (!has.contacts || !has.distance) GTEST_SKIP() << "it reports no contacts, or measures no distance";
   Rng rng(55);
-  constexpr double kShift = 1e-5;  // the assemblies are 3 long
+  const double shift = 1e-5;  // the assemblies are 3 long
   std::vector<double> slopes;
   for (const Made& m : all()) {
     const auto world = m.world();
@@ -83,11 +83,11 @@ TEST_P(SimulatorContract, NormalsAreGradientsOfTheDepth) {
       world->contacts(at(*world, pose), contacts);
       const auto deepest = std::max_element(contacts.begin(), contacts.end(),
                                             [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
-      if (deepest == contacts.end() || deepest->depth < 100 * kShift || deepest->on_edge) continue;
-      const Vector3d by = kShift * deepest->normal;
+      if (deepest == contacts.end() || deepest->depth < 100 * shift || deepest->on_edge) continue;
+      const Vector3d by = shift * deepest->normal;
       const double out = world->penetration(at(*world, {pose.t + by, pose.q}));
       const double in = world->penetration(at(*world, {pose.t - by, pose.q}));
-      slopes.push_back((out - in) / (2 * kShift));
+      slopes.push_back((out - in) / (2 * shift));
     }
   }
   ASSERT_GT(slopes.size(), 20u);

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "dismantle/plugin/finite.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/plugin/finite.h"
 #include "simulator_contract.h"
 
 namespace dismantle::contract {
@@ -201,8 +201,8 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
 /// Whatever is not finite is reported; a state that was finite stays finite, and so does its trace.
 TEST_P(SimulatorContract, NoNumberThatIsNotFiniteLeavesUnnoticed) {
   const Capabilities has = make()->capabilities();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::vector<double> bad{std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity};
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> bad{std::numeric_limits<double>::quiet_NaN(), infinity, -infinity};
   const Made& m = all().front();
   for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid})
     for (int place = 0; place < 6; ++place)
