@@ -13,28 +13,39 @@ namespace dismantle::immobility {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-/// Distance of the point from the convex hull of the curve, if that is more than `least`, and no point of the curve is
+using Vec2 = Eigen::Vector2d;
+
+double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - p).norm();
+}
+
+/// Does the curve keep to its hull, when it is followed in steps of that many points? Each edge of the hull then has a
+/// piece of the curve beside it. It is not enough that points are near any edge: a slit may reach from side to side.
+bool keeps_to(const std::vector<Vec2>& points, const std::vector<std::size_t>& hull, std::size_t step,
+              double max_dent) {
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const std::size_t end = hull[(k + 1) % hull.size()];
+    for (std::size_t i = hull[k]; i != end; i = (i + step) % points.size())
+      if (distance_to(points[i], points[hull[k]], points[end]) > max_dent) return false;
+  }
+  return true;
+}
+
+/// Distance of the point from the convex hull of the curve, if that is more than `least`, and the curve is nowhere
 /// further than `max_dent` from the hull; else `least`.
 double reach_of(const Loop& loop, const Vec3& center, double least, double max_dent) {
   const Vec3 e = loop.plane.normal.unitOrthogonal(), f = loop.plane.normal.cross(e);
-  const auto in_plane = [&](const Vec3& p) { return Eigen::Vector2d(e.dot(p), f.dot(p)); };
-  std::vector<Eigen::Vector2d> hull;
-  for (const std::size_t k : loop.hull()) hull.push_back(in_plane(loop.points[k]));
+  std::vector<Vec2> points;
+  for (const Vec3& p : loop.points) points.emplace_back(e.dot(p), f.dot(p));
+  const std::vector<std::size_t> hull = loop.hull();
   if (hull.size() < 3) return least;
-  const auto distance = [&](const Eigen::Vector2d& p) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < hull.size(); ++k) {
-      const Eigen::Vector2d &a = hull[k], along = hull[(k + 1) % hull.size()] - a;
-      const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      nearest = std::min(nearest, (a + t * along - p).norm());
-    }
-    return nearest;
-  };
-  const double reach = distance(in_plane(center));
+  double reach = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < hull.size(); ++k)
+    reach = std::min(reach,
+                     distance_to({e.dot(center), f.dot(center)}, points[hull[k]], points[hull[(k + 1) % hull.size()]]));
   if (!(reach > least)) return least;
-  for (const Vec3& p : loop.points)
-    if (distance(in_plane(p)) > max_dent) return least;
-  return reach;
+  return keeps_to(points, hull, 1, max_dent) || keeps_to(points, hull, points.size() - 1, max_dent) ? reach : least;
 }
 
 /// Circles about an axis, within the solid, the smallest first.

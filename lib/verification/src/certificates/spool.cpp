@@ -1,8 +1,8 @@
 /// spool: a circle lies deep in the second part; the first goes through it, between two rims that are wider.
 ///
 /// Let the second part rest. The surface of the first never meets the circle: it would be deeper than is allowed. So
-/// neither does a line on it from rim to rim; nor do the convex curves H beside the rims, and the short ways from rims
-/// to them, since the circle is deeper by what these are off the surface. A plane cuts H in two points or none, and H
+/// neither does a line on it from rim to rim; nor do the convex hulls H of the rims, and the short ways from rims to
+/// them, since the circle is deeper by what these are off the surface. A plane cuts H in two points or none, and H
 /// is never linked with the circle; so H crosses the circle's disc in two points or none. The chord between them is at
 /// most as long as the circle is wide, and does not reach the middle of H, from which H is further on all sides: it
 /// cuts off one arc, beyond which the middle is not. That arc begins and ends with no length. Count the crossings of
@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "certificates/body.h"
@@ -28,30 +29,49 @@ using Vec2 = Eigen::Vector2d;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Against the clock.
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  std::vector<Vec2> hull;
+/// Indices of the corners, against the clock.
+std::vector<std::size_t> convex_hull(const std::vector<Vec2>& points) {
+  std::vector<std::size_t> order(points.size()), hull;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t k) {
+    const Vec2 &a = points[i], &b = points[k];
+    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
+  });
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t first = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+    for (const std::size_t k : order) {
+      while (hull.size() >= first + 2) {
+        const Vec2 &a = points[hull[hull.size() - 2]], &b = points[hull.back()];
+        if (cross(b - a, points[k] - b) > 0) break;
         hull.pop_back();
-      hull.push_back(p);
+      }
+      hull.push_back(k);
     }
     hull.pop_back();
-    std::reverse(points.begin(), points.end());
+    std::reverse(order.begin(), order.end());
   }
   return hull;
 }
 
-double distance_to_curve(const Vec2& p, const std::vector<Vec2>& corners) {
+double distance_to_line(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - p).norm();
+}
+
+/// How far a closed curve through the points is off its convex hull: each edge of the hull has its own piece of the
+/// curve between its ends. Every point of the edge is no further from that piece than the furthest corner of the piece
+/// from the edge: the nearest point of the edge goes all along it as a point goes along the piece.
+double off_hull(const std::vector<Vec2>& points, const std::vector<std::size_t>& hull) {
+  const std::size_t n = points.size();
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec2 &a = corners[k], edge = corners[(k + 1) % corners.size()] - a;
-    const double t = std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (a + t * edge - p).norm());
+  for (const std::size_t step : {std::size_t{1}, n - 1}) {  // the curve goes around against the clock, or with it
+    double most = 0;
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const std::size_t end = hull[(k + 1) % hull.size()];
+      for (std::size_t i = hull[k]; i != end; i = (i + step) % n)
+        most = std::max(most, distance_to_line(points[i], points[hull[k]], points[end]));
+    }
+    least = std::min(least, most);
   }
   return least;
 }
@@ -69,14 +89,18 @@ Rim rim_of(Loop loop, const Plane& plane, const Vec3& center) {
   const auto flat = [&](const Vec3& p) { return Vec2(e.dot(p), f.dot(p)); };
   std::vector<Vec2> points;
   for (const Vec3& p : loop.points) points.push_back(flat(p));
-  const std::vector<Vec2> hull = convex_hull(points);
+  const std::vector<std::size_t> hull = convex_hull(points);
   Rim rim{std::move(loop), 0, 0, false};
   if (hull.size() < 3) return rim;
   const Vec2 middle = flat(center);
-  for (std::size_t k = 0; k < hull.size(); ++k)
-    if (!(cross(hull[(k + 1) % hull.size()] - hull[k], middle - hull[k]) > 0)) return rim;
-  rim.reach = distance_to_curve(middle, hull);
-  for (const Vec2& p : points) rim.off = std::max(rim.off, distance_to_curve(p, hull));
+  double reach = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2 &a = points[hull[k]], &b = points[hull[(k + 1) % hull.size()]];
+    if (!(cross(b - a, middle - a) > 0)) return rim;
+    reach = std::min(reach, distance_to_line(middle, a, b));
+  }
+  rim.reach = reach;
+  rim.off = off_hull(points, hull);
   return rim;
 }
 
