@@ -118,6 +118,7 @@ struct GearParams {
   }
 };
 
+/// Of involute teeth, rad: the usual one (ISO 53).
 constexpr double kPressureAngle = 20 * pi / 180;
 
 /// Section of a spur gear with involute teeth (20 degrees) about the z axis, a tooth at angle `phase`; height z.

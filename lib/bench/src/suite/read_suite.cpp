@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Of one range: more is a typing error, and would take memory.
 constexpr std::size_t kMaxSeeds = 100000;
 
 /// `rotate:` of a variant.
