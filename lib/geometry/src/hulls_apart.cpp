@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "convex_set.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/swept_boxes.h"
 
 namespace dismantle::geometry {
@@ -14,7 +15,6 @@ using Vec3 = Eigen::Vector3d;
 
 /// As top_of(), of a box that is not turned.
 double top_of(const Aabb& box, const Vec3& normal) {
-  constexpr double kRounding = 1e-9;  // more than that of a product
   const Vec3 middle = box.center(), half = 0.5 * box.size();
   return normal.dot(middle) + (1 + kRounding) * normal.cwiseAbs().dot(half) + kRounding * middle.norm();
 }

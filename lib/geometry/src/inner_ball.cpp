@@ -1,19 +1,13 @@
 #include "dismantle/geometry/inner_ball.h"
 
 namespace dismantle {
-namespace {
-
-constexpr int kShrinkings = 30;
-constexpr double kTouching = 1e-7;  // two surfaces that a ball touches
-
-}  // namespace
-
 double inner_ball_radius(const TriangleBvh& surface, const Eigen::Vector3d& p, const Eigen::Vector3d& inward,
                          double most) {
   double radius = most;
-  for (int k = 0; k < kShrinkings; ++k) {
-    const ClosestPoint seen = surface.closest(p + radius * inward, radius * (1 - 1e-9));
-    if (!(seen.distance < radius - kTouching)) break;
+  for (int k = 0; k < 30; ++k) {  // the radius converges in about ten rounds; this bounds the rest
+    // A surface that is nearer than the ball's own by less than this share counts as touched by it.
+    const ClosestPoint seen = surface.closest(p + radius * inward, radius * (1 - 1e-7));
+    if (!(seen.distance < radius)) break;
     const Eigen::Vector3d to = seen.point - p;
     const double along = to.dot(inward);
     if (!(along > 0)) return 0;

@@ -12,8 +12,6 @@
 namespace dismantle {
 namespace {
 
-constexpr int kMaxIterations = 256;
-
 const Eigen::Vector3d& farthest(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& n) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -108,7 +106,7 @@ std::optional<Separation> geometry::separate(const ConvexSet& a, const ConvexSet
   simplex.p[0] = b.any - a.any;
   simplex.size = 1;
   Eigen::Vector3d v = simplex.p[0];
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < 256; ++i) {  // GJK converges in a few dozen rounds; this bounds cycles by rounding
     const double length = v.norm();
     if (!(length > 1e-15 * extent)) break;  // the hulls share a point
     const Eigen::Vector3d n = v / length;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::geometry {
 namespace {
 
@@ -13,22 +15,10 @@ using Vec3 = Eigen::Vector3d;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
-/// Mean square speed across the surface of a mesh, as a share of the mean square speed of its points, at most.
-constexpr double kAcross = 0.01;
-/// Fewer contacts say nothing about a surface.
+/// Fewer contacts than a rigid body has degrees of freedom say nothing about a surface.
 constexpr std::size_t kLeastContacts = 6;
-/// Eigenvalues below this share of the largest belong to motions that slip: the facets of round fits, and clearance,
-/// make them differ from zero.
-constexpr double kSlips = 0.02;
-/// With much play nothing slips exactly. Then eigenvalues below the first share count, too, if they are at most
-/// kAsStiff times the last one that slips, and the next one is more than kSlipGap times as large.
-constexpr double kNearlySlips = 0.06, kAsStiff = 20, kSlipGap = 3;
-/// Normals nearer than this (cosine) are of one flat face; the face is square to an axis nearer than that.
-constexpr double kFlat = 0.99999, kEndFace = 0.98;
-/// A twist with this share of rotation has an axis; twists that differ by less than the second number are the same.
-constexpr double kMostlyTurns = 0.5, kAlike = 5e-3;
-/// A motion with a smaller singular value of its rotation has none.
-constexpr double kNoTurn = 0.1;
+/// Cosine between an axis and the normal of a face that counts as square to it: 11 degrees, for chamfers and facets.
+constexpr double kEndFace = 0.98;
 
 /// The speed across the surface at a sample is the product of this row with (linear, lever * angular): translations
 /// and rotations are both lengths. `arm`: from the centre of the twists to the sample.
@@ -60,7 +50,7 @@ bool alike(const Twist& a, const Twist& b, double radius) {
   const auto apart = [&](double sign) {
     return (a.linear - sign * b.linear).norm() + radius * (a.angular - sign * b.angular).norm();
   };
-  return std::min(apart(1), apart(-1)) < kAlike;
+  return std::min(apart(1), apart(-1)) < 5e-3;  // as a share of the size of a twist, which is 1
 }
 
 /// The last coordinate that is clearly not zero becomes positive: eigenvectors come with either sign.
@@ -72,12 +62,16 @@ Vec6 oriented(Vec6 t) {
 
 /// How many of the eigenvalues (ascending) belong to motions that slip.
 int count_slipping(const Vec6& stiffness) {
+  // Below 2 % of the largest: the facets of round fits, and clearance, make eigenvalues of slippable motions differ
+  // from zero.
   int slips = 0;
-  while (slips < 6 && stiffness[slips] < kSlips * stiffness[5]) ++slips;
+  while (slips < 6 && stiffness[slips] < 0.02 * stiffness[5]) ++slips;
+  // With much clearance nothing slips exactly. Then eigenvalues up to 6 % count, too, if they are at most 20 times the
+  // last one that slips, and the next one is more than 3 times as large: a gap in the spectrum.
   int nearly = slips;
-  const double like = slips > 0 ? std::min(kNearlySlips * stiffness[5], kAsStiff * stiffness[slips - 1]) : 0;
+  const double like = slips > 0 ? std::min(0.06 * stiffness[5], 20 * stiffness[slips - 1]) : 0;
   while (nearly < 6 && stiffness[nearly] < like) ++nearly;
-  if (nearly < 6 && nearly > slips && stiffness[nearly] > kSlipGap * stiffness[nearly - 1]) slips = nearly;
+  if (nearly < 6 && nearly > slips && stiffness[nearly] > 3 * stiffness[nearly - 1]) slips = nearly;
   return slips;
 }
 
@@ -88,7 +82,8 @@ std::vector<Twist> separated(const Eigen::MatrixXd& space, double radius) {
   const Eigen::MatrixXd basis = space * turns.matrixV();
   const auto turn_size = [&](int i) { return i < turns.singularValues().size() ? turns.singularValues()[i] : 0.0; };
   int first_translation = 0;
-  while (first_translation < slips && turn_size(first_translation) >= kNoTurn) ++first_translation;
+  // A motion with a smaller singular value of its rotation is a translation.
+  while (first_translation < slips && turn_size(first_translation) >= 0.1) ++first_translation;
   std::vector<Twist> twists;
   for (int i = 0; i < first_translation; ++i) {
     Vec6 t = basis.col(i);
@@ -125,7 +120,7 @@ std::vector<Twist> motions_along(const std::vector<Vec6>& rows, double radius, b
 std::vector<Vec6> without_end_face(const std::vector<Vec6>& rows, const Vec3& axis) {
   std::vector<Vec6> others;
   for (const Vec6& j : rows) {
-    const auto flat_with = [&](const Vec6& k) { return std::abs(k.head<3>().dot(j.head<3>())) > kFlat; };
+    const auto flat_with = [&](const Vec6& k) { return std::abs(k.head<3>().dot(j.head<3>())) > kSameDirection; };
     const bool faces_along = std::abs(j.head<3>().dot(axis)) > kEndFace;
     if (!faces_along || static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), flat_with)) < kLeastContacts)
       others.push_back(j);
@@ -187,8 +182,8 @@ std::vector<Twist> slippable_motions(const Mesh& mesh, const Vec3& center) {
   // Angular coordinates first: which basis of a space of equal eigenvalues comes out depends on the order.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat6> solver(halves_swapped(across), halves_swapped(speed));
   std::vector<Twist> found;
-  for (int k = 0; k < 6 && solver.eigenvalues()[k] < kAcross; ++k) {
-    const Vec6 x = solver.eigenvectors().col(k);  // its mean square speed is 1
+  for (int k = 0; k < 6 && solver.eigenvalues()[k] < 0.01; ++k) {  // share of the mean square speed of the points
+    const Vec6 x = solver.eigenvectors().col(k);                   // its mean square speed is 1
     found.push_back({x.tail<3>(), x.head<3>() / lever});
   }
   return found;
@@ -205,7 +200,7 @@ std::vector<Twist> motions_with_and_without_end_face(const std::vector<SurfaceSa
   const std::vector<Twist> axes = motions_along(rows, radius, true);
   std::vector<Twist> twists = or_least_stiff ? axes : motions_along(rows, radius, false);
   for (const Twist& about : axes) {
-    if (about.angular.norm() * radius < kMostlyTurns) continue;
+    if (about.angular.norm() * radius < 0.5) continue;  // mostly a translation: it has no axis
     const Vec3 axis = about.angular.normalized();
     const std::vector<Vec6> others = without_end_face(rows, axis);
     if (others.size() == rows.size() || (!or_least_stiff && blocked_both_ways(rows, axis))) continue;

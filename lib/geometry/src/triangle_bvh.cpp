@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 4;
-constexpr int kBins = 16;
+constexpr int kBins = 16;  // of the surface area heuristic: more make the trees no better
 // Each side of a split keeps at least an eighth of the triangles, so 2^32 of them make less than 180 levels.
 constexpr std::size_t kStackSize = 192;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using geometry::kNoIndex;
 
 using Vec3 = Eigen::Vector3d;
 
@@ -105,7 +107,7 @@ void count_triangle(const std::array<Vec3, 3>& c, const RayFrame& ray, Crossings
 }
 
 bool ray_meets(const Aabb& box, const Vec3& origin, const Vec3& inverse) {
-  double from = 0, to = kInfinity;
+  double from = 0, to = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 3; ++k) {
     double a = (box.lo[k] - origin[k]) * inverse[k], b = (box.hi[k] - origin[k]) * inverse[k];
     if (a > b) std::swap(a, b);
@@ -168,8 +170,7 @@ TriangleBvh::TriangleBvh(const Mesh& mesh, const std::function<void()>& poll) {
 
 void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes,
                         const std::function<void()>& poll) {
-  constexpr std::uint32_t kPolled = 1 << 16;  // triangles: some 10 ms for one level
-  if (poll && count >= kPolled) poll();
+  if (poll && count >= 1 << 16) poll();  // one level of that many triangles takes some 10 ms
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   Aabb box, centers;
@@ -178,7 +179,7 @@ void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aa
     centers.extend(boxes[order_[i]].center());
   }
   nodes_[self].box = box;
-  if (count <= kLeafSize) {
+  if (count <= 4) {  // a leaf: so few triangles are tested as quickly as two more boxes
     nodes_[self].first = first;
     nodes_[self].count = count;
     return;
@@ -205,7 +206,7 @@ void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aa
     right += bin_count[b];
     right_cost[b] = half_area(sweep) * right;
   }
-  double best = kInfinity;
+  double best = std::numeric_limits<double>::infinity();
   int split = -1;
   sweep = Aabb{};
   std::uint32_t left = 0;
@@ -237,7 +238,8 @@ void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aa
 ClosestPoint TriangleBvh::closest(const Vec3& p, double limit) const {
   ClosestPoint result;
   if (nodes_.empty()) return result;
-  double best = limit < kInfinity ? limit * limit : kInfinity;
+  double best =
+      limit < std::numeric_limits<double>::infinity() ? limit * limit : std::numeric_limits<double>::infinity();
   struct Entry {
     double d;
     std::uint32_t node;
@@ -271,7 +273,7 @@ ClosestPoint TriangleBvh::closest(const Vec3& p, double limit) const {
     }
     do {
       if (top == 0) {
-        if (result.triangle != 0xffffffffu) result.distance = std::sqrt(best);
+        if (result.triangle != kNoIndex) result.distance = std::sqrt(best);
         return result;
       }
       at = stack[--top];

@@ -21,13 +21,12 @@ void sort_by_area(std::vector<FaceAxis>& axes, std::size_t most) {
 }
 
 std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces) {
-  constexpr double kDecimals = 1000;
   using Key = std::array<int, 3>;
   std::map<Key, FaceAxis> by_direction;
   for (FaceAxis face : faces) {
     Key key{};
     for (std::size_t k = 0; k < 3; ++k)
-      key[k] = static_cast<int>(std::lround(face.axis[static_cast<Eigen::Index>(k)] * kDecimals));
+      key[k] = static_cast<int>(std::lround(1000 * face.axis[static_cast<Eigen::Index>(k)]));  // three decimals
     if (key < Key{}) {
       face.axis = -face.axis;
       for (int& k : key) k = -k;

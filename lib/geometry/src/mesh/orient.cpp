@@ -6,6 +6,7 @@
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "mesh/edges.h"
 
@@ -136,7 +137,7 @@ std::vector<Shell> split_shells(const Mesh& mesh, const std::vector<std::uint32_
   std::vector<Shell> shells(count);
   std::vector<std::vector<std::uint32_t>> members(count);
   for (std::uint32_t t = 0; t < shell.size(); ++t) members[shell[t]].push_back(t);
-  std::vector<std::uint32_t> index(mesh.vertices.size(), 0), owner(mesh.vertices.size(), 0xffffffffu);
+  std::vector<std::uint32_t> index(mesh.vertices.size(), 0), owner(mesh.vertices.size(), geometry::kNoIndex);
   for (std::uint32_t s = 0; s < count; ++s) {
     Mesh& own = shells[s].mesh;
     for (const auto t : members[s]) {

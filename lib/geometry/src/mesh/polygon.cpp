@@ -11,7 +11,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-
 /// The polygon seen along its mean normal (Newell), so that it turns counter-clockwise; empty without area.
 std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   Vector3d normal = Vector3d::Zero();
@@ -24,10 +23,6 @@ std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   for (const auto& p : corners) flat.emplace_back(u.dot(p - corners[0]), v.dot(p - corners[0]));
   return flat;
 }
-
-/// Corner tests after which a polygon is given up: enough for ten thousand corners of any shape that people draw. Windings
-/// without ears nearby would take the cube of their corners.
-constexpr std::uint64_t kMostTests = 400'000'000;
 
 /// Corners still there, in a ring.
 class EarClipper {
@@ -64,7 +59,9 @@ class EarClipper {
     const bool best_of_all = ring_.size() <= 64;
     std::size_t best = ring_.size();
     double best_quality = -1;
-    for (std::size_t k = 0; k < ring_.size() && tests_ < kMostTests; ++k) {
+    // Corner tests after which the polygon is given up: enough for ten thousand corners of any shape that people draw.
+    // Spirals without ears nearby would take the cube of their corners.
+    for (std::size_t k = 0; k < ring_.size() && tests_ < 400'000'000; ++k) {
       const std::size_t i = (start + k) % ring_.size();
       const Vector2d &a = p_[at(i, -1)], &b = p_[at(i, 0)], &c = p_[at(i, 1)];
       const double area = cross2(b - a, c - b);
@@ -88,7 +85,8 @@ class EarClipper {
       if (j == ia || j == ib || j == ic) continue;
       const Vector2d& q = p_[j];
       if (q == a || q == b || q == c) continue;
-      if (cross2(b - a, q - a) >= -flat_ && cross2(c - b, q - b) >= -flat_ && cross2(a - c, q - c) >= flat_) return false;
+      if (cross2(b - a, q - a) >= -flat_ && cross2(c - b, q - b) >= -flat_ && cross2(a - c, q - c) >= flat_)
+        return false;
     }
     return true;
   }

@@ -3,12 +3,13 @@
 #include <unordered_map>
 
 #include "dismantle/geometry/mesh_repair.h"
+#include "dismantle/geometry/numerics.h"
 #include "mesh/edges.h"
 
 namespace dismantle {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+using geometry::kNoIndex;
 
 using Key = std::array<std::int64_t, 3>;
 struct KeyHash {
@@ -22,15 +23,15 @@ struct KeyHash {
 /// For each vertex the first vertex at the same position.
 std::vector<std::uint32_t> equal_positions(const Mesh& mesh) {
   std::vector<std::uint32_t> to(mesh.vertices.size());
-  std::vector<std::uint32_t> slots(std::bit_ceil(2 * mesh.vertices.size() + 1), kNone);  // open addressing
+  std::vector<std::uint32_t> slots(std::bit_ceil(2 * mesh.vertices.size() + 1), kNoIndex);  // open addressing
   for (std::uint32_t i = 0; i < to.size(); ++i) {
     Key bits;
     for (std::size_t k = 0; k < 3; ++k)
       bits[k] = std::bit_cast<std::int64_t>(mesh.vertices[i][static_cast<Eigen::Index>(k)] + 0.0);  // -0 is 0
     std::size_t slot = KeyHash{}(bits) & (slots.size() - 1);
-    while (slots[slot] != kNone && mesh.vertices[slots[slot]] != mesh.vertices[i])
+    while (slots[slot] != kNoIndex && mesh.vertices[slots[slot]] != mesh.vertices[i])
       slot = (slot + 1) & (slots.size() - 1);
-    if (slots[slot] == kNone) slots[slot] = i;
+    if (slots[slot] == kNoIndex) slots[slot] = i;
     to[i] = slots[slot];
   }
   return to;
@@ -51,7 +52,7 @@ std::vector<std::uint32_t> close_open_vertices(const Mesh& mesh, double toleranc
     Key cell;
     for (int k = 0; k < 3; ++k)
       cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>((mesh.vertices[i][k] - origin[k]) / tolerance);
-    std::uint32_t best = kNone;
+    std::uint32_t best = kNoIndex;
     double best_distance = tolerance;
     for (int n = 0; n < 27; ++n) {
       const auto found = grid.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
@@ -64,7 +65,7 @@ std::vector<std::uint32_t> close_open_vertices(const Mesh& mesh, double toleranc
         }
       }
     }
-    if (best == kNone)
+    if (best == kNoIndex)
       grid[cell].push_back(i);
     else
       to[i] = best;
@@ -88,12 +89,12 @@ void apply(Mesh& mesh, const std::vector<std::uint32_t>& to, WeldResult& result)
 
 /// Drops vertices without triangle; `merged` of them are known already.
 std::size_t compact(Mesh& mesh) {
-  std::vector<std::uint32_t> index(mesh.vertices.size(), kNone);
+  std::vector<std::uint32_t> index(mesh.vertices.size(), kNoIndex);
   for (const auto& t : mesh.triangles)
     for (const auto v : t) index[v] = 0;
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < index.size(); ++i)
-    if (index[i] != kNone) {
+    if (index[i] != kNoIndex) {
       mesh.vertices[next] = mesh.vertices[i];
       index[i] = next++;
     }

@@ -9,22 +9,6 @@ namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr std::uint32_t kNone = 0xffffffffu;
-/// Displacements stay this share below what is allowed, so that rounding cannot carry them beyond.
-constexpr double kShare = 1 - 1e-9;
-/// Below this share of the penetration allowed a patch in a time interval is not divided further.
-constexpr double kResolution = 1.0 / 8;
-/// Patches are asked for in all intervals that are shorter than this part of a segment.
-constexpr double kShortest = 1.0 / 64;
-/// So many cells of an unrolled mesh cost as much as one sweep test.
-constexpr std::uint64_t kCellsOfTest = 256;
-/// Cells of the first look at a winding and of the second (assembly units).
-constexpr double kRoughCell = 5e-3, kFineCell = 1e-3;
-/// Windings are halved down to this turn (rad), as long as few triangles are left or at least half of them are done.
-constexpr double kShortWinding = 1;
-constexpr std::size_t kFew = 64;
-/// What was learnt of a triangle's bends is forgotten at this rate, test by test.
-constexpr double kForget = 1.1;
 
 Aabb box_under(const Placement& m, const Aabb& box) {
   const Vec3 c = m * box.center(), h = m.r.cwiseAbs() * (0.5 * box.size());
@@ -40,7 +24,7 @@ DirectedCheck::DirectedCheck(const Solid& a, const Solid& b, const RelativeMotio
       motion_(motion),
       limits_(limits),
       budget_(budget),
-      patch_of_(a.mesh.triangles.size(), kNone),
+      patch_of_(a.mesh.triangles.size(), kNoIndex),
       unclear_(
           std::make_shared<std::vector<double>>(a.mesh.triangles.size(), std::numeric_limits<double>::infinity())) {}
 
@@ -50,7 +34,7 @@ Finding DirectedCheck::run() {
     return instant == done || descend(static_cast<double>(done), static_cast<double>(instant));
   };
   bool holds = true;
-  for (const Winding& w : windings(motion_)) {
+  for (const Winding& w : windings(motion_, limits_.cells_from() / 1000)) {
     holds = up_to(w.begin) && wind(w);
     if (!holds) return finding_;
     done = w.end;
@@ -93,7 +77,7 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   }
   for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
     const std::uint32_t t = a_.bvh.order()[k];
-    if (patch_of_[t] == kNone) {
+    if (patch_of_[t] == kNoIndex) {
       Patch patch{a_.bvh.corners(t), {}, t};
       const double most = allowed(patch);
       for (std::size_t c = 0; c < 3; ++c) {
@@ -119,15 +103,16 @@ bool DirectedCheck::descend(double s0, double s1) {
   return process(i, std::move(list), true);
 }
 
-/// Many turns along a thread at once, as far as that goes, by the vertex rule; the rest as any other motion. Roughly
-/// first: most of a part is not near.
+/// Checks the turns of a winding together, as far as that succeeds, by the vertex rule; the rest as any other motion.
+/// The first check has cells five times as wide: most of a part is not near.
 bool DirectedCheck::wind(const Winding& winding) {
   List list;
   if (!a_.bvh.nodes().empty())
     collect(interval(static_cast<double>(winding.begin), static_cast<double>(winding.end)), 0, list);
-  if (!clear_unrolled(unrolled(winding, list, kRoughCell), winding, winding.begin, winding.end, list)) return false;
+  if (!clear_unrolled(unrolled(winding, list, 0.5 * limits_.cells_from()), winding, winding.begin, winding.end, list))
+    return false;
   if (list.empty()) return true;
-  const UnrolledMesh finely = unrolled(winding, list, kFineCell);  // before the list is given away
+  const UnrolledMesh finely = unrolled(winding, list, 0.1 * limits_.cells_from());  // before the list is given away
   return wind(finely, winding, winding.begin, winding.end, std::move(list));
 }
 
@@ -136,7 +121,7 @@ UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, d
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   Ring ring;
   for (const std::uint32_t id : list)
-    ring.add(winding, placed(start, moved_by_vertices(patches_[id], allowed(patches_[id]) * kShare)));
+    ring.add(winding, placed(start, moved_by_vertices(patches_[id], displacement(patches_[id]))));
   return {b_.bvh, winding, ring, cell};
 }
 
@@ -144,7 +129,7 @@ DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Pla
                                             std::size_t to, std::uint32_t patch) const {
   const Patch& p = patches_[patch];
   Glance seen{true, false, 0};
-  seen.clear = other.clear_of(placed(start, moved_by_vertices(p, allowed(p) * kShare)), from, to, seen.cells);
+  seen.clear = other.clear_of(placed(start, moved_by_vertices(p, displacement(p))), from, to, seen.cells);
   return seen;
 }
 
@@ -157,7 +142,7 @@ bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& win
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Patch& patch = patches_[list[k]];
     const Glance seen = k < known.size() && known[k].done ? known[k] : glance(other, start, from, to, list[k]);
-    if (!budget_.spend_tests(1 + seen.cells / kCellsOfTest))
+    if (!budget_.spend_tests(1 + seen.cells / 256))  // 256 cells cost as much as one sweep test
       return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
     if (seen.clear)
       pieces_.push_back({list[k], static_cast<double>(from), static_cast<double>(to)});
@@ -173,8 +158,9 @@ bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std:
   const std::size_t all = list.size();
   if (!clear_unrolled(other, winding, from, to, list)) return false;
   if (list.empty()) return true;
-  const bool few = list.size() < kFew || 2 * list.size() < all;
-  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < kShortWinding)
+  // Halving pays while few patches are left or at least half of them were certified, and for more than 1 rad.
+  const bool few = list.size() < 64 || 2 * list.size() < all;
+  if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < 1)
     return process(interval(static_cast<double>(from), static_cast<double>(to)), std::move(list), true);
   const std::size_t middle = from + (to - from) / 2;
   return wind(other, winding, from, middle, list) && wind(other, winding, middle, to, std::move(list));
@@ -208,9 +194,10 @@ bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved
   return seen != Sighting::unclear;
 }
 
-/// Along a close fit a triangle fails at the same bend again and again: do not ask where it did shortly before.
+/// Along a close fit a triangle fails at the same bend again and again: do not test where it did shortly before, except
+/// in intervals so short that they are the last resort.
 bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
-  return i.s1 - i.s0 <= kShortest || margin < (*unclear_)[triangle];
+  return i.s1 - i.s0 <= 1.0 / 64 || margin < (*unclear_)[triangle];
 }
 
 bool DirectedCheck::outside(const Placement& place, const Corners& moved) const {
@@ -232,7 +219,7 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
 /// Certifies one patch for one interval, or puts it (or its quarters) on one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   const Patch patch = patches_[id];
-  const double most = allowed(patch), e = most * kShare, leeway = most - limits_.overlap;
+  const double most = allowed(patch), e = displacement(patch), leeway = most - limits_.overlap;
   const double margin = i.bend.at(patch.center(), patch.radius() + most);
   if (exempt(i, margin, patch)) {
     by_shrunken_copy_ = false;
@@ -244,7 +231,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
     if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
       if (!far) pieces_.push_back({id, i.s0, i.s1});
-      (*unclear_)[patch.triangle] *= kForget;
+      (*unclear_)[patch.triangle] *= 1.1;  // a success: soon try larger margins again
       return true;
     }
     if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
@@ -295,7 +282,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   // What lies on one side of a ridge leaves together, the way its deepest corner does.
   const auto deepest = static_cast<std::size_t>(seen.deepest);
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
-  if (reach < kResolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
+  if (reach < budget_.resolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
   // A ridge often lies along the motion: cut there before the interval is.
   const auto ridge = ridge_on(patch, seen);
   if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
@@ -320,7 +307,7 @@ bool DirectedCheck::sides() {
     bool all_outside = true;
     for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {
       const std::uint32_t v = a_.shell_vertices[a_.shell_begin[k]];
-      const Vec3 x = a_.mesh.vertices[v] + limits_.at(a_.vertex_thickness[v]) * kShare * a_.inward[v];
+      const Vec3 x = a_.mesh.vertices[v] + limits_.at(a_.vertex_thickness[v]) * (1 - kRounding) * a_.inward[v];
       all_outside = !b_.bvh.inside(start * x);
     }
     if (all_outside) return true;
@@ -330,7 +317,7 @@ bool DirectedCheck::sides() {
   pieces_.clear();
   for (const Piece& piece : pieces) {
     const Patch& patch = patches_[piece.patch];
-    if (outside(Placement(motion_.at(piece.s0)), moved_by_vertices(patch, allowed(patch) * kShare))) continue;
+    if (outside(Placement(motion_.at(piece.s0)), moved_by_vertices(patch, displacement(patch)))) continue;
     if (!process(interval(piece.s0, piece.s1), {piece.patch}, false)) return false;
   }
   return true;

@@ -1,5 +1,5 @@
-// Lists of patches on several threads. Each patch is settled by itself, so the list can be cut; what a piece takes of
-// the budget, and finds, is put together as if the pieces had had their turns.
+// Lists of patches on several threads. Each patch is settled by itself, so the list can be cut; what the pieces take of
+// the budget, and find, is put together as if they had been settled one after the other.
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -11,9 +11,8 @@
 namespace dismantle::geometry {
 namespace {
 
-/// Patches that are worth a thread's coming; a list is cut into so many pieces at most, of so many patches at least.
-constexpr std::size_t kWorthHelp = 128, kPieces = 8, kLeastPiece = 32;
-constexpr std::size_t kGlances = 16;  // at a time
+/// Patches that make a task worth its start; a list is divided among threads if it has enough for several tasks.
+constexpr std::size_t kLeastPiece = 32, kWorthHelp = 4 * kLeastPiece;
 
 }  // namespace
 
@@ -45,7 +44,7 @@ bool DirectedCheck::has_help() const {
 
 /// From the end, where turns begin. Patches of one triangle are next to each other, and stay together.
 std::vector<DirectedCheck::List> DirectedCheck::cut(const List& list) const {
-  const std::size_t size = std::max(kLeastPiece, list.size() / kPieces + 1);
+  const std::size_t size = std::max(kLeastPiece, list.size() / 8 + 1);  // at most 8 pieces
   std::vector<List> pieces;
   for (std::size_t end = list.size(); end > 0;) {
     std::size_t begin = end > size ? end - size : 0;
@@ -117,9 +116,9 @@ std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& ot
   if (!has_help() || list.size() < kWorthHelp) return {};
   std::vector<Glance> seen(list.size());
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
-  parallel_for((list.size() + kGlances - 1) / kGlances, *budget_.context,
+  parallel_for((list.size() + kLeastPiece - 1) / kLeastPiece, *budget_.context,
                [&](std::size_t part) {
-                 for (std::size_t k = part * kGlances; k < std::min(list.size(), (part + 1) * kGlances); ++k)
+                 for (std::size_t k = part * kLeastPiece; k < std::min(list.size(), (part + 1) * kLeastPiece); ++k)
                    seen[k] = glance(other, start, from, to, list[k]);
                },
                [&] { return budget_.context->should_stop(); });

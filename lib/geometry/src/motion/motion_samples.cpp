@@ -7,17 +7,15 @@
 namespace dismantle::geometry {
 namespace {
 
-constexpr std::size_t kLeastTimes = 24, kMostTimes = 480, kVertices = 96;
-
-/// Vertices of the triangles of `a`; along ways of some length, of those that are where `b` passes by, as it moves
-/// backwards seen from `a`. To find these takes longer than all of a short look. Calls take(sample, place in the
-/// frame of b) for those within `b`, until it says that this is enough: then true.
+/// Samples are vertices of the triangles of `a`; along paths of some length, of the triangles that `b` passes by, as it
+/// moves backwards seen from `a`. For short paths finding these takes longer than all samples. Calls take(sample, place
+/// in the frame of b) for those within `b`, until it returns true; then returns true.
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, const Take& take) {
   const std::size_t segments = motion.segments();
-  const std::size_t times = std::clamp(2 * segments, kLeastTimes, kMostTimes);
-  const bool all = times == kLeastTimes;
+  const bool all = segments <= 12;
+  const std::size_t times = all ? 24 : std::min<std::size_t>(2 * segments, 480);  // more find nothing deeper, mostly
   std::vector<std::uint32_t> near;
   if (!all) {
     a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
@@ -28,7 +26,7 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
     // Another selection each time, so that together they cover more.
-    const std::size_t count = std::min(kVertices, triangles);
+    const std::size_t count = std::min<std::size_t>(96, triangles);
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t chosen = (k * triangles / count + i * 7919) % triangles, t = all ? chosen : near[chosen];
       const Eigen::Vector3d& p = a.mesh.vertex(t, static_cast<int>(i % 3));

@@ -9,21 +9,18 @@
 namespace dismantle::geometry {
 namespace {
 
-constexpr std::uint64_t kQuickTests = 60'000, kQuickPatches = 6'000;  // per pair of solids, for passes()
-constexpr std::size_t kMany = 1000;  // triangles of both, for the work to be worth a thread's coming
-
 Finding second_of_pair(Finding f) {
   f.of_second = true;
   return f;
 }
 
-/// The second direction, begun by an idle thread while the first is looked at, with the budget that both have.
+/// The second direction, begun by an idle thread while the first is checked, with the budget that both have.
 class Ahead {
  public:
   Ahead(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, const Budget& budget)
       : budget_(budget) {
     if (budget.context == nullptr || !budget.context->executor) return;
-    if (a.mesh.triangles.size() + b.mesh.triangles.size() < kMany) return;
+    if (a.mesh.triangles.size() + b.mesh.triangles.size() < 1000) return;  // not worth a task
     own_.deadline = budget.context->deadline;
     own_.executor = budget.context->executor;
     budget_.context = &own_;
@@ -77,7 +74,7 @@ Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward
 }
 
 bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const std::vector<Solid>& b,
-            const Pose& pose_b, const Limits& limits) {
+            const Pose& pose_b, const Limits& limits, const Budget& per_pair) {
   for (const Solid& x : a)
     for (const Solid& y : b) {
       std::vector<Pose> path;
@@ -92,7 +89,7 @@ bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const
       const RelativeMotion backward(rest, path, grown);
       // Most that do not pass show it at a sample, which takes a small part of what it takes to fail to certify them.
       if (sample_beyond(x, y, forward, backward, limits)) return false;
-      Budget budget{kQuickTests, kQuickPatches};
+      Budget budget = per_pair;
       if (check_pair(x, y, forward, backward, limits, budget).answer != Answer::certified) return false;
     }
   return true;

@@ -1,5 +1,6 @@
 #include "dismantle/geometry/swept_boxes.h"
 
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/relative_motion.h"
 
 namespace dismantle::geometry {
@@ -13,7 +14,6 @@ Aabb box_under(const Aabb& box, const Pose& pose) {
 }
 
 double top_of(const Aabb& box, const Pose& pose, const Eigen::Vector3d& direction) {
-  constexpr double kRounding = 1e-9;  // more than that of a product
   const Eigen::Vector3d middle = pose * box.center(), half = 0.5 * box.size();
   const double reach = (pose.q.conjugate() * direction).cwiseAbs().dot(half);
   return direction.dot(middle) + (1 + kRounding) * reach + kRounding * middle.norm();

@@ -9,9 +9,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Share of the sum of the moments that damps rotations.
-constexpr double kDamping = 1e-3;
-
 }  // namespace
 
 Pose moved_along(const Pose& pose, const Twist& twist, const Vec3& center, double duration) {
@@ -44,7 +41,7 @@ Twist fitted_twist(const std::vector<Vec3>& points, const std::vector<Vec3>& vel
     torque += weights[k] * arm.cross(velocities[k]);
   }
   Twist twist;
-  const double damping = kDamping * moments.trace();
+  const double damping = 1e-3 * moments.trace();  // points on one line tell nothing of the rotation about it
   if (damping > 0) twist.angular = (moments + damping * Eigen::Matrix3d::Identity()).ldlt().solve(torque);
   twist.linear = linear + twist.angular.cross(center - middle);
   return twist;

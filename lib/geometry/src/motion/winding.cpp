@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "dismantle/geometry/numerics.h"
 
 namespace dismantle::geometry {
 namespace {
@@ -11,20 +14,12 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-/// Windings that turn less than this (rad) are as quickly looked at as they are.
-constexpr double kLeastTurn = 1;
-/// Segments that turn more or less than this (rad) are left alone: their axes or their ways are not known as well.
-constexpr double kLeastStep = 1e-3, kMostStep = 1;
-/// The most that a winding may be off the screw (assembly units), and what covers rounding.
-constexpr double kMostOff = 1e-5, kRounding = 1e-9;
-/// Cells are as much wider as it takes to have no more of them than that.
-constexpr long kMostCells = 1'500'000;
-/// Without a lead worth that much (assembly units) turns are not told apart.
-constexpr double kLeastLead = 0.02;
-/// Triangles are divided until they are as good as straight within a cell, or so often.
+using std::numbers::pi;
+
+/// Segments that turn less (rad) have an axis that rounding displaces too far.
+constexpr double kLeastStep = 1e-3;
+/// Triangles are divided until they are as good as straight within a cell, or that many times: into 1024.
 constexpr int kDepth = 5;
-constexpr int kBits = 128;
 
 /// The screw motion from one pose to another by the shorter turn, as a velocity field v + w x x: one unit of time.
 struct Field {
@@ -37,7 +32,7 @@ bool axis_of(const Pose& from, const Pose& to, Winding& winding, double& angle) 
   const Pose d = to * from.inverse();
   const Vec3 turn = rotation_vector(d.q);
   angle = turn.norm();
-  if (angle < kLeastStep || angle > kMostStep) return false;
+  if (angle < kLeastStep || angle > 1) return false;  // longer arcs: their bounds get loose
   winding.axis = turn / angle;
   const double along = winding.axis.dot(d.t);
   const Vec3 across = d.t - along * winding.axis;
@@ -61,14 +56,14 @@ Pose screwed(const Winding& w, const Pose& pose, double angle) {
 }
 
 /// The longest winding that begins at instant k. One segment has told the screw; the others have to agree.
-bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
+bool winding_from(const RelativeMotion& motion, std::size_t k, double most_off, Winding& w) {
   double angle = 0;
   const Pose start = motion.at(static_cast<double>(k));
   if (!motion.is_screw(k) || !axis_of(start, motion.at(static_cast<double>(k + 1)), w, angle)) return false;
   w.begin = w.end = k;
   w.turned = {0};
   w.off = 0;
-  double off_here = 0;
+  double off_here = 0, extent = 0;
   for (std::size_t j = k; j < motion.segments() && motion.is_screw(j); ++j) {
     const Pose from = motion.at(static_cast<double>(j)), to = motion.at(static_cast<double>(j + 1));
     Winding own;
@@ -83,6 +78,7 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
     double off_next = 0, speed = 0, apart = 0;
     for (const Vec3& c : motion.corners()) {
       off_next = std::max(off_next, (to * c - ideal * c).norm());
+      extent = std::max(extent, (to * c).norm());
       const Vec3 x = from * c;
       speed = std::max(speed, is(x).norm());
       apart = std::max(apart, (is(x) - wanted(x)).norm());
@@ -90,14 +86,15 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, Winding& w) {
     const double axes = (is.w - wanted.w).norm();
     apart += axes * speed;
     const double off = (std::max(off_here, off_next) + (axes * speed + turned * apart) / 8) / (1 - turned * turned / 8);
-    if (off > kMostOff) break;
+    if (off > most_off) break;
     w.off = std::max(w.off, off);
     w.end = j + 1;
     w.turned.push_back(w.turned.back() + turned);
     off_here = off_next;
   }
-  w.off += kRounding;
-  return w.end > k && w.turned.back() >= kLeastTurn;
+  w.rounding = kRounding * extent;
+  w.off += w.rounding;
+  return w.end > k && w.turned.back() >= 1;  // shorter ones are checked as quickly without unrolling
 }
 
 std::array<Corners, 4> quarters(const Corners& t) {
@@ -107,11 +104,11 @@ std::array<Corners, 4> quarters(const Corners& t) {
 
 }  // namespace
 
-std::vector<Winding> windings(const RelativeMotion& motion) {
+std::vector<Winding> windings(const RelativeMotion& motion, double most_off) {
   std::vector<Winding> all;
   Winding w;
   for (std::size_t k = 0; k < motion.segments();) {
-    if (winding_from(motion, k, w)) {
+    if (winding_from(motion, k, most_off, w)) {
       all.push_back(w);
       k = w.end;
     } else {
@@ -144,11 +141,11 @@ Unrolled unroll(const Winding& w, const Corners& t, double off) {
     most_r = std::max(most_r, x.norm());
   }
   const double least_r = center.norm() - radius;
-  u.r_lo = std::max(0.0, least_r - off) - kRounding;
-  u.r_hi = most_r + off + kRounding;
+  u.r_lo = std::max(0.0, least_r - off) - w.rounding;
+  u.r_hi = most_r + off + w.rounding;
   const auto [z_least, z_most] = std::minmax({z[0], z[1], z[2]});
-  u.z_lo = z_least - off - kRounding;
-  u.z_hi = z_most + off + kRounding;
+  u.z_lo = z_least - off - w.rounding;
+  u.z_hi = z_most + off + w.rounding;
   u.bent = least_r < 0.5 * radius || least_r < 8 * off;
   if (u.bent) return u;
   // r and phi are not linear, but nearly: at a mean of the corners they differ from the mean of their values there by
@@ -165,9 +162,9 @@ Unrolled unroll(const Winding& w, const Corners& t, double off) {
     u.phi_hi = std::max(u.phi_hi, phi + turn);
     u.p[i] = {flat[i].norm(), z[i] - pitch * phi};
   }
-  u.below = sag + off + kRounding;
-  u.above = off + kRounding;
-  u.beside = pitch * turn + off + kRounding;
+  u.below = sag + off + w.rounding;
+  u.above = off + w.rounding;
+  u.beside = pitch * turn + off + w.rounding;
   return u;
 }
 
@@ -178,16 +175,17 @@ void Ring::add(const Winding& winding, const Corners& t) {
   r_lo = std::min(r_lo, u.r_lo);
   r_hi = std::max(r_hi, u.r_hi);
   z_lo = std::min(z_lo, u.z_lo);
-  z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + kRounding);
+  z_hi = std::max(z_hi, u.z_hi + std::abs(winding.pitch) * winding.turned.back() + winding.rounding);
 }
 
 UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell)
     : winding_(winding),
       ring_(asked),
-      lead_(2 * kPi * std::abs(winding.pitch)),
+      lead_(2 * pi * std::abs(winding.pitch)),
+      blind_(lead_ < 4 * cell),
       phi_lo_(std::numeric_limits<double>::infinity()),
       phi_hi_(-phi_lo_) {
-  if (lead_ < kLeastLead || !(ring_.r_hi > ring_.r_lo)) return;
+  if (blind_ || !(ring_.r_hi > ring_.r_lo)) return;
   double least = ring_.r_hi, most = ring_.r_lo;
   std::vector<std::uint32_t> there;
   for (const std::uint32_t t : bvh.order()) {
@@ -204,7 +202,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   for (cell_ = cell;; cell_ *= 1.25) {
     rows_ = static_cast<long>(std::ceil((ring_.r_hi - ring_.r_lo) / cell_)) + 1;
     columns_ = static_cast<long>(std::ceil(lead_ / cell_));
-    if (rows_ * columns_ <= kMostCells) break;
+    if (rows_ * columns_ <= 1'500'000) break;  // of 16 bytes: 24 MB
   }
   taken_.assign(static_cast<std::size_t>(rows_ * columns_), Bits{});
   by_bent_.assign(static_cast<std::size_t>(rows_), Bits{});
@@ -223,7 +221,7 @@ void UnrolledMesh::extend(const Corners& t, int depth) {
   }
   for (const Vec2& p : u.p)
     for (const double beside : {-u.beside - cell_, u.beside + cell_}) {
-      const double turns = 2 * kPi * std::floor((p.y() + beside) / lead_);
+      const double turns = 2 * pi * std::floor((p.y() + beside) / lead_);
       phi_lo_ = std::min(phi_lo_, u.phi_lo + turns);
       phi_hi_ = std::max(phi_hi_, u.phi_hi + turns);
     }
@@ -231,9 +229,10 @@ void UnrolledMesh::extend(const Corners& t, int depth) {
 
 /// The pieces of the range of phi that [lo, hi] has a share in; what lies beyond the range counts with its ends.
 UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
-  const double piece = std::max(1e-9, phi_hi_ - phi_lo_) / kBits;
+  const auto pieces = static_cast<double>(8 * sizeof(Bits));
+  const double piece = std::max(kRounding, phi_hi_ - phi_lo_) / pieces;
   const auto index = [&](double phi) {
-    return static_cast<int>(std::clamp(std::floor((phi - phi_lo_) / piece), 0.0, kBits - 1.0));
+    return static_cast<int>(std::clamp(std::floor((phi - phi_lo_) / piece), 0.0, pieces - 1));
   };
   Bits b{};
   for (int i = index(lo), last = index(hi); i <= last; ++i) b[static_cast<std::size_t>(i / 64)] |= 1ULL << (i % 64);
@@ -242,8 +241,8 @@ UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
 
 /// Of what may be at any angle: psi is brought into [0, lead), so that phi tells the height.
 UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, double to) const {
-  const double pitch = lead_ / (2 * kPi);
-  return bits(u.z_lo / pitch - 2 * kPi + from - kLeastStep, u.z_hi / pitch + to + kLeastStep);
+  const double pitch = lead_ / (2 * pi);
+  return bits(u.z_lo / pitch - 2 * pi + from - kLeastStep, u.z_hi / pitch + to + kLeastStep);
 }
 
 std::pair<long, long> UnrolledMesh::rows_of(double lo, double hi) const {
@@ -261,8 +260,8 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
   for (long row = row0; row <= row1; ++row) {
     if (!in_row(row)) continue;
     // psi of what has its r, without slack, in [r0, r1].
-    const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - kRounding;
-    const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + kRounding;
+    const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - winding_.rounding;
+    const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + winding_.rounding;
     double lo = std::numeric_limits<double>::infinity(), hi = -lo;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 &a = u.p[i], &b = u.p[(i + 1) % 3];
@@ -275,8 +274,8 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
         }
     }
     if (lo > hi) continue;
-    const long c0 = static_cast<long>(std::floor((lo - u.beside - kRounding) / column));
-    const long c1 = static_cast<long>(std::floor((hi + u.beside + kRounding) / column));
+    const long c0 = static_cast<long>(std::floor((lo - u.beside - winding_.rounding) / column));
+    const long c1 = static_cast<long>(std::floor((hi + u.beside + winding_.rounding) / column));
     for (long c = c0; c <= c1; ++c) {
       const long turns = c >= 0 ? c / columns_ : -((-c + columns_ - 1) / columns_);
       if (!f(static_cast<std::size_t>(row * columns_ + (c - turns * columns_)), turns)) return false;
@@ -309,7 +308,7 @@ void UnrolledMesh::enter(const Corners& t, int depth) {
       [&](std::size_t cell, long turns) {
         if (turns != known) {
           known = turns;
-          const double by = 2 * kPi * static_cast<double>(turns);
+          const double by = 2 * pi * static_cast<double>(turns);
           b = bits(u.phi_lo + by, u.phi_hi + by);
         }
         add(taken_[cell], b);
@@ -344,7 +343,7 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
         ++cells;
         if (turns != known) {
           known = turns;
-          const double by = 2 * kPi * static_cast<double>(turns);
+          const double by = 2 * pi * static_cast<double>(turns);
           b = bits(u.phi_lo + by + from, u.phi_hi + by + to);
         }
         return none(taken_[cell], b) && none(by_bent_[cell / static_cast<std::size_t>(columns_)], b);
@@ -352,7 +351,7 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
 }
 
 bool UnrolledMesh::clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const {
-  if (lead_ < kLeastLead) return false;
+  if (blind_) return false;
   if (taken_.empty()) return true;
   return free(moved, winding_.turned_at(from), winding_.turned_at(to), kDepth, cells);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle::geometry {
 namespace {
 using Vec3 = Eigen::Vector3d;
@@ -42,7 +44,7 @@ Corners moved_by_vertices(const Patch& patch, double depth) {
 }
 
 Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
-  constexpr double kAcross = 0.02;
+  constexpr double kAcross = 0.02;  // sine: the corners of neighbours that move alike stay a little apart
   static const double along = std::sqrt(1 - kAcross * kAcross);
   Corners moved = patch.p;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -53,18 +55,17 @@ Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
 }
 
 Escape escape_at(const Vec3& point, const Solid& solid) {
-  constexpr double kOnSurface = 1e-9;
   const ClosestPoint c = solid.bvh.closest(point);
   const bool inside = solid.bvh.inside(point);
-  if (c.distance < kOnSurface) return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
+  if (c.distance <= kRounding * point.cwiseAbs().maxCoeff())  // on the surface: the difference has no direction
+    return {inside ? c.distance : -c.distance, solid.normals[c.triangle]};
   return {inside ? c.distance : -c.distance, (inside ? Vec3(c.point - point) : Vec3(point - c.point)) / c.distance};
 }
 
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
-  constexpr double kSameWay = 0.7, kNearEnd = 0.02;
   if (patch.halved >= 2) return std::nullopt;
   std::optional<Ridge> best;
-  double least = kSameWay;
+  double least = 0.7;  // cosine, 45 degrees: corners whose ways out agree better are on one side of a ridge
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const double agreement = probe.out[i].dot(probe.out[j]);
@@ -74,7 +75,7 @@ std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
     const double a = -edge.dot(probe.out[i]), b = edge.dot(probe.out[j]);
     if (!(a + b > 0)) continue;
     const double t = (probe.depth[j] - probe.depth[i] + b) / (a + b);
-    if (!(t > kNearEnd && t < 1 - kNearEnd)) continue;
+    if (!(std::abs(t - 0.5) < 0.48)) continue;  // so near an end a cut makes a sliver
     least = agreement;
     best = Ridge{i, t};
   }
@@ -103,13 +104,12 @@ Probe probe(const Patch& patch, const Placement& place, const Solid& other) {
 
 Corners moved_by_probe(const Patch& patch, const Probe& probe, double depth) {
   const double worst = std::max(0.0, probe.depth[static_cast<std::size_t>(probe.deepest)]);
-  constexpr double kMostAcross = 0.25;
   const double slack = std::max(0.0, depth - worst);
   Corners moved = patch.p;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3& out = probe.out[i];
     const double push = std::clamp(probe.depth[i] + 0.5 * slack, 0.0, depth);
-    const double across = std::min(std::sqrt(depth * depth - push * push), kMostAcross * depth);
+    const double across = std::min(std::sqrt(depth * depth - push * push), 0.25 * depth);
     moved[i] += push * out + across * (patch.inward[i] - patch.inward[i].dot(out) * out);
   }
   return moved;

@@ -10,9 +10,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// Chords over more segments than this are verified with the box alone: too long to help anyway.
-constexpr std::size_t kMostOffsets = 24;
-
 /// Velocity field of a screw motion, constant in time and in world axes: v(x) = v + w x (x - origin).
 struct Field {
   Vec3 w = Vec3::Zero(), v = Vec3::Zero(), origin = Vec3::Zero();
@@ -130,7 +127,7 @@ RelativeMotion::Bend RelativeMotion::bend(double s0, double s1) const {
     return bend;
   }
   const auto j = static_cast<std::size_t>(s1);
-  if (j - i > kMostOffsets) return bend;
+  if (j - i > 24) return bend;  // over so long chords a bound by point is not tighter than that of the box
   const Placement &from = at_instant_[i], &to = at_instant_[j];
   Vec3 middle = Vec3::Zero();
   for (const auto& c : corners_) middle += c / 8;

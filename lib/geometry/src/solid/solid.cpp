@@ -14,13 +14,8 @@ namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A vertex direction that enters some face by less than this sine is useless.
-constexpr double kLeastSine = 0.05;
 /// Triangles: what takes some 50 ms at most is not interrupted.
 constexpr std::size_t kPolled = 1 << 15;
-/// Triangles lower than this have no normal to speak of.
-constexpr double kSliverHeight = 1e-7;
 
 /// The triangles of `pick` with the vertices that they use.
 Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
@@ -53,7 +48,8 @@ Vec3 triangle_normal(const Mesh& mesh, std::size_t t) {
   const Vec3 n = ab.cross(ac);
   const double length = n.norm();
   const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
-  if (!(length > kSliverHeight * longest)) return Vec3::Zero();
+  const double size = std::max(a.cwiseAbs().maxCoeff(), longest);
+  if (!(length > 1e-8 * size * longest)) return Vec3::Zero();  // its height is within the rounding of its corners
   return n / length;
 }
 
@@ -64,7 +60,7 @@ Vec3 inward_direction(const std::vector<Vec3>& normals) {
   for (const auto& n : normals) c += n;
   c /= static_cast<double>(normals.size());
   const auto steepness = [&](const Vec3& d) {
-    double least = kInfinity;
+    double least = std::numeric_limits<double>::infinity();
     for (const auto& n : normals) least = std::min(least, n.dot(d));
     return least;
   };
@@ -83,7 +79,8 @@ Vec3 inward_direction(const std::vector<Vec3>& normals) {
       best = d;
     }
   }
-  return best_sine < kLeastSine ? Vec3(Vec3::Zero()) : Vec3(-best);
+  // A direction that enters a face by less than 3 degrees (a sine of 0.05) goes far beside before it is deep.
+  return best_sine < 0.05 ? Vec3(Vec3::Zero()) : Vec3(-best);
 }
 
 std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals) {
@@ -153,8 +150,8 @@ Solid::Solid(const Mesh& m, const std::function<void()>& poll)
   if (poll) poll();
   inward = inward_directions(mesh, normals);
   if (poll) poll();
-  thickness.assign(mesh.triangles.size(), kInfinity);
-  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+  thickness.assign(mesh.triangles.size(), std::numeric_limits<double>::infinity());
+  vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
 
   std::size_t shells = 0;
   const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
@@ -171,18 +168,15 @@ Solid::Solid(const Mesh& m, const std::function<void()>& poll)
 }
 
 void Solid::measure_thickness(double reach, const std::function<void()>& poll) {
-  constexpr double kAlmostOpposite = -0.9;
-  static constexpr std::array<std::array<double, 3>, 4> kSamples = {
-      {{1.0 / 3, 1.0 / 3, 1.0 / 3}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     if (poll && t % kPolled == kPolled - 1) poll();
-    thickness[t] = kInfinity;
+    thickness[t] = std::numeric_limits<double>::infinity();
     if (normals[t].isZero(0)) continue;
     const auto blocks = [&](std::uint32_t other) {
       if (other == t) return false;
       const double facing = normals[t].dot(normals[other]);
-      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < kAlmostOpposite;
-      return facing < 0;  // an opposite side faces away
+      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < -0.9;  // a blade
+      return facing < 0;                                                                 // an opposite side faces away
     };
     // Most triangles have no opposite side within reach: one question for all rays of the triangle.
     Aabb around;
@@ -193,12 +187,14 @@ void Solid::measure_thickness(double reach, const std::function<void()>& poll) {
     bool any = false;
     bvh.overlapping(around, [&](std::uint32_t other) { any = any || blocks(other); });
     if (!any) continue;
-    for (const auto& w : kSamples) {
+    // Barycentric coordinates of the ray origins: the middle and near each corner.
+    for (const Vec3& w :
+         {Vec3(1.0 / 3, 1.0 / 3, 1.0 / 3), Vec3(0.8, 0.1, 0.1), Vec3(0.1, 0.8, 0.1), Vec3(0.1, 0.1, 0.8)}) {
       const Vec3 from = w[0] * mesh.vertex(t, 0) + w[1] * mesh.vertex(t, 1) + w[2] * mesh.vertex(t, 2);
       thickness[t] = std::min(thickness[t], first_hit(bvh, from, -normals[t], reach, blocks));
     }
   }
-  vertex_thickness.assign(mesh.vertices.size(), kInfinity);
+  vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const auto v : mesh.triangles[t]) vertex_thickness[v] = std::min(vertex_thickness[v], thickness[t]);
 }

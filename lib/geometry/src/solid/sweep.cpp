@@ -8,13 +8,10 @@ namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-/// Far above the rounding of coordinates up to thousands of units, far below any tolerance.
-constexpr double kRounding = 1e-11;
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(margin + kRounding) {
+Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(margin) {
   for (std::size_t i = 0; i < 3; ++i) {
     hull_[i] = begin[i];
     hull_[i + 3] = end[i];
@@ -22,24 +19,28 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
     box_.extend(end[i]);
     edges_[i] = begin[(i + 1) % 3] - begin[i];
   }
+  // Error of the few sums and products below, with a margin of 1e3: this class has no long chains of operations.
+  const double rounding = 1e-12 * std::max(box_.lo.cwiseAbs().maxCoeff(), box_.hi.cwiseAbs().maxCoeff());
+  margin_ += rounding;
   box_.inflate(margin_);
   motion_ = ((end[0] - begin[0]) + (end[1] - begin[1]) + (end[2] - begin[2])) / 3;
   for (std::size_t i = 0; i < 3; ++i)
-    turning_ = turning_ || (end[i] - begin[i] - motion_).squaredNorm() > kRounding * kRounding;
+    turning_ = turning_ || (end[i] - begin[i] - motion_).squaredNorm() > rounding * rounding;
+  moving_ = motion_.squaredNorm() > rounding * rounding;
 
   const Vec3 normal = edges_[0].cross(edges_[1]);
   add_axis(normal);
   if (turning_) add_axis((end[1] - end[0]).cross(end[2] - end[1]));
-  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
-  for (const auto& e : edges_) add_axis(moving ? e.cross(motion_) : e.cross(normal));
+  for (const auto& e : edges_) add_axis(moving_ ? e.cross(motion_) : e.cross(normal));
   // A sliver that moves along itself has sides whose normals are all but that of its face.
-  if (moving) add_axis(normal.cross(motion_));
+  if (moving_) add_axis(normal.cross(motion_));
 }
 
 void Sweep::add_axis(const Vec3& n) {
   const double length = n.norm();
   if (!(length > 1e-14)) return;
-  Axis a{n / length, (n / length).cwiseAbs(), kUnbounded, -kUnbounded};
+  Axis a{n / length, (n / length).cwiseAbs(), std::numeric_limits<double>::infinity(),
+         -std::numeric_limits<double>::infinity()};
   for (const auto& p : hull_) {
     const double d = a.n.dot(p);
     a.lo = std::min(a.lo, d);
@@ -64,7 +65,7 @@ bool Sweep::misses(const Aabb& box) const {
 bool Sweep::apart_along(const Vec3& n, const Corners& t) const {
   const double length = n.norm();
   if (!(length > 1e-14)) return false;
-  double lo = kUnbounded, hi = -kUnbounded;
+  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
   for (const auto& p : hull_) {
     const double d = n.dot(p);
     lo = std::min(lo, d);
@@ -83,9 +84,8 @@ bool Sweep::apart(const Corners& t) const {
   }
   const std::array<Vec3, 3> sides = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   if (apart_along(sides[0].cross(sides[1]), t)) return true;
-  const bool moving = motion_.squaredNorm() > kRounding * kRounding;
   for (const auto& side : sides) {
-    if (moving && apart_along(side.cross(motion_), t)) return true;
+    if (moving_ && apart_along(side.cross(motion_), t)) return true;
     for (const auto& e : edges_)
       if (apart_along(side.cross(e), t)) return true;
   }

@@ -18,14 +18,9 @@ using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
 // All lengths here are in units of four times the volume by the surface: the thickness of a round strand.
-constexpr double kSlender = 8;      // length by thickness, at least
-constexpr double kStep = 0.5;       // between two cuts, by thickness
-constexpr double kReach = 2.5;      // of a cut, by thickness: an outline that goes on there is none of a strand
-constexpr double kFlat = 0.6;       // 4 pi area / outline^2 of a cut, at least: rectangles of nearly three to one
-constexpr double kSameArea = 0.25;  // by which the area of a cut may differ from that of the first
-constexpr double kAside = 0.25;     // how far a cut may lie from where the last one leads, by thickness
-constexpr double kLeast = 0.6, kMost = 2.2;  // area of the first cut, by that of a circle one thick
-constexpr int kStarts = 16, kAngles = 24;
+constexpr double kSlender = 8;  // length by thickness, at least: shorter bodies are rods
+constexpr double kStep = 0.5;   // between two cuts, by thickness: coils of springs turn by a few degrees in it
+constexpr int kStarts = 16;     // spread evenly over the surface; one in a strand that is three quarters of it suffices
 
 struct Station {
   Section cut;
@@ -60,8 +55,10 @@ class Follower {
 
  private:
   std::optional<Section> cut(const Vec3& point, const Vec3& along) const {
-    auto found = section_around(mesh_, bvh_, point, along, kReach * std::max(1.0, thickness_));
-    if (found && 4 * pi * found->area < kFlat * found->outline * found->outline) found.reset();
+    // An outline that continues at 2.5 thicknesses is none of a strand, nor one flatter than a rectangle of three to
+    // one.
+    auto found = section_around(mesh_, bvh_, point, along, 2.5 * std::max(1.0, thickness_));
+    if (found && 4 * pi * found->area < 0.6 * found->outline * found->outline) found.reset();
     return found;
   }
 
@@ -69,13 +66,14 @@ class Follower {
   std::optional<Station> first_cut(const Vec3& point, const Vec3& normal) const {
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
     std::optional<Station> best;
-    for (int k = 0; k < kAngles; ++k) {
-      const double angle = pi * k / kAngles;
+    for (int k = 0; k < 24; ++k) {
+      const double angle = pi * k / 24;
       const Vec3 along = std::cos(angle) * u + std::sin(angle) * v;
       auto found = cut(point, along);
       if (found && (!best || found->area < best->cut.area)) best = Station{std::move(*found), along};
     }
-    if (!best || best->cut.area < kLeast * pi / 4 || best->cut.area > kMost * pi / 4) return std::nullopt;
+    // Round strands have the area of a circle one thick; flat ones, and ends that the volume includes, differ.
+    if (!best || best->cut.area < 0.6 * pi / 4 || best->cut.area > 2.2 * pi / 4) return std::nullopt;
     const double step = kStep * std::sqrt(4 * best->cut.area / pi);
     const auto on = cut(best->cut.center + step * best->along, best->along);
     const auto back = cut(best->cut.center - step * best->along, best->along);
@@ -99,8 +97,8 @@ class Follower {
       if (!rough) break;
       const Vec3 along = leads(last.along, rough->center - last.cut.center, chord_before);
       auto found = cut(rough->center, along);
-      if (!found || std::abs(found->area - area_) > kSameArea * area_) break;
-      if ((found->center - ahead).norm() > kAside * thickness_) break;
+      if (!found || std::abs(found->area - area_) > 0.25 * area_) break;  // the section changes
+      if ((found->center - ahead).norm() > 0.25 * thickness_) break;      // it bends more than a strand
       const Vec3 chord = found->center - last.cut.center;
       const Vec3 next = leads(last.along, chord, chord_before);
       chord_before = chord.normalized();

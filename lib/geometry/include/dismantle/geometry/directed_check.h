@@ -8,11 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "dismantle/run_context.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/winding.h"
+#include "dismantle/run_context.h"
 
 namespace dismantle::geometry {
 
@@ -21,6 +22,9 @@ struct Limits {
   double overlap = 0;            ///< >= 0, the pair's when assembled
   double penetration = 0;        ///< > 0
   const Aabb* exempt = nullptr;  ///< where points may be as deep as they like; see exempts()
+  /// The largest penetration that the caller is interested in, >= penetration; 0 means the same. Cells of unrolled
+  /// meshes are a share of it.
+  double tolerance = 0;
   /// Is a point of `a` that is at `in_b` in the frame of `b` in the exempt box, where it is in its part as assembled or
   /// in the other part as assembled?
   bool exempts(const Solid& a, const Eigen::Vector3d& in_a, const Solid& b, const Eigen::Vector3d& in_b) const {
@@ -28,6 +32,7 @@ struct Limits {
   }
   double at(double thickness) const { return overlap + std::min(penetration, 0.25 * thickness); }
   double most() const { return overlap + penetration; }
+  double cells_from() const { return tolerance > 0 ? tolerance : penetration; }
 };
 
 /// What the check of one direction says.
@@ -55,6 +60,9 @@ struct Budget {
   std::uint64_t patches_left = 0;
   std::uint64_t tests_done = 0;
   const RunContext* context = nullptr;  ///< may be null; when it says stop, nothing is left
+  /// Share of the penetration allowed, > 0. Parts of the surface, in a time interval, that stay within less of it are
+  /// not divided further: the check ends as uncertain.
+  double resolution = 0.125;
   bool spend_test() {
     if (context != nullptr && tests_done % 256 == 0 && context->should_stop()) tests_left = 0;
     if (tests_left == 0) return false;
@@ -128,6 +136,8 @@ class DirectedCheck {
   bool sides();
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
   double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }
+  /// How far the patch is displaced: less than is allowed, so that rounding cannot carry it beyond.
+  double displacement(const Patch& patch) const { return allowed(patch) * (1 - kRounding); }
 
   const Solid& a_;
   const Solid& b_;

@@ -48,7 +48,7 @@ class HullsApart {
     double top_along(Eigen::Index axis, double sign) const;
     Aabb box() const;
   };
-  static constexpr std::size_t kRun = 16;
+  static constexpr std::size_t kRun = 16;  // parts under one box: about the square root of the largest assemblies
 
   Side group_, rest_;
 };

@@ -40,6 +40,7 @@ class Sweep {
   std::array<Eigen::Vector3d, 6> hull_;
   double margin_;
   bool turning_ = false;  // the two triangles are not parallel shifts of each other
+  bool moving_ = false;   // their centers differ by more than rounding
   Eigen::Vector3d motion_;
   std::array<Eigen::Vector3d, 3> edges_;
   Aabb box_;

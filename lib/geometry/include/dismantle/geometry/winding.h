@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/geometry/relative_motion.h"
 #include "dismantle/geometry/sweep.h"
+#include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::geometry {
 
@@ -26,12 +26,13 @@ struct Winding {
   double pitch = 0;                    ///< advance along the axis per rad, either sign
   std::vector<double> turned;          ///< rad since `begin`, by instant: grows
   double off = 0;                      ///< largest distance of a point from where the screw takes it, at any time
+  double rounding = 0;                 ///< bound on the error of lengths that are computed from coordinates
 
   double turned_at(std::size_t instant) const { return turned[instant - begin]; }
 };
 
-/// The long ones among them, one after the other.
-std::vector<Winding> windings(const RelativeMotion& motion);
+/// Those of at least 1 rad whose points are off the screw by `most_off` at most, one after the other.
+std::vector<Winding> windings(const RelativeMotion& motion, double most_off);
 
 /// Where a triangle is, unrolled. Its r and psi lie in the hull of `p`, grown by the slacks.
 struct Unrolled {
@@ -57,8 +58,8 @@ struct Ring {
 /// Threads have equal profiles everywhere: thousands of triangles share a few cells.
 class UnrolledMesh {
  public:
-  /// Only what comes near `asked`, see Ring. Cells are `cell` wide (assembly units): what is nearer than two of them
-  /// looks as if it touched.
+  /// Only what comes near `asked`, see Ring. Cells have the width `cell`: what is nearer than two of them counts as
+  /// touching. They are wider where there would be too many, and a lead of less than four of them tells nothing.
   UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell);
 
   /// True: proved that the triangle, `moved` at the first instant of the winding (frame of B), meets no triangle of the
@@ -82,6 +83,7 @@ class UnrolledMesh {
   const Winding& winding_;
   Ring ring_;
   double lead_;      // >= 0
+  bool blind_;       // the lead is too small: nothing is proved
   double cell_ = 0;  // along r
   long rows_ = 0, columns_ = 0;
   double phi_lo_, phi_hi_;     // of all of the mesh; phi goes on from turn to turn as psi is brought into [0, lead)
