@@ -18,6 +18,7 @@ namespace {
 
 struct Verify {
   std::string plan, assembly;
+  double effort = 1;
   ConsoleOptions console;
 };
 
@@ -47,6 +48,7 @@ int verify(const Verify& options) {
   const auto [plan, assembly] = load_plan(options.plan, options.assembly, registry, context);
   VerifyOptions tolerance;
   tolerance.max_penetration = tolerance_of(plan, assembly, console);
+  tolerance.budget = tolerance.budget.times(options.effort);
   if (const SurfaceRepair& r = plan.assembly.repair; r != SurfaceRepair{})
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are verified as repaired with these",
@@ -87,6 +89,11 @@ void add_verify(CLI::App& app, Action& action) {
   command->add_option("PLAN.json", options->plan, "Plan file")->required()->option_text(" ");
   command->add_option("--assembly", options->assembly, "The input that the plan is for, if it has moved")
       ->option_text("INPUT");
+  command
+      ->add_option("--effort", options->effort,
+                   "Multiplies the tests and patches that each proof may take: for plans that were made with more")
+      ->check(CLI::Range(1.0, 1000.0))
+      ->option_text("X");
   add_format(*command, options->console);
   add_verbosity(*command, options->console);
   command->footer(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "depth_body.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/patch.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/geometry/starts_off.h"
@@ -27,8 +28,6 @@ namespace verify {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-constexpr std::uint64_t kMostPatches = 100'000;  // per pair of solids and direction
-constexpr std::uint64_t kPatchesPerPoll = 64;
 
 /// Surface of A in B; `place` takes A to the frame of B, `frame` takes that frame to the world.
 class Descent {
@@ -47,7 +46,7 @@ class Descent {
       sample(place_ * patch.center());
       if (told_to_stop(++sampled)) return false;
     }
-    std::uint64_t left = kMostPatches;
+    std::uint64_t left = 100'000;  // patches: what is deepest is mostly found among the first thousands
     while (!open_.empty() && left-- > 0) {
       if (told_to_stop(left)) return false;
       const Patch patch = open_.front();
@@ -64,8 +63,8 @@ class Descent {
   }
 
  private:
-  bool told_to_stop(std::uint64_t count) const { return count % kPatchesPerPoll == 0 && context_.should_stop(); }
-  double level() const { return deepest_.depth + tolerance_ * (1 - 1e-9); }
+  bool told_to_stop(std::uint64_t count) const { return count % 64 == 0 && context_.should_stop(); }
+  double level() const { return deepest_.depth + tolerance_ * (1 - geometry::kRounding); }
 
   /// `x` in the frame of B.
   void found(double depth, const Vec3& x) {

@@ -11,9 +11,6 @@
 namespace dismantle {
 namespace {
 
-/// Share of the resolution that one measurement may be off by; the rest is for what lies between two.
-constexpr double kMeasured = 0.25;
-
 struct Sample {
   double u = 0;  // segment plus place in it
   double depth = 0;
@@ -57,8 +54,9 @@ struct MotionDepthMeter::Impl {
     const geometry::SweptBoxes there({other.pose}, fixed_box);
     const auto measure = [&](double u) {
       const Pose pose = pose_at(u);
+      // One measurement may be off by a quarter of the resolution; the rest is for what lies between two of them.
       const Penetration found =
-          deepest_penetration(body(part), pose, body(other.part), other.pose, kMeasured * resolution(), context);
+          deepest_penetration(body(part), pose, body(other.part), other.pose, 0.25 * resolution(), context);
       const MotionDepth here{part, other.part, found.depth, allowed, found.point, false};
       if (!worst || here.excess() > worst->excess() || (here.excess() == worst->excess() && here.depth > worst->depth))
         worst = here;

@@ -1,7 +1,6 @@
 #include "dismantle/verification/verifier.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include "dismantle/executor.h"
 #include "dismantle/geometry/hull.h"
 #include "dismantle/geometry/motion_samples.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/pair_check.h"
 #include "dismantle/stop_if_asked.h"
 #include "verifier_impl.h"
@@ -21,30 +21,13 @@ using Vec3 = Eigen::Vector3d;
 using verify::Answer;
 using verify::Finding;
 
-/// Relative motion below this is none (assembly units).
-constexpr double kStill = 1e-9;
-/// Bounds that max_penetration is reported by, and the one that gets full effort although a wider one will do.
-constexpr std::array<double, 7> kLadder = {1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2};
-constexpr double kWorthwhile = 1e-3;
-/// A rung is tried if the deepest point known takes no more than this share of it.
-constexpr double kRoom = 0.8;
-constexpr std::size_t kManySegments = 16;  // of a way that is looked at in samples first
-/// Budgets per pair of solids, in sweep tests: for a rung that need not hold, and for one that decides.
-constexpr std::uint64_t kTryTests = 100'000, kTryPatches = 8'000;
-constexpr std::uint64_t kFullTests = 1'000'000, kFullTestsPerSegment = 8'000, kFullPatches = 80'000;
-/// An overlap of so many times max_penetration is allowed where it was alone. Below that it hides little: the tolerance
-/// itself holds everywhere.
-constexpr double kDeepOverlap = 10;
-/// Parts that overlap deeper than is allowed to get worse are cut along the ridges of what is buried: so many times
-/// more patches, where it matters.
-constexpr std::uint64_t kForBuried = 5;
+/// Displacements of points of `box` that are smaller are rounding.
+double rounding_of(const Aabb& box) {
+  return geometry::kRounding * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
+}
 
-std::vector<double> rungs_up_to(double most) {
-  std::vector<double> rungs;
-  for (const double r : kLadder)
-    if (r < most * (1 - 1e-12)) rungs.push_back(r);
-  rungs.push_back(most);
-  return rungs;
+std::uint64_t share_of(std::uint64_t count, double share) {
+  return static_cast<std::uint64_t>(share * static_cast<double>(count));
 }
 
 std::vector<Pose> in_frame(const std::vector<Pose>& poses, const Pose& frame) {
@@ -90,10 +73,16 @@ Violation Verifier::Impl::violation(const Actor& a, const Actor& b, const verify
 }
 
 Verifier::Impl::Impl(const Assembly& a, VerifyOptions o, const RunContext& context)
-    : assembly_overlaps(a.overlaps), options(o), rungs(rungs_up_to(o.max_penetration)), bodies(a.parts.size()) {
+    : assembly_overlaps(a.overlaps), options(o), bodies(a.parts.size()) {
+  // From a hundredth of the tolerance on, where parts slide on each other, in steps of about two. A tenth is worth the
+  // whole budget: such a motion is free by any measure.
+  for (const double divisor : {100, 50, 20, 10, 5, 2, 1}) {
+    if (divisor == 10) worthwhile = rungs.size();
+    rungs.push_back(options.max_penetration / divisor);
+  }
   for (const InitialOverlap& overlap : assembly_overlaps) {
     const double depth = overlap.allowed();
-    if (overlap.declared || !overlap.place || !(depth > kDeepOverlap * options.max_penetration)) continue;
+    if (overlap.declared || !overlap.place || !(depth > 10 * options.max_penetration)) continue;  // law 3
     Aabb box = overlap.place->region;
     box.inflate(depth + options.max_penetration);
     regions.push_back({overlap.a, overlap.b, box});
@@ -125,9 +114,19 @@ const Aabb* Verifier::Impl::region(PartId a, PartId b) const {
   return nullptr;
 }
 
-/// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: what they
-/// would see of later ones, from a rung that is still to be raised, takes longer than it saves. Straight ways are over
-/// soon, and mostly keep to the lowest rung.
+geometry::Budget Verifier::Impl::budget_for(std::size_t segments, bool decides, bool overlapping,
+                                            const RunContext* context) const {
+  const VerifyBudget& b = options.budget;
+  // Parts that overlap deeper than it may get worse are divided along the ridges of what is buried.
+  const std::uint64_t tests = b.tests + b.tests_per_segment * segments,
+                      patches = (overlapping ? b.overlap_factor : 1) * b.patches;
+  if (decides) return {tests, patches, 0, context, b.resolution};
+  return {share_of(b.tests, b.trial_share), share_of(b.patches, b.trial_share), 0, context, b.resolution};
+}
+
+/// Pair after pair, each from the rung that those before it have raised. Idle threads help within a pair: checking
+/// later pairs from a rung that is still to be raised takes longer than it saves. Straight paths take little time, and
+/// mostly keep to the lowest rung.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
   const auto straight = [](const Actor& actor) { return actor.poses.size() <= 2; };
   std::vector<Look> looks(pairs.size());
@@ -154,7 +153,7 @@ auto Verifier::Impl::look_at(const Pairs::value_type& pair, std::size_t rung, co
   return look;
 }
 
-/// All pairs, until one fails, each from the rung that is known when its turn comes.
+/// All pairs, until one fails, each from the rung that is known when its check begins.
 auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) const -> std::vector<Look> {
   std::vector<Look> looks(pairs.size());
   std::atomic<std::size_t> known{0};
@@ -175,7 +174,8 @@ auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) 
 bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung,
                            MotionCheck& result) const {
   const double allowed = overlap(a.part, b.part);
-  if (verify::RelativeMotion(a.poses, b.poses, bodies[a.part].box).constant(kStill)) return true;
+  if (verify::RelativeMotion(a.poses, b.poses, bodies[a.part].box).constant(rounding_of(bodies[a.part].box)))
+    return true;
   for (const auto& x : bodies[a.part].solids)
     for (const auto& y : bodies[b.part].solids)
       if (!check(a, b, x, y, allowed, context, rung, result)) return false;
@@ -189,11 +189,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const RunContext& con
 /// Law 3: outside the region of the initial overlap.
 bool Verifier::Impl::check_elsewhere(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y,
                                      const Aabb& region, const RunContext& context, MotionCheck& result) const {
-  const verify::Limits limits{0, options.max_penetration, &region};
+  const verify::Limits limits{0, options.max_penetration, &region, options.max_penetration};
   const Relative motion(a, b, x, y, limits.most());
   if (!motion.forward.swept_box().overlaps(y.box)) return true;
-  verify::Budget budget{kFullTests + kFullTestsPerSegment * motion.forward.segments(), kForBuried * kFullPatches, 0,
-                        &context};
+  verify::Budget budget = budget_for(motion.forward.segments(), true, true, &context);
   const Finding f = verify::check_pair(x, y, motion.forward, motion.backward(), limits, budget);
   result.tests += budget.tests_done;
   if (f.answer == Answer::certified) return true;
@@ -213,7 +212,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
 
   const std::size_t last = rungs.size() - 1;
   // Paths of many segments are close fits, on which the low rungs fail: samples first.
-  bool sampled = forward.segments() >= kManySegments && geometry::box_under(x.box, forward.at(0)).overlaps(y.box);
+  bool sampled = forward.segments() >= 16 && geometry::box_under(x.box, forward.at(0)).overlaps(y.box);
   bool sample_tells = false;
   Finding seen;
   if (sampled) {
@@ -221,11 +220,10 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     sample_tells = seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness);
   }
   for (;;) {
-    const bool decides = rung == last || rungs[rung] == kWorthwhile;
-    const std::uint64_t patches = decides ? kFullPatches : kTryPatches;
-    verify::Budget budget{decides ? kFullTests + kFullTestsPerSegment * forward.segments() : kTryTests,
-                          decides && allowed > options.max_penetration ? kForBuried * patches : patches, 0, &context};
-    Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, {allowed, rungs[rung]}, budget);
+    const bool decides = rung == last || rung == worthwhile;
+    verify::Budget budget = budget_for(forward.segments(), decides, allowed > options.max_penetration, &context);
+    const verify::Limits limits{allowed, rungs[rung], nullptr, options.max_penetration};
+    Finding f = sample_tells ? seen : verify::check_pair(x, y, forward, backward, limits, budget);
     sample_tells = false;
     result.tests += budget.tests_done;
     if (f.answer == Answer::certified) return true;
@@ -237,7 +235,7 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
       seen = verify::deepest_sample(x, y, forward, backward);
       sampled = true;
       if (seen.depth > f.depth || f.answer != Answer::violated)
-        if (seen.depth > verify::Limits{allowed, rungs[rung]}.at(seen.thickness)) f = seen;
+        if (seen.depth > limits.at(seen.thickness)) f = seen;
     }
 
     const bool beyond_all =
@@ -248,12 +246,16 @@ bool Verifier::Impl::check(const Actor& a, const Actor& b, const verify::Solid& 
     }
     ++rung;
     if (f.answer == Answer::violated)  // a rung that is just wide enough takes long to prove
-      while (rung < last &&
-             f.depth > allowed + kRoom * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
+      while (rung < last && f.depth > allowed + 0.8 * (verify::Limits{allowed, rungs[rung]}.at(f.thickness) - allowed))
         ++rung;
-    if (f.answer == Answer::exhausted && rungs[rung] < kWorthwhile)
-      while (rung < last && rungs[rung] != kWorthwhile) ++rung;
+    if (f.answer == Answer::exhausted) rung = std::max(rung, worthwhile);
   }
+}
+
+VerifyBudget VerifyBudget::times(double factor) const {
+  VerifyBudget more = *this;
+  for (std::uint64_t* count : {&more.tests, &more.tests_per_segment, &more.patches}) *count = share_of(*count, factor);
+  return more;
 }
 
 Verifier::Verifier(const Assembly& assembly, VerifyOptions options, const RunContext& context) {
@@ -299,24 +301,28 @@ MotionCheck Verifier::check_motion(const std::vector<PartId>& moving, const std:
   }
   for (const auto& s : fixed)
     others.emplace_back(s.part, std::vector<Pose>{{s.pose.t, s.pose.q.normalized()}}, impl_->bodies.at(s.part).box);
+  const auto near = [](const Impl::Actor& a, const Impl::Actor& b) {
+    return a.swept.meets(b.swept, rounding_of(a.swept.whole()));
+  };
   Impl::Pairs pairs;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     for (const auto& other : others)
-      if (movers[i].swept.meets(other.swept, kStill)) pairs.emplace_back(&movers[i], &other);
+      if (near(movers[i], other)) pairs.emplace_back(&movers[i], &other);
     for (std::size_t k = i + 1; k < movers.size(); ++k)
-      if (movers[i].swept.meets(movers[k].swept, kStill)) pairs.emplace_back(&movers[i], &movers[k]);
+      if (near(movers[i], movers[k])) pairs.emplace_back(&movers[i], &movers[k]);
   }
   MotionCheck result;
   impl_->check(pairs, context, result);
   return result;
 }
 
-bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const {
-  const geometry::SweptBoxes a(way, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
+bool Verifier::passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& path) const {
+  const geometry::SweptBoxes a(path, impl_->bodies.at(moving).box), b({fixed_at}, impl_->bodies.at(fixed).box);
   if (!a.meets(b, 0)) return true;
   const verify::Limits limits{impl_->overlap(moving, fixed), impl_->options.max_penetration};
   const auto keeps_to = [&](const verify::Limits& to) {
-    return verify::passes(impl_->bodies[moving].solids, way, impl_->bodies[fixed].solids, fixed_at, to);
+    return verify::passes(impl_->bodies[moving].solids, path, impl_->bodies[fixed].solids, fixed_at, to,
+                          impl_->budget_for(path.size() - 1, false, false, nullptr));
   };
   const Aabb* where = impl_->region(moving, fixed);
   return keeps_to(limits) && (where == nullptr || keeps_to({0, impl_->options.max_penetration, where}));

@@ -38,6 +38,8 @@ struct Verifier::Impl {
   double overlap(PartId a, PartId b) const;
   const Aabb* region(PartId a, PartId b) const;
   verify::HullsApart hulls_of(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
+  /// For a path of that many segments: for a rung that decides, or for one that need not hold.
+  geometry::Budget budget_for(std::size_t segments, bool decides, bool overlapping, const RunContext* context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
   /// What was seen of a pair.
   struct Look {
@@ -63,7 +65,8 @@ struct Verifier::Impl {
   };
   std::vector<Region> regions;  // of pairs whose overlap is allowed where it was
   VerifyOptions options;
-  std::vector<double> rungs;
+  std::vector<double> rungs;   // bounds that max_penetration is reported by, ascending to the tolerance
+  std::size_t worthwhile = 0;  // the rung that gets the whole budget although a wider one will do
   std::vector<Body> bodies;
   std::vector<std::shared_ptr<const Mesh>> meshes;
 };

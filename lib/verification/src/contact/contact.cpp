@@ -17,18 +17,8 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// What is not deeper than this many tolerances is rounding of coordinates.
-constexpr double kRounding = 2;
-/// Surfaces that coincide are no further from each other than this share of the smaller part's diagonal.
-constexpr double kCoincident = 1e-3;
-/// Surfaces are near within so many depths, or this share of the smaller part's diagonal. An overlap that grows from
-/// nothing to its depth, as a ball's does or a roller's, then covers less than half of what is near.
-constexpr double kNearDepths = 4, kNearSize = 0.02;
-/// A uniform overlap covers at least this share of the near surfaces, has at least this mean depth as a share of the
-/// greatest, and its cells count from that share on.
-constexpr double kUniformShare = 0.5, kUniformMean = 0.5, kDeepCell = 0.5;
-/// Cells are not divided below this share of the depth.
-constexpr double kFinestCell = 0.5;
+/// What is not deeper is rounding of coordinates: a measured depth is exact to one tolerance.
+double rounding_of(double tolerance) { return 2 * tolerance; }
 
 Aabb common_box(const Aabb& a, const Aabb& b) { return {a.lo.cwiseMax(b.lo), a.hi.cwiseMin(b.hi)}; }
 
@@ -59,7 +49,8 @@ bool covered(const Field& a, const Field& b, double distance) {
 }
 
 bool coincident(const Field& a, const Field& b, double tolerance) {
-  const double distance = std::max(kRounding * tolerance, kCoincident * smaller_diagonal(a, b));
+  // Copies of a part that were converted with different precision differ by up to about 0.1 % of their size.
+  const double distance = std::max(rounding_of(tolerance), 1e-3 * smaller_diagonal(a, b));
   const auto apart = [](const Vec3& x, const Vec3& y) { return (x - y).cwiseAbs().maxCoeff(); };
   if (std::max(apart(a.box().lo, b.box().lo), apart(a.box().hi, b.box().hi)) > distance) return false;
   return covered(a, b, distance) && covered(b, a, distance);
@@ -67,10 +58,10 @@ bool coincident(const Field& a, const Field& b, double tolerance) {
 
 bool lies_in(const Field& inner, const Field& outer, double tolerance) {
   Aabb around = outer.box();
-  around.inflate(kRounding * tolerance);
+  around.inflate(rounding_of(tolerance));
   if (!around.contains(inner.box().lo) || !around.contains(inner.box().hi)) return false;
   return all_points(inner, [&](const Vec3& p, const Vec3&) {
-    return outer.at(p, 2 * kRounding * tolerance).depth >= -kRounding * tolerance;
+    return outer.at(p, 2 * rounding_of(tolerance)).depth >= -rounding_of(tolerance);
   });
 }
 
@@ -89,14 +80,16 @@ struct Overlap {
       if (c.seen.depth <= tolerance) continue;
       area += c.area;
       depth_area += c.area * c.seen.depth;
-      if (c.seen.depth >= kDeepCell * depth) deep.push_back({c.middle(), sign * c.normal, c.area});
+      if (c.seen.depth >= 0.5 * depth) deep.push_back({c.middle(), sign * c.normal, c.area});
     }
   }
 };
 
 OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest, double tolerance) {
-  const double reach = std::max(kNearDepths * deepest.depth, kNearSize * smaller_diagonal(a, b));
-  const double finest = std::max(kFinestCell * deepest.depth, tolerance);
+  // Surfaces are near within 4 depths, or 2 % of the smaller part's diagonal. An overlap that grows from nothing to its
+  // depth, as a ball's does or a roller's, then covers less than half of what is near.
+  const double reach = std::max(4 * deepest.depth, 0.02 * smaller_diagonal(a, b));
+  const double finest = std::max(0.5 * deepest.depth, tolerance);
   Overlap sum;
   sum.add(survey(a, b, reach, finest), reach, deepest.depth, tolerance, 1);
   sum.add(survey(b, a, reach, finest), reach, deepest.depth, tolerance, -1);
@@ -110,7 +103,8 @@ OverlapPlace place_of(const Field& a, const Field& b, const Penetration& deepest
     place.axis = axis->direction;
     place.axis_point = axis->point;
   }
-  const bool whole = place.share >= kUniformShare && sum.depth_area >= kUniformMean * deepest.depth * sum.area;
+  // A uniform overlap covers at least half of the near surfaces, with a mean depth of at least half the greatest.
+  const bool whole = place.share >= 0.5 && sum.depth_area >= 0.5 * deepest.depth * sum.area;
   place.contact = place.axis || whole ? ContactClass::uniform_interference : ContactClass::local_interference;
   return place;
 }
@@ -170,7 +164,7 @@ std::optional<ContactClass> classify_apart(const DepthBody& a, const DepthBody& 
   if (!(tolerance > 0)) throw std::invalid_argument("classify_apart: tolerance must be > 0");
   const verify::Field x(a.impl().solids), y(b.impl().solids);
   if (verify::coincident(x, y, tolerance)) return ContactClass::duplicate;
-  if (verify::within(x, y, verify::kRounding * tolerance)) return ContactClass::kissing;
+  if (verify::within(x, y, verify::rounding_of(tolerance))) return ContactClass::kissing;
   if (verify::within(x, y, near)) return ContactClass::clearance;
   return std::nullopt;
 }
@@ -187,7 +181,7 @@ std::optional<PairContact> classify_contact(const DepthBody& a, const DepthBody&
     return found;
   }
   const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, tolerance);
-  if (deepest.depth > verify::kRounding * tolerance) return verify::of_overlap(x, y, deepest, tolerance);
+  if (deepest.depth > verify::rounding_of(tolerance)) return verify::of_overlap(x, y, deepest, tolerance);
   const std::optional<ContactClass> apart = classify_apart(a, b, tolerance, near);
   if (!apart) return std::nullopt;
   found.depth = deepest.depth;

@@ -13,10 +13,8 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using Vec2 = Eigen::Vector2d;
 
-constexpr std::size_t kSectors = 8;
-constexpr double kRadial = 0.5;        // cosine between a normal and the direction away from the axis, at least
-constexpr double kSameNormals = 0.02;  // variance of normals that all point one way, at most
-constexpr double kSingular = 1e-6;     // of the equations for a point of the axis, relative
+constexpr std::size_t kSectors = 8;  // each has a contact if the contact surrounds the axis
+constexpr double kRadial = 0.5;      // cosine between a normal and the direction away from the axis, at least
 
 /// The point nearest to all lines that normals draw in the plane square to the axis, in its coordinates (u, v).
 std::optional<Vec2> center_of(const std::vector<FittedPlace>& places, const Vec3& u, const Vec3& v) {
@@ -29,7 +27,7 @@ std::optional<Vec2> center_of(const std::vector<FittedPlace>& places, const Vec3
     sum += f.weight * across * across.transpose();
     right += f.weight * across * across.dot(x);
   }
-  if (!(sum.determinant() > kSingular * sum.trace() * sum.trace())) return std::nullopt;
+  if (!(sum.determinant() > 1e-6 * sum.trace() * sum.trace())) return std::nullopt;  // parallel normals
   return sum.inverse() * right;
 }
 
@@ -64,7 +62,7 @@ std::optional<RoundAxis> round_axis(const std::vector<FittedPlace>& places) {
   middle /= weight;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FittedPlace& f : places) spread += f.weight / weight * (f.normal - mean) * (f.normal - mean).transpose();
-  if (spread.trace() < kSameNormals) return std::nullopt;
+  if (spread.trace() < 0.02) return std::nullopt;  // a variance: within 8 degrees all normals point one way
   // Normals of a cylinder vary least along its axis; those of threads and cones need not.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
   for (int k = 0; k < 3; ++k) {

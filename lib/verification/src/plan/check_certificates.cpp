@@ -7,13 +7,14 @@
 #include <utility>
 
 #include "certificates/checker.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/part_memo.h"
 
 namespace dismantle {
 namespace {
 
-constexpr double kRounding = 1e-9;  // relative, of a tolerance
+using geometry::kRounding;
 
 class CertificateCheck {
  public:

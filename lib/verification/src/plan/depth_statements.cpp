@@ -9,7 +9,8 @@ namespace dismantle {
 
 namespace {
 
-constexpr double kShare = 0.1;  // by which a stated depth may be off; twice the tolerance always
+/// Share by which a stated depth may be off, a rule of the plan format; twice the tolerance always.
+constexpr double kShare = 0.1;
 
 }  // namespace
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "dismantle/geometry/numerics.h"
+
 namespace dismantle {
 namespace {
-
-constexpr double kMostTravel = 0.01;  // of the assembly's largest edge, from pose to pose
 
 bool usable(const Pose& p) { return p.t.allFinite() && p.q.coeffs().allFinite() && std::abs(p.q.norm() - 1) <= 1e-6; }
 
@@ -32,7 +32,7 @@ std::optional<PartId> PlanState::find(const std::string& name) const {
 }
 
 bool PlanState::travels_too_far(PartId id, const Pose& a, const Pose& b) const {
-  const double most = kMostTravel * size_ * (1 + 1e-9);
+  const double most = 0.01 * size_ * (1 + geometry::kRounding);  // rule of the plan format: 1 % of the largest edge
   const Mesh& mesh = *assembly_->parts[id].mesh;
   const Aabb box = mesh.box();
   if (screw_travel(a, b, box.center(), 0.5 * box.size().norm()) <= most) return false;

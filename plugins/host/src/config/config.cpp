@@ -10,6 +10,7 @@
 #include "config/binder.h"
 #include "config/constraints.h"
 #include "config/layers.h"
+#include "config/sections.h"
 #include "dismantle/host/config_bind.h"
 
 namespace dismantle {
@@ -334,8 +335,7 @@ RunConfig load_config(const ConfigSource& source, Registry& registry) {
   config.force = Schema<ForceOptions>().bind(config.sections.at("force"));
   config.force.when = config.run.force;
   config.proofs = Schema<ProofOptions>().bind(config.sections.at("immobility"));
-  config.verify.max_penetration = std::get<double>(config.sections.at("verify").at("max_penetration"));
-  config.named_overlap = std::get<double>(config.sections.at("verify").at("named_overlap"));
+  bind_verify_section(config);
   return config;
 }
 

@@ -1,4 +1,4 @@
-#include "dismantle/host/config.h"
+#include "config/sections.h"
 
 namespace dismantle {
 namespace {
@@ -6,6 +6,10 @@ namespace {
 struct VerifySettings {
   double max_penetration = VerifyOptions{}.max_penetration;
   double named_overlap = 0.1;
+  VerifyBudget budget;
+  std::uint64_t tests = budget.tests, tests_per_segment = budget.tests_per_segment, patches = budget.patches,
+                overlap_factor = budget.overlap_factor;
+  double trial_share = budget.trial_share, resolution = budget.resolution;
   static void describe(Schema<VerifySettings>& s) {
     s.add(
         "max_penetration", &VerifySettings::max_penetration,
@@ -20,11 +24,54 @@ struct VerifySettings {
           {.unit = "assembly units",
            .min = 0,
            .doc = "Pairs that overlap by more than this when assembled are named in each step of the plan that makes "
-                  "use of it, with the depth along the way."});
+                  "use of it, with the depth along the path."});
+    s.add("tests", &VerifySettings::tests,
+          {.unit = "1",
+           .min = 1,
+           .max = 1e12,
+           .doc = "Advanced. Sweep tests that the proof for one pair of solids may take. With more, fewer motions of "
+                  "close fits are refused as uncertain, and refused ones take longer."});
+    s.add("tests_per_segment", &VerifySettings::tests_per_segment,
+          {.unit = "1",
+           .min = 0,
+           .max = 1e12,
+           .doc = "Advanced. Sweep tests that are added for each segment of the path."});
+    s.add("patches", &VerifySettings::patches,
+          {.unit = "1",
+           .min = 4,
+           .max = 1e9,
+           .doc = "Advanced. Patches that the surface of one pair of solids may be divided into; also bounds memory."});
+    s.add("overlap_factor", &VerifySettings::overlap_factor,
+          {.unit = "1",
+           .min = 1,
+           .max = 1000,
+           .doc = "Advanced. Times as many patches for pairs that overlap by more than max_penetration when assembled: "
+                  "they are divided along the ridges of what is inside."});
+    s.add("trial_share", &VerifySettings::trial_share,
+          {.unit = "1",
+           .min = 0,
+           .max = 1,
+           .min_open = true,
+           .doc = "Advanced. Share of these counts for proofs that need not succeed: of smaller penetrations than "
+                  "max_penetration, and of parts that pass each other for the precedence of steps."});
+    s.add("resolution", &VerifySettings::resolution,
+          {.unit = "max_penetration",
+           .min = 0,
+           .max = 1,
+           .min_open = true,
+           .doc = "Advanced. Size at which a patch of surface is not divided further, as a share of the penetration "
+                  "allowed. Smaller: fewer motions are refused as uncertain, and refused ones take longer."});
   }
 };
 
 }  // namespace
+
+void bind_verify_section(RunConfig& config) {
+  const auto v = Schema<VerifySettings>().bind(config.sections.at("verify"));
+  config.verify.max_penetration = v.max_penetration;
+  config.verify.budget = {v.tests, v.tests_per_segment, v.patches, v.overlap_factor, v.trial_share, v.resolution};
+  config.named_overlap = v.named_overlap;
+}
 
 void RunSettings::describe(Schema<RunSettings>& s) {
   s.add("seed", &RunSettings::seed, {.unit = "1", .min = 0, .doc = "Seed of every random choice."});

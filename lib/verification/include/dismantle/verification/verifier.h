@@ -19,9 +19,24 @@ namespace geometry {
 struct Solid;
 }
 
+/// Work that the verifier may spend on proofs, per pair of solids. Counts, so that answers do not depend on the
+/// machine. A proof that needs more fails, and the motion is refused as uncertain.
+struct VerifyBudget {
+  std::uint64_t tests = 1'000'000;          ///< sweep tests for a bound that decides, > 0
+  std::uint64_t tests_per_segment = 8'000;  ///< and for each segment of the path
+  std::uint64_t patches = 80'000;           ///< patches of surface for a bound that decides, > 0
+  std::uint64_t overlap_factor = 5;         ///< times as many patches for pairs that overlap by more than the tolerance
+  double trial_share = 0.1;                 ///< share for bounds that need not hold, and for passes(), (0, 1]
+  double resolution = 0.125;                ///< share of the penetration allowed at which division ends, (0, 1]
+
+  /// With `factor` times as many tests and patches.
+  VerifyBudget times(double factor) const;
+};
+
 /// How strict the verifier is.
 struct VerifyOptions {
   double max_penetration = 0.01;  ///< assembly units, > 0; above the pair's initial overlap
+  VerifyBudget budget = {};
 };
 
 /// Where a check failed.
@@ -39,7 +54,8 @@ struct Violation {
 /// The verifier's answer about a motion.
 struct MotionCheck {
   bool valid = false;
-  double max_penetration = 0;  ///< valid: certified upper bound above the initial overlap (a rung of a fixed ladder)
+  double max_penetration =
+      0;  ///< valid: certified upper bound above the initial overlap (a rung: max_penetration / 100 or more)
   std::optional<Violation> violation;
   std::uint64_t tests = 0;   ///< elementary sweep tests done
   bool interrupted = false;  ///< not valid, since the check was stopped
@@ -62,8 +78,8 @@ struct MotionCheck {
 ///      passes through that of the other. An overlap that the user declares, or that is in a flexible part, has no
 ///      region.
 /// A part inside the void of another is outside its material. Accepted means proved. Refused means that a point
-/// beyond the limit was found, or (`uncertain`) that the proof failed at a resolution of an eighth of the
-/// penetration allowed, or within a fixed budget of tests; motions that keep to 0.4 times the limit are not
+/// beyond the limit was found, or (`uncertain`) that the proof failed at the resolution or within the
+/// counts of VerifyBudget; motions that keep to 0.4 times the limit are not
 /// refused at ordinary corners.
 ///
 /// The proof: let the corners of a triangle be displaced by at most e. If the displaced triangle sweeps a hull that
@@ -87,7 +103,7 @@ class DISMANTLE_API Verifier {
   MotionCheck check_motion(const std::vector<PartId>& moving, const std::vector<PlacedPart>& fixed, const Path& path,
                            const RunContext& context) const;
   /// (b) for one part past another, for callers with many such questions: true is proved, as by check_motion; false
-  /// means refused, or not proved with a small share of the effort.
+  /// means refused, or not proved with VerifyBudget::trial_share of the budget.
   bool passes(PartId moving, PartId fixed, const Pose& fixed_at, const std::vector<Pose>& way) const;
   /// (c): the hull of `group` is apart from the hull of `rest`, on all original vertices.
   bool apart(const std::vector<PlacedPart>& group, const std::vector<PlacedPart>& rest) const;
