@@ -70,7 +70,6 @@ Dropped find_duplicates(const std::vector<Candidate>& candidates, const RunConte
 }
 
 Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_share, const RunContext& context) {
-  constexpr std::size_t kPoints = 2000, kTries = 400 * kPoints;
   std::vector<std::unique_ptr<TriangleBvh>> bvhs(candidates.size());
   const auto name = [&](std::size_t i) { return candidates[i].name; };
   parallel_phase(
@@ -87,7 +86,8 @@ Dropped find_overlapping(const std::vector<Candidate>& candidates, double max_sh
         if (others.empty()) return;
         Rng rng = Rng(0x6F7665726C6170ull).fork(i);  // of its own: the assembly does not depend on the run's seed
         std::vector<Eigen::Vector3d> points;
-        for (std::size_t k = 0; k < kTries && points.size() < kPoints && !context.should_stop(); ++k) {
+        // 2000 points tell a share to about 1 %; the number of tries ends it for parts that fill little of their box.
+        for (std::size_t k = 0; k < 800'000 && points.size() < 2000 && !context.should_stop(); ++k) {
           Eigen::Vector3d p;
           for (int d = 0; d < 3; ++d) p[d] = rng.uniform(box.lo[d], box.hi[d]);
           if (bvhs[i]->inside(p)) points.push_back(p);

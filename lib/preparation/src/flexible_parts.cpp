@@ -14,19 +14,16 @@ namespace {
 
 using geometry::Strand;
 
-// These say what a coil and a loop are, as those of contact.cpp do of contact classes. They are no parameters: a plan
-// is verified with the same.
-constexpr double kCoils = 2;         // full turns that add up: hooks, clips and handles have fewer
-constexpr double kCoilShare = 0.75;  // of the volume: the ends of springs are ground, or lie on the coils beside them
-constexpr double kLoopShare = 0.95;  // of the volume, of a loop, which has no ends
-constexpr double kMostShare = 1.05;  // a hollow strand is a pipe
-constexpr double kLoopRound = 0.88;  // a hexagon has 0.907, a square 0.785: rings of bearings, washers, frames are none
-constexpr double kClasped = 0.25;    // of its turns, along which another part is in a loop: links of a chain have less
-
+/// Says what a coil and a loop are, as contact.cpp does of contact classes. The numbers are no parameters: a plan is
+/// verified with the same.
 std::optional<Flexible> kind_of(const Strand& strand) {
-  if (strand.share > kMostShare) return std::nullopt;
-  if (strand.closed && strand.share >= kLoopShare && strand.roundness >= kLoopRound) return Flexible::loop;
-  if (strand.share >= kCoilShare && strand.coils >= kCoils) return Flexible::coil;
+  if (strand.share > 1.05) return std::nullopt;  // more than its volume: a hollow strand is a pipe
+  // A loop has no ends, so its strand is all of its volume. Its section is round: that of a hexagon has a roundness of
+  // 0.907, that of a square 0.785. Rings of bearings, washers and frames have flatter ones.
+  if (strand.closed && strand.share >= 0.95 && strand.roundness >= 0.88) return Flexible::loop;
+  // The ends of springs are ground, or lie on the coils beside them: a quarter of the volume may be in them. Hooks,
+  // clips and handles have less than two full turns.
+  if (strand.share >= 0.75 && strand.coils >= 2) return Flexible::coil;
   return std::nullopt;
 }
 
@@ -83,9 +80,9 @@ std::vector<FlexiblePart> recognise_flexible(Assembly& assembly, const RunContex
         const PartId part = asked[i];
         const auto strand = geometry::follow_strand(*assembly.parts[part].mesh);
         kinds[i] = strand ? kind_of(*strand) : std::nullopt;
-        if (kinds[i] == Flexible::loop)
+        if (kinds[i] == Flexible::loop)  // a part in less than a quarter of its turns is another link of a chain
           std::erase_if(pairs[part], [&](std::size_t pair) {
-            return clasped(*strand, TriangleBvh(*assembly.parts[other_of(part, pair)].mesh)) < kClasped;
+            return clasped(*strand, TriangleBvh(*assembly.parts[other_of(part, pair)].mesh)) < 0.25;
           });
       },
       [&](std::size_t i) { return assembly.parts[asked[i]].name; });

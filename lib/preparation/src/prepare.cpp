@@ -24,12 +24,6 @@
 namespace dismantle {
 namespace {
 
-// Initial overlaps are measured to a hundredth of the smallest tolerance that plans are asked to hold (0.01), and not
-// recorded below twice that: such depths are rounding of coordinates, and the tolerance has room for them.
-constexpr double kOverlapTolerance = 1e-4;
-constexpr double kOverlapRecorded = 2e-4;
-constexpr double kFloatingGap = 0.01;  // share of the assembly: hulls closer than this count as connected in warnings
-
 class Preparation {
  public:
   Preparation(const PrepareOptions& options, RunContext& context, PrepareReport& report)
@@ -152,7 +146,8 @@ class Preparation {
       drop(dropped);
       return;
     }
-    const auto groups = connected_groups(parts_, kFloatingGap * box_of(parts_).size().maxCoeff(), context_);
+    // Hulls with a gap of less than 1 % of the assembly count as connected: a clearance is no reason for a warning.
+    const auto groups = connected_groups(parts_, 0.01 * box_of(parts_).size().maxCoeff(), context_);
     for (std::size_t g = 1; g < groups.size(); ++g) {
       std::string names;
       for (std::size_t k = 0; k < std::min<std::size_t>(groups[g].size(), 5); ++k)
@@ -244,7 +239,14 @@ class Preparation {
   void measure_overlaps() {
     std::vector<InitialOverlap> pairs;
     std::vector<Aabb> boxes;
-    for (const auto& part : assembly_.parts) boxes.push_back(part.mesh->box());
+    Aabb whole;
+    for (const auto& part : assembly_.parts) {
+      boxes.push_back(part.mesh->box());
+      whole.extend(boxes.back());
+    }
+    // Depths are exact to a hundred thousandth of the assembly, a hundredth of the usual tolerance of plans. Less than
+    // twice that is rounding: parts touch.
+    const double exact_to = 1e-5 * whole.size().maxCoeff(), recorded = 2 * exact_to;
     for (PartId a = 0; a < boxes.size(); ++a)
       for (PartId b = a + 1; b < boxes.size(); ++b)
         if (boxes[a].overlaps(boxes[b])) pairs.push_back({a, b, 0});
@@ -260,16 +262,15 @@ class Preparation {
         pairs.size(), context_, "overlaps",
         [&](std::size_t i) {
           const DepthBody &a = body(pairs[i].a), &b = body(pairs[i].b);
-          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, kOverlapTolerance, context_);
+          const Penetration deepest = deepest_penetration(a, Pose{}, b, Pose{}, exact_to, context_);
           if (context_.should_stop()) return;  // a lower bound, which the phase does not let out
           pairs[i].depth = deepest.depth;
-          if (deepest.depth > kOverlapRecorded)
-            pairs[i].place = classify_overlap(a, b, deepest, kOverlapTolerance).place;
+          if (deepest.depth > recorded) pairs[i].place = classify_overlap(a, b, deepest, exact_to).place;
         },
         [&](std::size_t i) { return parts[pairs[i].a].name + " / " + parts[pairs[i].b].name; });
     const InitialOverlap* deepest = nullptr;
     for (const auto& pair : pairs) {
-      if (!(pair.depth > kOverlapRecorded)) continue;
+      if (!(pair.depth > recorded)) continue;
       assembly_.overlaps.push_back(pair);
       if (!deepest || pair.depth > deepest->depth) deepest = &pair;
     }

@@ -16,8 +16,6 @@
 namespace dismantle {
 namespace {
 
-/// An overlap deeper than this share of the assembly's longest edge allows motions that a user would call a collision.
-constexpr double kDeepOverlap = 0.01;
 /// Parts closer than this share of the assembly's longest edge count as touching.
 constexpr double kTouching = 0.01;
 
@@ -194,7 +192,8 @@ class Geometry {
     if (overlap) finding.depth = pair.depth;
     finding.at = pair.place.at;
     finding.contact = pair.place.contact;
-    const bool deep = found.depth > kDeepOverlap * size_;
+    // Deeper overlaps allow motions that a user would call a collision.
+    const bool deep = found.depth > 0.01 * size_;
     finding.severity = deep ? Severity::error : Severity::warning;
     const std::string share =
         fmt::format("{:.3g} deep ({:.2g} % of the assembly)", pair.depth, 100 * found.depth / size_);

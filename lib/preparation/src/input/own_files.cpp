@@ -9,13 +9,12 @@
 namespace dismantle {
 
 bool is_own_animation(const std::filesystem::path& file) {
-  constexpr std::uint32_t kLongest = 256u << 20;  // bytes; animations of thousands of steps stay far below
-  constexpr std::uint32_t kJson = 0x4E4F534A;
   std::ifstream in(file, std::ios::binary);
   char magic[4] = {};
   std::uint32_t head[4] = {};  // version, length of the file, length of the first chunk, its type
   if (!in.read(magic, 4) || std::memcmp(magic, "glTF", 4) != 0) return false;
-  if (!in.read(reinterpret_cast<char*>(head), sizeof head) || head[3] != kJson || head[2] > kLongest) return false;
+  if (!in.read(reinterpret_cast<char*>(head), sizeof head) || head[3] != 0x4E4F534A) return false;  // "JSON"
+  if (head[2] > 256u << 20) return false;  // bytes; animations of thousands of steps stay far below
   std::error_code ec;
   if (head[2] > std::filesystem::file_size(file, ec) || ec) return false;
   std::string text(head[2], '\0');
