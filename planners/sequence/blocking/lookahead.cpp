@@ -4,19 +4,14 @@
 #include <utility>
 
 namespace dismantle::blocking {
-namespace {
-
-constexpr std::size_t kPerThread = 4;  // attempts that are hinted; results do not depend on it
-
-}  // namespace
-
 Lookahead::Lookahead(const DisassemblyState& state, const SearchHistory& history, PathOracle& oracle,
                      Immobility* immobility, const StraightMotion* straight)
     : state_(state), history_(history), oracle_(oracle), immobility_(immobility), straight_(straight) {}
 
 bool Lookahead::is_active() const { return state_.context().threads > 1; }
 
-std::size_t Lookahead::most() const { return kPerThread * state_.context().threads; }
+/// Four attempts per thread keep all threads busy until the next hint; results do not depend on the number.
+std::size_t Lookahead::most() const { return 4 * state_.context().threads; }
 
 /// What other groups wait for does not depend on the outcome of `now`. What follows in this group does: the likelier
 /// case comes first.

@@ -14,8 +14,6 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 using Set = std::uint64_t;  // of parts, by their index in the group
 
 /// One state of the search. Places are relative to those of the group's first part.
@@ -184,7 +182,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
         if (set >> i & 1) parts.push_back(id[i]);
       return parts;
     };
-    answer.translations.push_back({parts_of(leaving), directions_[direction], kInfinity});
+    answer.translations.push_back({parts_of(leaving), directions_[direction], std::numeric_limits<double>::infinity()});
     for (std::int64_t k = static_cast<std::int64_t>(node); nodes[static_cast<std::size_t>(k)].parent >= 0;
          k = nodes[static_cast<std::size_t>(k)].parent) {
       const Node& step = nodes[static_cast<std::size_t>(k)];
@@ -222,7 +220,8 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
     for (std::size_t d = 0; d < directions_.size(); ++d) {
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
-          free[i * n + j] = i == j ? kInfinity : free_distance(id[i], id[j], at[i] - at[j], d);
+          free[i * n + j] =
+              i == j ? std::numeric_limits<double>::infinity() : free_distance(id[i], id[j], at[i] - at[j], d);
       /// All that moves when part i does, by `length`: parts that it runs into are taken along.
       const auto taken_along = [&](std::size_t i, double length) {
         Set set = Set{1} << i;
@@ -240,7 +239,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
       };
       Set best = 0;
       for (std::size_t i = 0; i < n; ++i) {
-        const Set leaving = taken_along(i, kInfinity);
+        const Set leaving = taken_along(i, std::numeric_limits<double>::infinity());
         if (leaving != everyone && (best == 0 || __builtin_popcountll(leaving) < __builtin_popcountll(best)))
           best = leaving;
       }
@@ -251,7 +250,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
       std::set<std::pair<Set, std::int64_t>> tried;
       for (std::size_t i = 0; i < n; ++i) {
         // The next place where a face of part i is flush with one of another part that looks the same length.
-        double next = kInfinity, meets = kInfinity;
+        double next = std::numeric_limits<double>::infinity(), meets = std::numeric_limits<double>::infinity();
         for (std::size_t j = 0; j < n; ++j) {
           if (j == i) continue;
           meets = std::min(meets, free[i * n + j]);
@@ -266,7 +265,7 @@ TranslationSearch::Answer TranslationSearch::search(const Places& places, std::s
           }
         }
         std::vector<double> lengths;
-        if (next < kInfinity) lengths.push_back(next);
+        if (next < std::numeric_limits<double>::infinity()) lengths.push_back(next);
         if (to_contact && meets < next && meets - stand_off > play && next - meets > play)
           lengths.push_back(meets - stand_off);
         for (const double length : lengths) {

@@ -7,13 +7,6 @@
 
 namespace dismantle {
 
-namespace {
-
-// Attempts hinted per thread: enough that no thread runs dry while the answer in hand is booked.
-constexpr std::size_t kAheadPerThread = 2;
-
-}  // namespace
-
 std::vector<PartId> ordered_parts(const Assembly& assembly, PartOrder order) {
   std::vector<PartId> parts(assembly.parts.size());
   std::iota(parts.begin(), parts.end(), PartId{0});
@@ -55,7 +48,8 @@ Outcome OneByOne::attempt(PartId part, unsigned max_depth, std::span<const PartI
   context_.progress("sequence", removals_.size(), assembly_.parts.size() - 1, assembly_.parts[part].name);
   if (context_.threads > 1) {
     std::vector<Attempt> ahead{question(part, max_depth)};
-    for (const PartId id : next.first(std::min(next.size(), kAheadPerThread * context_.threads)))
+    // Two attempts per thread keep all threads busy while an answer is recorded.
+    for (const PartId id : next.first(std::min<std::size_t>(next.size(), 2 * context_.threads)))
       ahead.push_back(question(id, max_depth));
     oracle_.prefetch(ahead, context_);
   }

@@ -139,7 +139,6 @@ double NavigationSearch::score(const ProjectionCell& cell, std::size_t rank) con
 }
 
 void NavigationSearch::insert(std::uint32_t node, const Remaining& remaining) {
-  constexpr std::size_t kSampleSize = 8;  // nodes of a cell that are kept as a sample: this bounds memory
   Key key;
   // Three points determine a rigid pose. The first ones are far from each other.
   for (std::size_t c = 0; c < std::min<std::size_t>(3, control_points_.size()); ++c) {
@@ -164,10 +163,11 @@ void NavigationSearch::insert(std::uint32_t node, const Remaining& remaining) {
     cell.best[r] = node;
     cells_by_score_[r].insert({score(cell, r), id});
   }
-  // Reservoir sampling: each node of the cell is in the sample with the same probability.
-  if (cell.nodes.size() < kSampleSize)
+  // Reservoir sampling: each node of the cell is among the 8 that are kept with the same probability. That bounds
+  // memory.
+  if (cell.nodes.size() < 8)
     cell.nodes.push_back(node);
-  else if (const std::uint64_t at = rng_.below(cell.size); at < kSampleSize)
+  else if (const std::uint64_t at = rng_.below(cell.size); at < cell.nodes.size())
     cell.nodes[at] = node;
 }
 

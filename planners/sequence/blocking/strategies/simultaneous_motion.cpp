@@ -5,6 +5,7 @@
 namespace dismantle::blocking {
 namespace {
 
+/// Rounds over the candidate sets: pairs, all sets, and at last some of them with searches of `simultaneous_depth`.
 constexpr unsigned kRounds = 3;
 
 /// How far the part has come from where it was, rotation included, as seen on its box.
