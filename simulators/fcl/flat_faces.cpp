@@ -16,9 +16,6 @@ namespace {
 using Eigen::Vector3d;
 using Id = std::uint32_t;
 
-/// Twice the area over the square of the longest edge: 0 for a sliver.
-constexpr double kLeastQuality = 1e-5;
-
 class Collapser {
  public:
   Collapser(const Mesh& mesh, double tolerance)
@@ -59,6 +56,7 @@ class Collapser {
   Vector3d cross(const Triangle& t) const {
     return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
   }
+  /// Twice the area over the square of the longest edge: 0 for a sliver.
   double quality(const Triangle& t) const {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -135,7 +133,7 @@ class Collapser {
       const Vector3d a = points_[onto[0]], along = points_[onto[1]] - a, p = points_[v] - a;
       if (p.dot(along) <= 0 || p.cross(along).norm() > tolerance_ * along.norm()) return false;
     }
-    double best = kLeastQuality;
+    double best = 1e-5;  // of quality(): below it a triangle is a sliver
     Id target = geometry::kNoIndex;
     for (const Id u : onto)
       if (const auto q = worst_after(v, u); q && *q > best) best = *q, target = u;

@@ -4,15 +4,6 @@
 #include "world.h"
 
 namespace dismantle::mesh_collision {
-namespace {
-
-/// More pairs of triangles than any two parts have that meet in a state worth measuring.
-constexpr std::size_t kMaxPairs = std::size_t{1} << 20;
-/// The first few are mostly enough to see that a state is too deep.
-constexpr std::size_t kFirstPairs = 16;
-
-}  // namespace
-
 Aabb moved_box(const Aabb& box, const Pose& pose) {
   const Eigen::Matrix3d r = pose.q.toRotationMatrix();
   const Eigen::Vector3d center = r * box.center() + pose.t, half = r.cwiseAbs() * (0.5 * box.size());
@@ -42,7 +33,9 @@ bool PairCheck::collide(const Body& a, const Pose& pose_a, const Body& b, const 
 double PairCheck::measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough) {
   const Pose a_to_b = pose_b.inverse() * pose_a, b_to_a = a_to_b.inverse();
   double deepest = 0;
-  for (const std::size_t limit : {kFirstPairs, kMaxPairs}) {
+  // The first pairs of triangles are mostly enough to see that a state is too deep. No two parts in a state worth
+  // measuring have as many as the second limit.
+  for (const std::size_t limit : {std::size_t{16}, std::size_t{1} << 20}) {
     collider_.pairs(a.surface, pose_a, b.surface, pose_b, limit, pairs_);
     if (pairs_.empty()) break;
     const DepthGauge::Effort effort{parameters_.resolution, enough, pairs_.size() < limit};

@@ -9,13 +9,9 @@
 namespace dismantle::sdf_penalty {
 namespace {
 
-/// Contacts within this share of a step's travel beyond it are seen in advance, so that nothing is jumped.
-constexpr double kMarginFactor = 1.25;
-constexpr int kStallSteps = 3;
-
 sdf::ContactOptions contact_options(const Parameters& p) {
   return {.distance = p.distance,
-          .margin = kMarginFactor * p.max_travel,
+          .margin = 1.25 * p.max_travel,  // contacts a little beyond one step are known before it, so none is jumped
           .threshold = p.contact_threshold,
           .stiffness = p.contact_stiffness,
           .damping = p.contact_damping,
@@ -243,8 +239,8 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
       for (const auto& b : state.bodies) instant.push_back(b.pose);
       trace->push_back(std::move(instant));
     }
-    idle = moved == Moved::freely ? 0 : idle + 1;
-    if (quasi_static && (idle >= kStallSteps || moved == Moved::not_at_all)) {
+    idle = moved == Moved::freely ? 0 : idle + 1;  // contacts may change once or twice before the body moves on
+    if (quasi_static && (idle >= 3 || moved == Moved::not_at_all)) {
       report.stalled = true;
       break;
     }

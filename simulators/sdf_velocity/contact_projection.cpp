@@ -6,14 +6,6 @@
 #include "dismantle/geometry/numerics.h"
 
 namespace dismantle::sdf_velocity {
-namespace {
-
-constexpr int kRounds = 24;
-/// A lift that leads away from the wanted motion by more than this multiple of the depth is a squeeze.
-constexpr double kSqueeze = 4;
-
-}  // namespace
-
 /// For each contact the face that `x` enters least.
 void ContactProjection::choose(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x) {
   for (Group& g : groups_) {
@@ -64,8 +56,8 @@ bool ContactProjection::solve(const std::vector<sdf::ContactRow>& rows, int per_
   }
   target_ = wanted.cwiseProduct(scale_);
   if (nearest_.solve(target_, y_) != NearestPoint::Outcome::solved) return false;
-  if (below == Below::lift && (y_ - target_).norm() > target_.norm() + kSqueeze * deepest_ + geometry::kRounding)
-    return false;
+  // A lift that leads away from the wanted motion by more than four times the depth is a squeeze.
+  if (below == Below::lift && (y_ - target_).norm() > target_.norm() + 4 * deepest_ + geometry::kRounding) return false;
   x = y_.cwiseQuotient(scale_);
   return true;
 }
@@ -102,7 +94,7 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
   Vector better(wanted.size());
   std::size_t turn = 1;
   holding_ = nearest_.active();
-  for (int round = 0; turn < most && round < kRounds; ++round) {
+  for (int round = 0; turn < most && round < 24; ++round) {  // a few are usual; this bounds cycles of exchanges
     const std::vector<Group> before = groups_;
     if (exchange(rows, per_body, x, turn) && solve(rows, per_body, Below::lift, wanted, better) &&
         cost(better) < cost(x) * (1 - geometry::kRounding)) {

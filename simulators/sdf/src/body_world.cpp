@@ -13,8 +13,6 @@
 namespace dismantle::sdf {
 namespace {
 
-constexpr int kSettleRounds = 3, kRetreatRounds = 6;
-
 bool same_poses(const std::vector<Pose>& a, const std::vector<Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Pose& x, const Pose& y) { return x.t == y.t && x.q.coeffs() == y.q.coeffs(); });
@@ -248,7 +246,7 @@ template <int Dof>
 void BodyWorld::settle(State& state, double depth) {
   using Solver = StepSolver<Dof>;
   const auto n = dof();
-  for (int round = 0; round < kSettleRounds; ++round) {
+  for (int round = 0; round < 3; ++round) {  // of Newton; what is left then is corrected after the next step
     if (deepest() <= depth) return;
     build_rows(state, 0);
     const auto weight = stay_put<Dof>(1e-3 * options_.stiffness);
@@ -267,7 +265,7 @@ template <int Dof>
 void BodyWorld::keep_off(State& state, double clearance) {
   using Solver = StepSolver<Dof>;
   const auto n = dof();
-  for (int round = 0; round < kRetreatRounds; ++round) {
+  for (int round = 0; round < 6; ++round) {  // contacts that the first rounds bring near need rounds of their own
     update_contacts(state);
     build_rows(state, 0);
     for (auto& row : rows_) row.gap -= clearance;

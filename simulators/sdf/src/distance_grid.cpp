@@ -6,13 +6,12 @@
 
 namespace dismantle::sdf {
 namespace {
-constexpr float kFar = 1e30f;
-constexpr int kPadding = 3;  // cells around the box: the band fits, and a ray from outside starts outside
+constexpr float kFar = 1e30f;  // not computed yet; larger than any distance, and sums of it are finite
 }  // namespace
 
 DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options)
     : exact_everywhere_(options.exact) {
-  const int padding = options.exact ? 1 : kPadding;
+  const int padding = options.exact ? 1 : 3;  // cells around the box: the narrow band fits, and rays start outside
   const Aabb box = solid.mesh.box();
   const Eigen::Vector3d size = box.size();
   for (int a = 0; a < 3; ++a) {

@@ -10,12 +10,6 @@ namespace {
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
 float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
 
-constexpr std::uint32_t kLeafSize = 4;
-/// Cells of the candidate lists along the longest edge of a small part, at most.
-constexpr double kCellsPerEdge = 24;
-/// Where there are more candidates the tree is faster. Few of a long list are examined: it is sorted.
-constexpr std::size_t kMostCandidates = 256;
-
 }  // namespace
 
 SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
@@ -49,9 +43,9 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
   find_faces(solid);
   find_convex_features(solid);
   if (n == 0) return;
-  // A part that is smaller than its surroundings has that many cells along these.
-  const double cell =
-      std::clamp(solid.mesh.box().size().maxCoeff() / kCellsPerEdge, 2 * near_ / kCellsPerEdge, 0.5 * near_);
+  // 24 cells along the longest edge of the part, or along what surrounds one that is smaller: more cells use more
+  // memory than they save time.
+  const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / 24, 2 * near_ / 24, 0.5 * near_);
   cells_ = std::make_unique<CandidateCells>(reach, cell);
 }
 
@@ -100,7 +94,7 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
     for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
       const float squared = slabs_[s].squared_distance(at);
       if (squared > filter) continue;
-      if (list.candidates.size() == kMostCandidates) {
+      if (list.candidates.size() == 256) {  // with more the tree is faster, although few of a sorted list are examined
         list.candidates.clear();
         list.candidates.shrink_to_fit();
         list.usable = false;
@@ -128,7 +122,7 @@ void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<s
     nodes_[self].lo[k] = below(box.lo[k]);
     nodes_[self].hi[k] = above(box.hi[k]);
   }
-  if (count <= kLeafSize) {
+  if (count <= 4) {  // a leaf: so few triangles are tested as quickly as two more boxes
     nodes_[self].first = first;
     nodes_[self].count = count;
     return;
