@@ -55,8 +55,8 @@ double rounding_of(const SeparationQuery& query, PartId part) {
 }
 
 double rounding_of(const Aabb& box) {
-  constexpr double kRelative = 1e-10;  // some hundred thousand times that of one operation
-  return kRelative * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
+  // Some hundred thousand times the rounding of one operation.
+  return 1e-10 * std::max(box.lo.cwiseAbs().maxCoeff(), box.hi.cwiseAbs().maxCoeff());
 }
 
 double allowed_depth(const SeparationQuery& query, PartId a, PartId b) {
@@ -99,8 +99,7 @@ bool inside(const Vec3& p, const Body& body) {
   double turns = 0;
   for (std::size_t t = 0; t < body.triangles.size(); ++t)
     turns += solid_angle(p, body.corners(t)) / (4 * std::numbers::pi);
-  constexpr double kWhole = 1e-3;
-  return turns > 0.5 && std::abs(turns - std::round(turns)) < kWhole;
+  return turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-3;  // near the surface the sum is no whole number
 }
 
 double depth(const Vec3& p, const Body& body) { return inside(p, body) ? distance(p, body) : 0; }

@@ -12,11 +12,13 @@ namespace dismantle::certificates {
 
 const Checker* checker_of(std::string_view kind) {
   constexpr ProverTraits kPair{ProofEffort::low, 2, 2, false};
-  constexpr ProverTraits kGroup{ProofEffort::high, 2, std::numeric_limits<std::size_t>::max(), false};
-  constexpr ProverTraits kPlaced{ProofEffort::low, 2, std::numeric_limits<std::size_t>::max(), true};
+  constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
   static const std::vector<Checker> all = {
       {"overlap_lock", kPair, {{"point", 3}, {"depth"}, {"allowed"}}, objection_to_overlap_lock},
-      {"enclosed_ball", kPlaced, {{"center", 3}, {"radius"}, {"cell"}}, objection_to_enclosed_ball},
+      {"enclosed_ball",
+       {ProofEffort::low, 2, kAny, true},
+       {{"center", 3}, {"radius"}, {"cell"}},
+       objection_to_enclosed_ball},
       {"ring", kPair, {{"center", 3}, {"axis", 3}, {"diameter"}, {"opening"}, {"planes", 0}}, objection_to_ring},
       {"spool", kPair, {{"center", 3}, {"axis", 3}, {"rim"}, {"circle"}, {"planes", 2}}, objection_to_spool},
       {"hook",
@@ -33,7 +35,7 @@ const Checker* checker_of(std::string_view kind) {
         {"points", 2}},
        objection_to_hook},
       {"interlock_lp",
-       kGroup,
+       {ProofEffort::high, 2, kAny, false},
        {{"depth"},
         {"shift"},
         {"turn"},

@@ -27,8 +27,8 @@ bool curve_lies_deep(const Curve& at, double speed, double end, const Body& body
   if (!body.closed || !inside(at(0), body)) return false;
   NearestTriangles surface;
   surface.add(body, Pose{}, depth + rounding_of(body.box));
-  constexpr int kDivisions = 18;  // pieces of a few millionths of the curve: what is that near to the limit is refused
-  return keeps_off(at, speed, surface, surface.all(), 0, end, kDivisions);
+  // 18 divisions: pieces of a few millionths of the curve. What is that near to the limit is refused.
+  return keeps_off(at, speed, surface, surface.all(), 0, end, 18);
 }
 
 }  // namespace

@@ -110,13 +110,11 @@ class CellTree {
 
 /// Why the flood does not stay within the walls; empty when it does.
 std::string flood(const NearestTriangles& walls, const Vec3& start, double edge, const RunContext& context) {
-  constexpr std::size_t kMostCells = 4'000'000;  // four times as many as the prover fills, for its cells may be halved
   const auto outside = [&](const Vec3& p) {
     return ((p - walls.box().lo).minCoeff() < 0.5 * edge) || ((walls.box().hi - p).minCoeff() < 0.5 * edge);
   };
   if (outside(start)) return "its ball is not between the other parts";
-  constexpr double kMostAlong = 1e6;  // cells
-  if (walls.box().size().maxCoeff() > kMostAlong * edge) return "its cells are too small";
+  if (walls.box().size().maxCoeff() > 1e6 * edge) return "its cells are too small";  // for key()
   CellTree cells(walls, start, edge, rounding_of(walls.box()));
   const auto key = [&](const Cell& c) { return (c[0] << 42) | (c[1] << 21) | c[2]; };
   std::unordered_set<std::int64_t> seen{key(cells.start())};
@@ -126,7 +124,8 @@ std::string flood(const NearestTriangles& walls, const Vec3& start, double edge,
     const Cell cell = pending.back();
     pending.pop_back();
     if (outside(cells.center(cell))) return "there is a way out for its ball";
-    if (++reached > kMostCells) return "its ball can be in too many cells";
+    // Four times as many as the prover fills, for its cells may be halved.
+    if (++reached > 4'000'000) return "its ball can be in too many cells";
     if (reached % 256 == 0 && context.should_stop()) return "the check was stopped";
     for (std::size_t d = 0; d < 3; ++d)
       for (const int by : {-1, 1}) {

@@ -77,11 +77,8 @@ class Passage {
   }
 
  private:
-  // Squares end at a 32nd of the distance that the corner keeps, directions at 0.7 degrees: bends are 50 degrees or
-  // more.
-  static constexpr double kSmallestSquare = 1.0 / 32;
-  static constexpr int kFinestDirections = 7;
-  static constexpr std::uint64_t kMostQueries = 30'000'000;
+  static constexpr std::uint64_t kMostQueries =
+      30'000'000;  // of distances; bounds the time, by a count so that answers are the same everywhere
 
   bool too_near(const Vec3& p, double keep) {
     if (!(keep > rounding_)) return false;
@@ -104,7 +101,7 @@ class Passage {
     const double around = std::sqrt(2.0) * half;
     if (loop_.turns(at, plane_) == 0 && loop_.distance(at) > around + rounding_) return true;  // beside the disc
     if (too_near(at, bend_.keep[0] - around)) return true;
-    const bool last = 2 * half < kSmallestSquare * bend_.keep[0];
+    const bool last = 64 * half < bend_.keep[0];  // squares end at a 32nd of the distance that the corner keeps
     std::vector<Directions> left;
     for (const Directions& d : before) leave(at, around, d, last, left);
     const auto differ = [&](const Directions& a, const Directions& b) {
@@ -125,7 +122,7 @@ class Passage {
   void leave(const Vec3& at, double around, const Directions& d, bool last, std::vector<Directions>& left) {
     if (queries_ > kMostQueries || blocked(at, around, d)) return;
     const bool fine = d.radius() * bend_.step * static_cast<double>(bend_.keep.size()) < (last ? 0.0 : 2 * around);
-    if (fine || d.level == kFinestDirections) {
+    if (fine || d.level == 7) {  // 0.7 degrees: bends are 50 degrees or more
       left.push_back(d);
       return;
     }

@@ -33,11 +33,11 @@ bool ball_in_hull(const Vec3& center, double radius, const std::vector<Vec3>& po
     arms.push_back(p - center);
     furthest = std::max(furthest, arms.back().norm());
   }
-  constexpr int kDivisions = 8;  // directions less than a hundredth of a rad apart; few are divided so often
+  // Eight divisions: directions less than a hundredth of a rad apart. Few are divided as far.
   for (int k = 0; k < 3; ++k)
     for (const double side : {-1.0, 1.0})
       if (!supported(arms, furthest, radius, side * Vec3::Unit(k), Vec3::Unit((k + 1) % 3), Vec3::Unit((k + 2) % 3), 1,
-                     kDivisions))
+                     8))
         return false;
   return true;
 }

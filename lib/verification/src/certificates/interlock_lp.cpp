@@ -264,8 +264,8 @@ class Interlock {
         }
     for (const Vec3& v : own) middle += v / static_cast<double>(own.size());
     std::vector<Vec3> candidates{middle};
-    constexpr std::size_t kMostCorners = 64;  // any point of the part will do
-    for (std::size_t k = 0; k < own.size(); k += 1 + own.size() / kMostCorners) candidates.push_back(own[k]);
+    // Any point of the part will do: about 64 of its corners are tried.
+    for (std::size_t k = 0; k < own.size(); k += 1 + own.size() / 64) candidates.push_back(own[k]);
     return std::any_of(candidates.begin(), candidates.end(), [&](const Vec3& p) {
       return ball_in_hull(p, (moved + travel(member, p)) * (1 + 1e-9), others);
     });

@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace dismantle::certificates {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 void NearestTriangles::add(const Body& body, const Pose& pose, double keep) {
   for (std::size_t t = 0; t < body.triangles.size(); ++t) {
     Item item{body.corners(t), keep, Vec3::Zero(), 0};
@@ -27,7 +21,7 @@ void NearestTriangles::add(const Body& body, const Pose& pose, double keep) {
 
 double NearestTriangles::clearance(const Vec3& p, const List& list, double radius, List& kept) const {
   std::vector<std::pair<std::uint32_t, double>> near;
-  double least = kInfinity;
+  double least = std::numeric_limits<double>::infinity();
   const double reach = 2 * radius * (1 + 1e-9);  // and a little, for rounding
   for (const std::uint32_t t : list) {
     const Item& item = items_[t];
@@ -43,7 +37,7 @@ double NearestTriangles::clearance(const Vec3& p, const List& list, double radiu
 }
 
 double NearestTriangles::clearance(const Vec3& p, const List& list) const {
-  double least = kInfinity;
+  double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t t : list) {
     const Item& item = items_[t];
     if ((p - item.middle).norm() - item.radius - item.keep > least) continue;
