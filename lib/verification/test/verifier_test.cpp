@@ -51,41 +51,6 @@ TEST(Verifier, FreeMotionIsAcceptedWithATinyBound) {
   EXPECT_FALSE(c.violation.has_value());
 }
 
-/// A cube that slides along a plate in which it is `depth` deep.
-TEST(Verifier, PenetrationIsReportedAsAShareOfTheTolerance) {
-  Rng rng(22);
-  const Mesh plate = shapes::box({-3, -3, -1.5}, {3, 3, -0.5});
-  for (int trial = 0; trial < 40; ++trial) {
-    const double most = rng.uniform(0.001, 0.1), depth = rng.uniform(0, 0.95) * most;
-    const MotionCheck c = check(kCube, plate, {shift({-1, 0, -depth}), shift({1, rng.uniform(-1, 1), -depth})}, most);
-    ASSERT_TRUE(c.valid) << depth << " of " << most;
-    EXPECT_GE(c.max_penetration, depth * (1 - 1e-6));
-    const double share = most / c.max_penetration;
-    bool known = false;
-    for (const double divisor : {1, 2, 5, 10, 20, 50, 100}) known = known || std::abs(share - divisor) < 1e-6;
-    EXPECT_TRUE(known) << share;
-  }
-}
-
-/// What a small budget accepts a large one accepts, and what it refuses for want of tests is uncertain.
-TEST(Verifier, ASmallBudgetRefusesWithoutAProof) {
-  const Mesh disc = shapes::tube(0, 2, -.2, .2, 64), housing = shapes::tube(2, 3, -.4, .4, 64);
-  const Assembly assembly = assembly_of({disc, housing}, {});
-  const Path path = path_of({Pose{}, turn(2.0, Vec3::UnitZ())});
-  bool accepted = false, refused = false;
-  for (const std::uint64_t tests : {1, 100, 10'000, 1'000'000}) {
-    VerifyOptions options{0.01, {}};
-    options.budget.tests = tests;
-    options.budget.tests_per_segment = 0;
-    const MotionCheck c = Verifier(assembly, options).check_motion({0}, {{1, Pose{}}}, path);
-    EXPECT_TRUE(c.valid || !accepted) << tests;
-    EXPECT_TRUE(c.valid || (c.violation && c.violation->uncertain)) << tests;
-    accepted = accepted || c.valid;
-    refused = refused || !c.valid;
-  }
-  EXPECT_TRUE(accepted && refused);
-}
-
 /// Groups of boxes, turned or not: where the way ends, the hulls are apart, and a little before they are not.
 TEST(Verifier, AWayEndsWhereTheHullsComeApart) {
   Rng rng(21);
