@@ -7,6 +7,7 @@
 #include "dismantle/command.h"
 #include "dismantle/console.h"
 #include "dismantle/errors.h"
+#include "dismantle/host/planning_setup.h"
 #include "dismantle/loaded_plan.h"
 #include "dismantle/preparation/prepare.h"
 #include "dismantle/report_text.h"
@@ -53,11 +54,7 @@ int verify(const Verify& options) {
     console.warning(fmt::format(
         "the plan was made with weld: {:g}, repair: {}, max_hole: {:g}; surfaces are verified as repaired with these",
         r.weld, r.repair, r.max_hole));
-  const ProverOfKind prover_of = [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
-    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
-    return registry.create<ImmobilityProver>(kind);
-  };
-  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of);
+  const PlanCheck check = check_plan(plan, assembly, tolerance, context, prover_of_kind(registry));
   console.end_progress();
   if (context.cancel.cancelled()) throw Stopped(context, "interrupted before all steps were checked");
 

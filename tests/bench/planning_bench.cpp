@@ -25,7 +25,7 @@ struct Task {
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
   std::shared_ptr<PathPlanner> planner = registry().create<PathPlanner>("guided");
   std::shared_ptr<const PreparedAssembly> prepared;
-  double judging = 0;  ///< seconds
+  double verification = 0;  ///< seconds
 
   Task(const char* name, const char* part) : assembly(sample(name)) {
     moving = {part_called(assembly, part)};
@@ -42,7 +42,7 @@ struct Task {
     const fake::RuleChecker checker([&](const Path& path) {
       const auto begin = Deadline::Clock::now();
       const fake::Ruling ruling = fake::ruling_of(verifier->check_motion(moving, scene.fixed, path));
-      judging += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
+      verification += std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
       return ruling;
     });
     const PathQuery query{assembly, *simulator, *prepared, scene, {}, 0.01, checker};
@@ -60,7 +60,7 @@ void PathPlanning(benchmark::State& state, const char* name, const char* part, b
     if (result.outcome() != Outcome::solved) state.SkipWithError("not solved");
   }
   for (const auto& [count, value] : result.stats.by_name()) state.counters[count] = value;
-  state.counters["judging"] = benchmark::Counter(task.judging, benchmark::Counter::kAvgIterations);
+  state.counters["verification"] = benchmark::Counter(task.verification, benchmark::Counter::kAvgIterations);
 }
 BENCHMARK_CAPTURE(PathPlanning, peg_in_hole, "peg_in_hole", "peg", false)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(PathPlanning, peg_in_hole_with_prepare, "peg_in_hole", "peg", true)->Unit(benchmark::kMillisecond);

@@ -51,7 +51,7 @@ class DisassemblyEnv(Base):
     metadata = {"render_modes": []}
 
     def __init__(self, assembly, part, simulator="sdf_penalty", force=200.0, duration=0.1, max_steps=200):
-        """force: largest force. duration: seconds of a step. max_steps: an episode is truncated after so many steps."""
+        """force: largest force. duration: seconds of a step. max_steps: an episode is truncated after this many steps."""
         self.world = dismantle.Simulator(simulator).world(assembly, part)
         self.duration, self.max_steps = float(duration), int(max_steps)
         self.radius = self.world.radius()

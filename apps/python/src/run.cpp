@@ -151,11 +151,7 @@ PlanCheck verify(const HeldPlan& held, const py::object& given, double tolerance
                            ? InputParts{*raw, sha256, {}}
                            : read_input(path, importers_of(*registry, held.plan.assembly.import_params), read, context);
     const Assembly assembly = assembly_of_plan(held.plan, std::move(input), path, context);
-    const ProverOfKind prover_of = [&](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
-      if (registry->lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
-      return registry->create<ImmobilityProver>(kind);
-    };
-    return check_plan(held.plan, assembly, {tolerance}, context, prover_of);
+    return check_plan(held.plan, assembly, {tolerance}, context, prover_of_kind(*registry));
   });
 }
 

@@ -297,7 +297,7 @@ TEST(Oracle, PlannersThatMoveGroupsOnlyAreNotAskedForMore) {
   EXPECT_NE(r.result.message.find("independently at the same time"), std::string::npos);
 }
 
-TEST(Oracle, JudgesWaysThatItIsShown) {
+TEST(Oracle, ChecksProposedPaths) {
   Rig s(fake::tube_with_blocks(2), fake::setup(fake::push));
   const auto up = [](const Attempt& a, double way) {
     return fake::straight({a.moving, a.fixed}, Eigen::Vector3d(0, 0, way));

@@ -12,7 +12,7 @@ void PrepareOptions::describe(Schema<PrepareOptions>& s) {
   s.add("repair", &PrepareOptions::repair,
         {.unit = "1",
          .doc = "Close T-junctions and small flat holes and drop inner walls of parts that are not watertight, before "
-                "giving them up. The paper drops them at once (step 2)."});
+                "giving them up. The paper drops them without a repair (step 2)."});
   s.add("max_hole", &PrepareOptions::max_hole,
         {.unit = "1",
          .min = 0.0,

@@ -78,14 +78,14 @@ class Descent {
     return d;
   }
 
-  Sighting look(const Corners& moved) const {
+  SweepResult test(const Corners& moved) const {
     const Corners c = placed(place_, moved);
-    return Sweep(c, c, 0).look(b_.bvh);
+    return Sweep(c, c, 0).test(b_.bvh);
   }
   bool clear_outside(const Corners& moved) const {
-    const Sighting seen = look(moved);
-    if (seen == Sighting::unclear) return false;
-    return seen == Sighting::far || !b_.bvh.inside(place_ * ((moved[0] + moved[1] + moved[2]) / 3));
+    const SweepResult seen = test(moved);
+    if (seen == SweepResult::unclear) return false;
+    return seen == SweepResult::far || !b_.bvh.inside(place_ * ((moved[0] + moved[1] + moved[2]) / 3));
   }
 
   /// The vertex rule for every triangle of A; what it does not settle is left in open_.
@@ -96,10 +96,10 @@ class Descent {
     collect(0, [&](const Patch& patch) {
       stopped_ = stopped_ || told_to_stop(++seen_so_far);
       if (stopped_) return;
-      const Sighting seen = look(moved_by_vertices(patch, e));
-      if (seen == Sighting::unclear)
+      const SweepResult seen = test(moved_by_vertices(patch, e));
+      if (seen == SweepResult::unclear)
         open_.push_back(patch);
-      else if (seen == Sighting::clear)
+      else if (seen == SweepResult::clear)
         clear.push_back(patch);
     });
     if (stopped_) return false;

@@ -129,45 +129,46 @@ geometry::Budget Verifier::Impl::budget_for(std::size_t segments, bool decides, 
 /// mostly keep to the lowest rung.
 void Verifier::Impl::check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const {
   const auto straight = [](const Actor& actor) { return actor.poses.size() <= 2; };
-  std::vector<Look> looks(pairs.size());
+  std::vector<PairResult> results(pairs.size());
   if (std::all_of(pairs.begin(), pairs.end(), [&](const auto& p) { return straight(*p.first) && straight(*p.second); }))
-    looks = looks_ahead(pairs, context);
+    results = check_pairs(pairs, context);
   std::size_t rung = 0;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    Look& look = looks[k];
-    if (!look.done || look.from != rung) look = look_at(pairs[k], rung, context);
-    rung = look.rung;
-    result.tests += look.found.tests;
-    if (look.passed) continue;
-    result.violation = look.found.violation;
-    result.interrupted = look.found.interrupted;
+    PairResult& answer = results[k];
+    if (!answer.done || answer.from != rung) answer = check_pair(pairs[k], rung, context);
+    rung = answer.rung;
+    result.tests += answer.found.tests;
+    if (answer.passed) continue;
+    result.violation = answer.found.violation;
+    result.interrupted = answer.found.interrupted;
     return;
   }
   result.valid = true;
   result.max_penetration = rungs[rung];
 }
 
-auto Verifier::Impl::look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const -> Look {
-  Look look{true, false, rung, rung, {}};
-  look.passed = check(*pair.first, *pair.second, context, look.rung, look.found);
-  return look;
+auto Verifier::Impl::check_pair(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const
+    -> PairResult {
+  PairResult answer{true, false, rung, rung, {}};
+  answer.passed = check(*pair.first, *pair.second, context, answer.rung, answer.found);
+  return answer;
 }
 
 /// All pairs, until one fails, each from the rung that is known when its check begins.
-auto Verifier::Impl::looks_ahead(const Pairs& pairs, const RunContext& context) const -> std::vector<Look> {
-  std::vector<Look> looks(pairs.size());
+auto Verifier::Impl::check_pairs(const Pairs& pairs, const RunContext& context) const -> std::vector<PairResult> {
+  std::vector<PairResult> results(pairs.size());
   std::atomic<std::size_t> known{0};
   std::atomic<bool> failed{false};
   parallel_for(
       pairs.size(), context,
       [&](std::size_t k) {
-        looks[k] = look_at(pairs[k], known, context);
-        if (!looks[k].passed) failed = true;
-        for (std::size_t r = known; r < looks[k].rung && !known.compare_exchange_weak(r, looks[k].rung);) {
+        results[k] = check_pair(pairs[k], known, context);
+        if (!results[k].passed) failed = true;
+        for (std::size_t r = known; r < results[k].rung && !known.compare_exchange_weak(r, results[k].rung);) {
         }
       },
       [&] { return failed.load(); });
-  return looks;
+  return results;
 }
 
 /// One pair of parts. `rung` is the lowest rung of the ladder that is still of interest; raised as needed.

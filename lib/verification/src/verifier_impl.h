@@ -42,13 +42,13 @@ struct Verifier::Impl {
   geometry::Budget budget_for(std::size_t segments, bool decides, bool overlapping, const RunContext* context) const;
   using Pairs = std::vector<std::pair<const Actor*, const Actor*>>;
   /// What was seen of a pair.
-  struct Look {
+  struct PairResult {
     bool done = false, passed = false;
     std::size_t from = 0, rung = 0;  // first and last that was tried
     MotionCheck found;
   };
-  Look look_at(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const;
-  std::vector<Look> looks_ahead(const Pairs& pairs, const RunContext& context) const;
+  PairResult check_pair(const Pairs::value_type& pair, std::size_t rung, const RunContext& context) const;
+  std::vector<PairResult> check_pairs(const Pairs& pairs, const RunContext& context) const;
   void check(const Pairs& pairs, const RunContext& context, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const RunContext& context, std::size_t& rung, MotionCheck& result) const;
   bool check(const Actor& a, const Actor& b, const verify::Solid& x, const verify::Solid& y, double allowed,

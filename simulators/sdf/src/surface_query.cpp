@@ -50,7 +50,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
 }
 
 /// Of triangles that are as near the first one counts, so that the answer does not depend on where the search began.
-inline void SurfaceQuery::look_at(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const {
+inline void SurfaceQuery::update_nearest(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const {
   const Corner& k = corners_[slot];
   const Closest c = closest(p, k.a, k.ab, k.ac);
   if (c.squared < nearest.squared ||
@@ -64,8 +64,8 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
   CandidateDraft list;
   list.center = center;
   Nearest nearest{std::numeric_limits<double>::infinity()};
-  look_at(center, near_slot, nearest);
-  look_in_tree(center, nearest);
+  update_nearest(center, near_slot, nearest);
+  search_tree(center, nearest);
   list.distance = signed_sample(center, nearest).value;
   const double reach = std::sqrt(nearest.squared) + 2 * cells_->half_diagonal();
   list.reach = reach;
@@ -209,12 +209,12 @@ void SurfaceQuery::look_in_list(const Eigen::Vector3d& p, const CandidateList& l
     if (candidate.from_center > limit) break;
     if (slabs_[candidate.slot].squared_distance(at) > TriangleSlabs::filter(nearest.squared)) continue;
     if (candidate.slot == first) continue;
-    look_at(p, candidate.slot, nearest);
+    update_nearest(p, candidate.slot, nearest);
     limit = std::sqrt(nearest.squared) + off;
   }
 }
 
-void SurfaceQuery::look_in_tree(const Eigen::Vector3d& p, Nearest& nearest) const {
+void SurfaceQuery::search_tree(const Eigen::Vector3d& p, Nearest& nearest) const {
   const bool bounded = p.squaredNorm() < bounded_within_ * bounded_within_;
   const PointLanes at(p);
   const double px = p.x(), py = p.y(), pz = p.z();
@@ -238,7 +238,7 @@ void SurfaceQuery::look_in_tree(const Eigen::Vector3d& p, Nearest& nearest) cons
       if (n.count > 0) {
         for (std::uint32_t s = n.first; s < n.first + n.count; ++s)
           if (!bounded || slabs_[s].squared_distance(at) <= TriangleSlabs::filter(nearest.squared))
-            look_at(p, s, nearest);
+            update_nearest(p, s, nearest);
       } else {
         std::uint32_t near = node + 1, far = n.first;
         double dn = box_distance(nodes_[near]), df = box_distance(nodes_[far]);
@@ -271,7 +271,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
                             const CandidateList* list) const {
   if (nodes_.empty()) return {};
   Nearest nearest{limit * limit};
-  if (hint < slot_.size()) look_at(p, slot_[hint], nearest);
+  if (hint < slot_.size()) update_nearest(p, slot_[hint], nearest);
   if (nearest.slot != geometry::kNoIndex && nearest.squared < near_ * near_ && cells_->covers(p)) {
     if (list == nullptr)
       list = &cells_->at(p, [&](const Eigen::Vector3d& center) { return candidates_of(center, nearest.slot); });
@@ -282,7 +282,7 @@ Sample SurfaceQuery::sample(const Eigen::Vector3d& p, double limit, std::uint32_
       return s;
     }
   }
-  look_in_tree(p, nearest);
+  search_tree(p, nearest);
   if (nearest.slot == geometry::kNoIndex) return {};
   return signed_sample(p, nearest);
 }

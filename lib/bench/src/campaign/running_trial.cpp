@@ -75,13 +75,13 @@ void RunningTrial::start(const std::vector<std::string>& command) {
 
 bool RunningTrial::ended() {
   if (!child_->ended()) return false;
-  if (judging_) {
+  if (verifying_) {
     take_verification(child_->end());
     return true;
   }
   take_plan(child_->end());
   if (row_.plan.empty()) return true;
-  judging_ = true;
+  verifying_ = true;
   start(options_.verify_command);
   return false;
 }

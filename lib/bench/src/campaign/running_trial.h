@@ -34,7 +34,7 @@ class RunningTrial {
   Limits limits_;
   const CampaignOptions& options_;
   std::filesystem::path folder_;
-  bool one_part_, judging_ = false, success_ = false;
+  bool one_part_, verifying_ = false, success_ = false;
   std::unique_ptr<Child> child_;
   TrialRow row_;
 };

@@ -205,10 +205,10 @@ Table trials_table(const ReportData& data, const std::string& plans) {
     std::string words = !r.verification.empty() && r.verified != true ? r.verification : r.last_words;
     while (!words.empty() && words.back() == '\n') words.pop_back();
     words = words.substr(words.rfind('\n') + 1);
-    const std::string verdict = r.verified ? (*r.verified ? "yes" : "no") : "";
+    const std::string verified = r.verified ? (*r.verified ? "yes" : "no") : "";
     table.rows.push_back({whole(++n), text(r.assembly), text(r.category), maybe(r.parts), text(r.planner),
                           text(r.variant), number(double(r.seed), "{:.0f}"), text(r.outcome),
-                          text(r.solved ? "yes" : "no"), text(verdict), maybe(r.max_penetration), maybe(r.removed),
+                          text(r.solved ? "yes" : "no"), text(verified), maybe(r.max_penetration), maybe(r.removed),
                           maybe(r.solve_seconds), number(r.wall_seconds, "{:.3f}"), number(r.cpu_seconds, "{:.3f}"),
                           number(r.peak_rss_mb, "{:.1f}"),
                           r.signal != 0 ? number(double(r.signal), "{:.0f}") : text(""), text(words)});

@@ -148,7 +148,7 @@ void verify_trial(const fs::path& folder) {
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff() / 10;
   VerifyOptions options;
   options.max_penetration = request.max_penetration * size;
-  const PlanCheck check = check_plan(plan, assembly, options, context);
+  const PlanCheck check = check_plan(plan, assembly, options, context, prover_of_kind(registry));
   auto problems = nlohmann::json::array();
   for (const auto& p : check.problems) problems.push_back(fmt::format("step {}: {}", p.step, p.message));
   const nlohmann::json json = {{"valid", check.valid},

@@ -116,15 +116,15 @@ std::vector<Triangle> smallest_surface(const std::vector<Vector3d>& p) {
       area[i * n + k] = best;
     }
   std::vector<Triangle> out;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> todo{{0, static_cast<std::uint32_t>(n - 1)}};
-  while (!todo.empty()) {
-    const auto [i, k] = todo.back();
-    todo.pop_back();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pending{{0, static_cast<std::uint32_t>(n - 1)}};
+  while (!pending.empty()) {
+    const auto [i, k] = pending.back();
+    pending.pop_back();
     if (k - i < 2) continue;
     const std::uint32_t m = apex[i * n + k];
     out.push_back({i, m, k});
-    todo.emplace_back(i, m);
-    todo.emplace_back(m, k);
+    pending.emplace_back(i, m);
+    pending.emplace_back(m, k);
   }
   return out;
 }

@@ -125,10 +125,10 @@ UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, d
   return {b_.bvh, winding, ring, cell};
 }
 
-DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Placement& start, std::size_t from,
-                                            std::size_t to, std::uint32_t patch) const {
+DirectedCheck::QuickTest DirectedCheck::quick_test(const UnrolledMesh& other, const Placement& start, std::size_t from,
+                                                   std::size_t to, std::uint32_t patch) const {
   const Patch& p = patches_[patch];
-  Glance seen{true, false, 0};
+  QuickTest seen{true, false, 0};
   seen.clear = other.clear_of(placed(start, moved_by_vertices(p, displacement(p))), from, to, seen.cells);
   return seen;
 }
@@ -137,11 +137,11 @@ DirectedCheck::Glance DirectedCheck::glance(const UnrolledMesh& other, const Pla
 bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
                                    List& list) {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
-  const std::vector<Glance> known = glances(other, winding, from, to, list);
+  const std::vector<QuickTest> known = quick_tests(other, winding, from, to, list);
   List rest;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Patch& patch = patches_[list[k]];
-    const Glance seen = k < known.size() && known[k].done ? known[k] : glance(other, start, from, to, list[k]);
+    const QuickTest seen = k < known.size() && known[k].done ? known[k] : quick_test(other, start, from, to, list[k]);
     if (!budget_.spend_tests(1 + seen.cells / 256))  // 256 cells cost as much as one sweep test
       return fail(Answer::exhausted, patch.center(), 0, patch.triangle, static_cast<double>(from));
     if (seen.clear)
@@ -189,9 +189,9 @@ bool DirectedCheck::settle_in_turn(const Interval& i, List list, bool vertex_rul
 }
 
 bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved, bool& far) {
-  const Sighting seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), margin).look(b_.bvh);
-  far = seen == Sighting::far;
-  return seen != Sighting::unclear;
+  const SweepResult seen = Sweep(placed(i.at0, moved), placed(i.at1, moved), margin).test(b_.bvh);
+  far = seen == SweepResult::far;
+  return seen != SweepResult::unclear;
 }
 
 /// Along a close fit a triangle fails at the same bend again and again: do not test where it did shortly before, except

@@ -111,15 +111,16 @@ bool DirectedCheck::take_over(Share& share, List& later) {
 }
 
 /// Those of a list as far as threads came before they were told to stop; none where no other thread takes part.
-std::vector<DirectedCheck::Glance> DirectedCheck::glances(const UnrolledMesh& other, const Winding& winding,
-                                                          std::size_t from, std::size_t to, const List& list) const {
+std::vector<DirectedCheck::QuickTest> DirectedCheck::quick_tests(const UnrolledMesh& other, const Winding& winding,
+                                                                 std::size_t from, std::size_t to,
+                                                                 const List& list) const {
   if (!has_help() || list.size() < kWorthHelp) return {};
-  std::vector<Glance> seen(list.size());
+  std::vector<QuickTest> seen(list.size());
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   parallel_for((list.size() + kLeastPiece - 1) / kLeastPiece, *budget_.context,
                [&](std::size_t part) {
                  for (std::size_t k = part * kLeastPiece; k < std::min(list.size(), (part + 1) * kLeastPiece); ++k)
-                   seen[k] = glance(other, start, from, to, list[k]);
+                   seen[k] = quick_test(other, start, from, to, list[k]);
                },
                [&] { return budget_.context->should_stop(); });
   return seen;

@@ -99,9 +99,9 @@ bool Sweep::apart(const Corners& t) const {
   return false;
 }
 
-Sighting Sweep::look(const TriangleBvh& bvh) const {
+SweepResult Sweep::test(const TriangleBvh& bvh) const {
   const auto& nodes = bvh.nodes();
-  if (nodes.empty() || misses(nodes[0].box)) return Sighting::far;
+  if (nodes.empty() || misses(nodes[0].box)) return SweepResult::far;
   std::array<std::uint32_t, 192> stack;
   std::size_t top = 0;
   std::uint32_t at = 0;
@@ -109,7 +109,7 @@ Sighting Sweep::look(const TriangleBvh& bvh) const {
     const TriangleBvh::Node& node = nodes[at];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-        if (!apart(bvh.corners(bvh.order()[i]))) return Sighting::unclear;
+        if (!apart(bvh.corners(bvh.order()[i]))) return SweepResult::unclear;
     } else {
       const std::uint32_t left = at + 1, right = node.first;
       const bool go_left = !misses(nodes[left].box), go_right = !misses(nodes[right].box);
@@ -123,7 +123,7 @@ Sighting Sweep::look(const TriangleBvh& bvh) const {
         continue;
       }
     }
-    if (top == 0) return Sighting::clear;
+    if (top == 0) return SweepResult::clear;
     at = stack[--top];
   }
 }

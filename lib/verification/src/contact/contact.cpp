@@ -121,7 +121,7 @@ bool within(const Field& a, const Field& b, double distance) {
         const Corners c = placed(place, x.bvh.corners(t));
         Aabb box;
         for (const Vec3& p : c) box.extend(p);
-        if (box.overlaps(around) && Sweep(c, c, distance).look(y.bvh) == Sighting::unclear) return true;
+        if (box.overlaps(around) && Sweep(c, c, distance).test(y.bvh) == SweepResult::unclear) return true;
       }
     }
   return false;

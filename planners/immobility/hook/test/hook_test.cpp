@@ -17,7 +17,7 @@ using std::numbers::pi;
 
 constexpr double kAllowed = 0.01;
 
-std::optional<Certificate> look(const Mesh& a, const Mesh& b, Rng& rng) {
+std::optional<Certificate> certificate_of(const Mesh& a, const Mesh& b, Rng& rng) {
   return prove_pair(Hook{}, "hook", a, b, kAllowed, rng);
 }
 
@@ -32,7 +32,7 @@ TEST(Hook, ABarWithASharpBendOnBothSidesOfAHole) {
     const double bend = rng.uniform(80, 100) * pi / 180, legs = rng.uniform(1, 2);
     const double reach = 0.5 * thick + half * rng.uniform(1.5, 3);
     const Mesh bar = shapes::bent_bar(crank(-reach, reach, bend, bend, legs), half);
-    const auto cage = look(bar, shapes::plate(half * rng.uniform(1.5, 1.7), thick), rng);
+    const auto cage = certificate_of(bar, shapes::plate(half * rng.uniform(1.5, 1.7), thick), rng);
     ASSERT_TRUE(cage) << half << " thick " << thick << " bend " << bend;
     EXPECT_EQ(cage->parts, (std::vector<PartId>{0, 1}));
   }
@@ -43,21 +43,21 @@ TEST(Hook, NotWhereABendIsMissingOrTheHoleIsWide) {
   for (int i = 0; i < testing_support::trials(1, 6); ++i) {
     const double half = rng.uniform(0.08, 0.12), thick = rng.uniform(1, 4) * half, reach = 0.5 * thick + 2 * half;
     const Mesh one_bend = shapes::bent_bar(crank(-reach, 1, pi / 2, 0, 1), half);
-    EXPECT_FALSE(look(one_bend, shapes::plate(1.6 * half, thick), rng));
+    EXPECT_FALSE(certificate_of(one_bend, shapes::plate(1.6 * half, thick), rng));
     EXPECT_TRUE(comes_out(one_bend, shapes::plate(1.6 * half, thick), {0, 0, -4}));
     // Through this one the bar can be led like a thread: its bends have room to turn in it.
     const Mesh two_bends = shapes::bent_bar(crank(-reach, reach, pi / 2, pi / 2, 1), half);
-    EXPECT_FALSE(look(two_bends, shapes::plate(6 * half, thick), rng));
+    EXPECT_FALSE(certificate_of(two_bends, shapes::plate(6 * half, thick), rng));
     // Nor where the bends are gentle.
     const Mesh gentle = shapes::bent_bar(crank(-reach, reach, pi / 7, pi / 7, 1), half);
-    EXPECT_FALSE(look(gentle, shapes::plate(2 * half, thick), rng));
+    EXPECT_FALSE(certificate_of(gentle, shapes::plate(2 * half, thick), rng));
   }
 }
 
 TEST(Hook, NotWhereTheBarIsThinnerThanWhatIsAllowed) {
   Rng rng(7);
   const Mesh wire = shapes::bent_bar(crank(-0.3, 0.3, pi / 2, pi / 2, 1), 0.9 * kAllowed);
-  EXPECT_FALSE(look(wire, shapes::plate(1.6 * kAllowed, 0.4), rng));
+  EXPECT_FALSE(certificate_of(wire, shapes::plate(1.6 * kAllowed, 0.4), rng));
 }
 
 }  // namespace

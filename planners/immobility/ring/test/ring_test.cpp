@@ -17,7 +17,7 @@ using shapes::Vec3;
 
 constexpr double kAllowed = 0.01;
 
-std::optional<Certificate> look(const Mesh& a, const Mesh& b, Rng& rng) {
+std::optional<Certificate> certificate_of(const Mesh& a, const Mesh& b, Rng& rng) {
   return prove_pair(Ring{}, "ring", a, b, kAllowed, rng);
 }
 
@@ -37,7 +37,7 @@ TEST(Ring, ARingInACanWithOpeningsThatAreTooSmall) {
   for (int i = 0; i < 12; ++i) {
     const double radius = rng.uniform(0.6, 0.9);
     const double below = radius * rng.uniform(0.1, 0.75), above = radius * rng.uniform(0.1, 0.75);
-    const auto cage = look(ring(radius, rng), can(1, 0.6, below, above), rng);
+    const auto cage = certificate_of(ring(radius, rng), can(1, 0.6, below, above), rng);
     ASSERT_TRUE(cage) << radius << " behind " << below << " and " << above;
     EXPECT_EQ(cage->parts, (std::vector<PartId>{0, 1}));
     EXPECT_LE(cage->numbers.at("diameter").front(), 2 * radius - 2 * kAllowed);
@@ -50,7 +50,7 @@ TEST(Ring, NotWhereTheRingFitsThroughAnOpeningWithinWhatIsAllowed) {
   Rng rng(2);
   for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.6, 0.9), opening = radius + rng.uniform(-0.9 * kAllowed, 0.08);
-    EXPECT_FALSE(look(ring(radius, rng), can(1, 0.6, 0.2, opening), rng)) << radius << " behind " << opening;
+    EXPECT_FALSE(certificate_of(ring(radius, rng), can(1, 0.6, 0.2, opening), rng)) << radius << " behind " << opening;
     const Mesh straight = shapes::tube(0.5 * radius, radius, -0.1, 0.1, 48);
     if (opening > radius + kAllowed) {
       EXPECT_TRUE(comes_out(straight, can(1, 0.6, 0.2, opening), {0, 0, 3}));
@@ -62,7 +62,7 @@ TEST(Ring, NotInACanThatIsOpenAtItsSide) {
   Rng rng(3);
   for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.5, 0.8), share = rng.uniform(0.5, 0.95);
-    EXPECT_FALSE(look(ring(radius, rng), can(1, 0.6, 0.3 * radius, 0.3 * radius, share), rng)) << share;
+    EXPECT_FALSE(certificate_of(ring(radius, rng), can(1, 0.6, 0.3 * radius, 0.3 * radius, share), rng)) << share;
   }
   EXPECT_TRUE(comes_out(shapes::tube(0.3, 0.6, -0.1, 0.1, 48), can(1, 0.6, 0.2, 0.2, 0.5), {0, -3, 0}));
 }
@@ -72,7 +72,7 @@ TEST(Ring, NotInACanWithAWindowInItsSideHoweverSmallTheOtherOpenings) {
   for (int i = 0; i < testing_support::trials(2, 12); ++i) {
     const double radius = rng.uniform(0.5, 0.8);
     const Mesh can = shapes::can_with_window(1, 0.6, 0.3 * radius, 0.3 * radius, 24);
-    EXPECT_FALSE(look(ring(radius, rng), can, rng)) << radius;
+    EXPECT_FALSE(certificate_of(ring(radius, rng), can, rng)) << radius;
     EXPECT_TRUE(comes_out(shapes::tube(0.5 * radius, radius, -0.1, 0.1, 48), can, {0, 3, 0})) << radius;
   }
 }
@@ -80,8 +80,8 @@ TEST(Ring, NotInACanWithAWindowInItsSideHoweverSmallTheOtherOpenings) {
 TEST(Ring, NotBesideACanOrAroundIt) {
   Rng rng(4);
   const Mesh small = can(1, 0.6, 0.2, 0.2);
-  EXPECT_FALSE(look(moved(ring(0.8, rng), shapes::shift({0, 0, 0.8})), small, rng));
-  EXPECT_FALSE(look(shapes::tube(1.35, 1.6, -0.1, 0.1, 48), small, rng));
+  EXPECT_FALSE(certificate_of(moved(ring(0.8, rng), shapes::shift({0, 0, 0.8})), small, rng));
+  EXPECT_FALSE(certificate_of(shapes::tube(1.35, 1.6, -0.1, 0.1, 48), small, rng));
 }
 
 }  // namespace

@@ -22,6 +22,13 @@ PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registr
   return out;
 }
 
+ProverOfKind prover_of_kind(const Registry& registry) {
+  return [&registry](const std::string& kind) -> std::shared_ptr<const ImmobilityProver> {
+    if (registry.lookup(PluginKind::immobility_prover, kind) == nullptr) return nullptr;
+    return registry.create<ImmobilityProver>(kind);
+  };
+}
+
 RunOptions run_options_of(const RunConfig& config, const std::string& part) {
   RunOptions out;
   out.path_timeout = config.run.path_timeout;

@@ -120,14 +120,14 @@ class DirectedCheck {
   std::vector<List> cut(const List& list) const;
   bool settle_shared(const Interval& i, const List& list, bool vertex_rule, List& later);
   bool take_over(Share& share, List& later);
-  struct Glance {
+  struct QuickTest {
     bool done = false, clear = false;
     std::uint64_t cells = 0;
   };
-  std::vector<Glance> glances(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
-                              const List& list) const;
-  Glance glance(const UnrolledMesh& other, const Placement& start, std::size_t from, std::size_t to,
-                std::uint32_t patch) const;
+  std::vector<QuickTest> quick_tests(const UnrolledMesh& other, const Winding& winding, std::size_t from,
+                                     std::size_t to, const List& list) const;
+  QuickTest quick_test(const UnrolledMesh& other, const Placement& start, std::size_t from, std::size_t to,
+                       std::uint32_t patch) const;
   bool settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later);
   bool clear(const Interval& i, double margin, const Corners& moved, bool& far);
   bool worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const;

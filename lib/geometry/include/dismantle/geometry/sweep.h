@@ -13,7 +13,7 @@ namespace dismantle::geometry {
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 /// What a sweep found.
-enum class Sighting {
+enum class SweepResult {
   far,      ///< clear, and apart from the whole box of the hierarchy
   clear,    ///< certainly meets no triangle
   unclear,  ///< may meet one
@@ -24,7 +24,7 @@ enum class Sighting {
 class Sweep {
  public:
   Sweep(const Corners& begin, const Corners& end, double margin);
-  Sighting look(const TriangleBvh& bvh) const;
+  SweepResult test(const TriangleBvh& bvh) const;
 
  private:
   struct Axis {

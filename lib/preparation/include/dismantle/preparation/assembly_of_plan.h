@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-/// Prepares just the parts that the plan is about, in the plan's scale and about its centre, for judging: overlaps are
+/// Prepares just the parts that the plan is about, in the plan's scale and about its centre, to verify it: overlaps are
 /// measured anew, surfaces are repaired as they were for the plan, nothing is subdivided. `input` is what was read from `source`.
 /// @throws InputError when `input` is not what the plan was made for (other bytes, other parts), or a part of the plan
 /// cannot be used. @throws Error when `context` wants to stop.

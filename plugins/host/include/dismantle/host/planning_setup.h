@@ -10,6 +10,7 @@
 #include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 #include "dismantle/importer.h"
+#include "dismantle/verification/check_plan.h"
 
 namespace dismantle {
 
@@ -23,6 +24,9 @@ DISMANTLE_API RunOptions run_options_of(const RunConfig& config, const std::stri
 /// @throws PluginError when `params` names an importer that is not there, or a bad parameter.
 DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry,
                                                                   const ImportParams& params = {});
+
+/// The immobility prover of a kind of certificates, with its defaults. `registry` must outlive what is returned.
+DISMANTLE_API ProverOfKind prover_of_kind(const Registry& registry);
 
 /// What of `config.importers` is not the default.
 DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);

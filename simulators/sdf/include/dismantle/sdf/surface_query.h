@@ -118,9 +118,9 @@ class SurfaceQuery {
     std::uint32_t slot = geometry::kNoIndex;
     Closest closest{};
   };
-  void look_at(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const;
+  void update_nearest(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const;
   void look_in_list(const Eigen::Vector3d& p, const CandidateList& list, Nearest& nearest) const;
-  void look_in_tree(const Eigen::Vector3d& p, Nearest& nearest) const;
+  void search_tree(const Eigen::Vector3d& p, Nearest& nearest) const;
   Sample signed_sample(const Eigen::Vector3d& p, const Nearest& nearest) const;
   double flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                      const FlatnessWanted& wanted) const;

@@ -30,7 +30,7 @@ struct Row {
   Path path;
 };
 
-TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
+TEST(VerifierThreads, SameAnswerOnAnyNumberOfThreads) {
   Rng rng(1);
   const int rounds = testing_support::trials(8, 48);
   int valid = 0;
@@ -61,7 +61,7 @@ TEST(Judging, SameAnswerOnAnyNumberOfThreads) {
   EXPECT_LT(valid, rounds - rounds / 6);
 }
 
-TEST(Judging, ToldToStopItSaysSoAndNothingElse) {
+TEST(VerifierThreads, ToldToStopItSaysSoAndNothingElse) {
   Rng rng(2);
   for (const bool in_one : {true, false}) {
     const Row row(rng, 0.006, in_one);
