@@ -107,10 +107,11 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     saver.save();
     notes.plan.set(saved);
   }
-  const RunResult result = run(assembly, setup, run_options, context, [&](const Plan& so_far) {
+  const auto on_step = [&](const Plan& so_far) {
     saver(so_far);
     notes.plan.set(saved);
-  });
+  };
+  const RunResult result = stoppable(context, [&] { return run(assembly, setup, run_options, context, on_step); });
   watchdog.reset();  // what follows is no plugin
   const auto files = write_results(result, assembly, folder, console);
   console.end_progress();

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <mutex>
+#include <stdexcept>
 
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
@@ -59,19 +61,26 @@ Mesh moved(const Mesh& mesh, const Pose& pose) {
   return out;
 }
 
-std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, const ShapeOptions& options) {
+/// `poll` is called between the stages; what it throws ends the construction.
+std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, const ShapeOptions& options,
+                                        const std::function<void()>& poll) {
+  poll();
   auto shape = std::make_shared<Shape>();
   const Mesh mesh = moved(*part.mesh, to_shape);
   shape->box = mesh.box();
-  for (const Solid& solid : split_solids(mesh)) {
+  for (const Solid& solid : split_solids(mesh, poll)) {
+    poll();
     SolidField field;
     field.box = solid.mesh.box();
     field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing);
+    poll();
     field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, options.grid);
     shape->solids.push_back(std::move(field));
   }
+  poll();
   if (shape->solids.empty()) throw InputError(part.name, "encloses no volume");
   shape->points = sample_contact_points(mesh, options.points);
+  poll();
   shape->hull = hull_corners(mesh.vertices);
   shape->mass = mass_properties(mesh);
   for (const auto& v : mesh.vertices) shape->radius = std::max(shape->radius, (v - shape->mass.center).norm());
@@ -110,6 +119,9 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
   ShapeOptions chosen = options;
   chosen.points.spacing = std::clamp(0.5 * thinnest, 0.5 * options.points.spacing, 2 * options.points.spacing);
 
+  const auto poll = [&] {
+    if (context.should_stop()) throw std::runtime_error("the run was stopped");
+  };
   std::vector<Placed> placed(n);
   std::size_t done = 0;
   std::mutex progress;
@@ -117,7 +129,7 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
       distinct.size(), context,
       [&](std::size_t k) {
         const Part& part = assembly.parts[distinct[k]];
-        placed[distinct[k]] = {make_shape(part, to_shape[k], chosen), to_shape[k].inverse()};
+        placed[distinct[k]] = {make_shape(part, to_shape[k], chosen, poll), to_shape[k].inverse()};
         const std::lock_guard lock(progress);
         context.progress("fields", ++done, distinct.size(), part.name);
       },

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 
 #include "dismantle/geometry/disjoint_sets.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/triangle_bvh.h"
 
 namespace dismantle::sdf {
@@ -17,13 +17,13 @@ double corner_angle(const Eigen::Vector3d& at, const Eigen::Vector3d& b, const E
   return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
-Solid with_normals(Mesh mesh) {
+Solid with_normals(Mesh mesh, const std::function<void()>& poll) {
+  if (poll) poll();
   Solid solid;
   const std::size_t n = mesh.triangles.size();
   solid.face_normal.resize(n);
   solid.edge_normal.resize(n);
   solid.vertex_normal.assign(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Eigen::Vector3d> edges;
   for (std::size_t t = 0; t < n; ++t) {
     const auto& tri = mesh.triangles[t];
     const auto &a = mesh.vertex(t, 0), &b = mesh.vertex(t, 1), &c = mesh.vertex(t, 2);
@@ -33,14 +33,13 @@ Solid with_normals(Mesh mesh) {
     solid.vertex_normal[tri[0]] += corner_angle(a, b, c) * solid.face_normal[t];
     solid.vertex_normal[tri[1]] += corner_angle(b, c, a) * solid.face_normal[t];
     solid.vertex_normal[tri[2]] += corner_angle(c, a, b) * solid.face_normal[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto [slot, fresh] = edges.try_emplace(std::minmax(tri[k], tri[(k + 1) % 3]), solid.face_normal[t]);
-      if (!fresh) slot->second += solid.face_normal[t];
-    }
   }
-  for (std::size_t t = 0; t < n; ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      solid.edge_normal[t][k] = edges.at(std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]));
+  if (poll) poll();
+  mesh_detail::for_each_edge(mesh_detail::sorted_edges(mesh), [&](const auto* first, const auto* last) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto* e = first; e < last; ++e) sum += solid.face_normal[e->triangle];
+    for (const auto* e = first; e < last; ++e) solid.edge_normal[e->triangle][e->corner] = sum;
+  });
   solid.mesh = std::move(mesh);
   return solid;
 }
@@ -107,11 +106,11 @@ MassProperties mass_properties(const Mesh& mesh) {
   return m;
 }
 
-std::vector<Solid> split_solids(const Mesh& mesh) {
+std::vector<Solid> split_solids(const Mesh& mesh, const std::function<void()>& poll) {
   std::vector<Mesh> shells = shells_of(mesh);
   if (shells.size() == 1) {
     std::vector<Solid> one;
-    one.push_back(with_normals(mesh));
+    one.push_back(with_normals(mesh, poll));
     return one;
   }
   std::vector<double> volume;
@@ -136,7 +135,7 @@ std::vector<Solid> split_solids(const Mesh& mesh) {
     if (best >= 0) append(solids[static_cast<std::size_t>(solid_of[static_cast<std::size_t>(best)])], shells[v]);
   }
   std::vector<Solid> result;
-  for (auto& s : solids) result.push_back(with_normals(std::move(s)));
+  for (auto& s : solids) result.push_back(with_normals(std::move(s), poll));
   return result;
 }
 

@@ -1,6 +1,6 @@
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/triangle_bvh.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <map>
 
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 

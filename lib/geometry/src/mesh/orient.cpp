@@ -4,11 +4,11 @@
 
 #include "dismantle/geometry/disjoint_sets.h"
 #include "dismantle/geometry/face_axes.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/mesh_repair.h"
 #include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/triangle_bvh.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/hull.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "mesh/cross2.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

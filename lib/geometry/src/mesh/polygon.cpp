@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "mesh/cross2.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

@@ -4,8 +4,8 @@
 #include <unordered_map>
 
 #include "dismantle/errors.h"
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_subdivide.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

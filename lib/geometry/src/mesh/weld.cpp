@@ -2,9 +2,9 @@
 #include <bit>
 #include <unordered_map>
 
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_repair.h"
 #include "dismantle/geometry/numerics.h"
-#include "mesh/edges.h"
 
 namespace dismantle {
 namespace {

@@ -1,4 +1,4 @@
-/// Edges of an indexed mesh, grouped: shared by all mesh repair steps.
+/// Edges of an indexed mesh, grouped.
 #pragma once
 
 #include <Eigen/Geometry>
