@@ -72,7 +72,7 @@ std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, 
     poll();
     SolidField field;
     field.box = solid.mesh.box();
-    field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing);
+    field.surface = std::make_unique<SurfaceQuery>(solid, options.points.spacing, poll);
     poll();
     field.grid = std::make_unique<DistanceGrid>(solid, *field.surface, options.grid);
     shape->solids.push_back(std::move(field));

@@ -12,7 +12,7 @@ float above(double x) { return std::nextafter(static_cast<float>(x), std::numeri
 
 }  // namespace
 
-SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
+SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const std::function<void()>& poll)
     : near_(near),
       indices_(solid.mesh.triangles),
       face_(solid.face_normal),
@@ -25,7 +25,7 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
   std::vector<std::uint32_t> ids(n);
   std::iota(ids.begin(), ids.end(), 0u);
   nodes_.reserve(n);
-  if (n > 0) build(0, n, ids, boxes);
+  if (n > 0) build(0, n, ids, boxes, poll);
   triangle_ = ids;
   slot_.resize(n);
   corners_.resize(n);
@@ -34,13 +34,16 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near)
   coplanar_ = std::numeric_limits<float>::epsilon() * reach.size().norm();
   reach.inflate(near_);
   bounded_within_ = 2 * reach.lo.cwiseAbs().cwiseMax(reach.hi.cwiseAbs()).norm();
+  constexpr std::uint32_t kPolled = 1 << 15;  // triangles: some 10 ms
   for (std::uint32_t s = 0; s < n; ++s) {
+    if (poll && s % kPolled == kPolled - 1) poll();
     slot_[ids[s]] = s;
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
     slabs_.emplace_back(a, b - a, c - a, bounded_within_);
   }
   find_faces(solid);
+  if (poll) poll();
   find_convex_features(solid);
   if (n == 0) return;
   // 24 cells along the longest edge of the part, or along what surrounds one that is smaller: more cells use more
@@ -110,7 +113,8 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
 }
 
 void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids,
-                         const std::vector<Aabb>& boxes) {
+                         const std::vector<Aabb>& boxes, const std::function<void()>& poll) {
+  if (poll && count >= 1u << 16) poll();  // smaller ones take no longer than a stop may
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   Aabb box, centers;
@@ -136,9 +140,9 @@ void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<s
     return cx != cy ? cx < cy : x < y;
   });
   nodes_[self].count = 0;
-  build(first, half, ids, boxes);
+  build(first, half, ids, boxes, poll);
   nodes_[self].first = static_cast<std::uint32_t>(nodes_.size());
-  build(first + half, count - half, ids, boxes);
+  build(first + half, count - half, ids, boxes, poll);
 }
 
 Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& nearest) const {

@@ -8,6 +8,7 @@
 
 #include "dismantle/geometry/face_axes.h"
 #include "dismantle/geometry/mesh_measure.h"
+#include "dismantle/geometry/numerics.h"
 #include "dismantle/geometry/ray.h"
 
 namespace dismantle::geometry {
@@ -17,18 +18,32 @@ using Vec3 = Eigen::Vector3d;
 /// Triangles: what takes some 50 ms at most is not interrupted.
 constexpr std::size_t kPolled = 1 << 15;
 
-/// The triangles of `pick` with the vertices that they use.
+/// The triangles of `pick` with the vertices that they use, in the order of the mesh.
 Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
   Mesh out;
   std::vector<std::uint32_t> used;
   for (const auto t : pick) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<std::uint32_t> number;  // by vertex; a small shell of a large mesh does without
+  if (used.size() >= mesh.vertices.size()) {
+    number.assign(mesh.vertices.size(), kNoIndex);
+    for (const auto v : used) number[v] = 0;
+    used.clear();
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+      if (number[v] == kNoIndex) continue;
+      number[v] = static_cast<std::uint32_t>(used.size());
+      used.push_back(v);
+    }
+  } else {
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+  }
   out.vertices.reserve(used.size());
   for (const auto v : used) out.vertices.push_back(mesh.vertices[v]);
   const auto renumbered = [&](std::uint32_t v) {
+    if (!number.empty()) return number[v];
     return static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), v) - used.begin());
   };
+  out.triangles.reserve(pick.size());
   for (const auto t : pick) {
     Triangle r{renumbered(mesh.triangles[t][0]), renumbered(mesh.triangles[t][1]), renumbered(mesh.triangles[t][2])};
     if (flip) std::swap(r[1], r[2]);
@@ -83,9 +98,11 @@ Vec3 inward_direction(const std::vector<Vec3>& normals) {
   return best_sine < 0.05 ? Vec3(Vec3::Zero()) : Vec3(-best);
 }
 
-std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals) {
+std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals,
+                                    const std::function<void()>& poll) {
   std::vector<std::vector<Vec3>> around(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (poll && t % kPolled == kPolled - 1) poll();
     if (normals[t].isZero(0)) continue;
     for (const auto v : mesh.triangles[t]) {
       auto& list = around[v];
@@ -94,8 +111,10 @@ std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& n
     }
   }
   std::vector<Vec3> directions(mesh.vertices.size(), Vec3::Zero());
-  for (std::size_t v = 0; v < directions.size(); ++v)
+  for (std::size_t v = 0; v < directions.size(); ++v) {
+    if (poll && v % kPolled == kPolled - 1) poll();
     if (!around[v].empty()) directions[v] = inward_direction(around[v]);
+  }
   return directions;
 }
 
@@ -148,7 +167,7 @@ Solid::Solid(const Mesh& m, const std::function<void()>& poll)
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
   if (poll) poll();
-  inward = inward_directions(mesh, normals);
+  inward = inward_directions(mesh, normals, poll);
   if (poll) poll();
   thickness.assign(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
@@ -204,6 +223,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh, const std::function<void(
   if (poll) poll();
   std::size_t shells = 0;
   const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
+  if (poll) poll();
   std::vector<std::vector<std::uint32_t>> triangles(shells);
   for (std::uint32_t t = 0; t < shell.size(); ++t) triangles[shell[t]].push_back(t);
 
