@@ -32,9 +32,9 @@ bool keeps_to(const std::vector<Vec2>& points, const std::vector<std::size_t>& h
   return true;
 }
 
-/// Distance of the point from the convex hull of the curve, if that is more than `least`, and the curve is nowhere
-/// further than `max_dent` from the hull; else `least`.
-double reach_of(const Loop& loop, const Vec3& center, double least, double max_dent) {
+}  // namespace
+
+double convex_reach(const Loop& loop, const Vec3& center, double least, double max_dent) {
   const Vec3 e = loop.plane.normal.unitOrthogonal(), f = loop.plane.normal.cross(e);
   std::vector<Vec2> points;
   for (const Vec3& p : loop.points) points.emplace_back(e.dot(p), f.dot(p));
@@ -47,6 +47,8 @@ double reach_of(const Loop& loop, const Vec3& center, double least, double max_d
   if (!(reach > least)) return least;
   return keeps_to(points, hull, 1, max_dent) || keeps_to(points, hull, points.size() - 1, max_dent) ? reach : least;
 }
+
+namespace {
 
 /// Circles about an axis, within the solid, the smallest first.
 std::vector<InteriorCircle> circles_about(const Vec3& foot, const Vec3& axis, double lo, double hi, double reach,
@@ -90,7 +92,7 @@ std::array<Rim, 2> rims(const std::vector<Loop>& loops, const InteriorCircle& ci
     const double offset = loop.plane.offset;
     if (std::abs(offset - middle) < slack || !loop.around(circle.center)) continue;
     Rim& best = widest[offset > middle ? 1 : 0];
-    const double reach = reach_of(loop, circle.center, best.radius, max_dent);
+    const double reach = convex_reach(loop, circle.center, best.radius, max_dent);
     if (reach > best.radius) best = {reach, &loop};
   }
   return widest;

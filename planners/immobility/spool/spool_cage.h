@@ -4,10 +4,15 @@
 #include <optional>
 
 #include "dismantle/immobility/interior_circle.h"
+#include "dismantle/immobility/section.h"
 #include "dismantle/run_context.h"
 #include "spool/spool.h"
 
 namespace dismantle::immobility {
+
+/// Distance of the point, in the plane of the curve, from the curve's convex hull, if that is more than `least` and the
+/// curve is nowhere further than `max_dent` from the piece of the hull beside it; else `least`.
+double convex_reach(const Loop& loop, const Eigen::Vector3d& center, double least, double max_dent);
 
 struct SpoolCage {
   InteriorCircle circle;        ///< within the part around the spool

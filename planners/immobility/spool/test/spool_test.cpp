@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "dismantle/testing/trials.h"
 #include "prover_rig.h"
+#include "spool/spool_cage.h"
 
 namespace dismantle::immobility {
 namespace {
@@ -59,6 +61,35 @@ TEST(Spool, NotASpoolOneOfWhoseRimsGoesThroughWithinWhatIsAllowed) {
   }
   // Beside the hole, or above the plate, wide rims hold nothing.
   EXPECT_FALSE(certificate_of(moved(spool(0.3, 0.8, 0.8), shapes::shift({0, 0, 0.6})), shapes::plate(0.4, 0.3), rng));
+}
+
+/// The inner radius of a nearly convex curve; nothing where a slit leads through it from side to side, although all of
+/// its points are near the hull.
+TEST(Spool, ARimWithASlitIsNotConvex) {
+  Rng rng(11);
+  for (int i = 0; i < 50; ++i) {
+    constexpr double kDent = 1e-3;
+    const std::size_t n = 2 * (4 + rng.below(20));
+    const double radius = rng.uniform(0.5, 2);
+    Loop rim;
+    rim.plane = {Vec3::UnitZ(), 0};
+    const auto at = [&](double turn, double r) {
+      return Vec3(r * std::cos(2 * std::numbers::pi * turn), r * std::sin(2 * std::numbers::pi * turn), 0);
+    };
+    for (std::size_t k = 0; k < n; ++k) {
+      rim.points.push_back(at(static_cast<double>(k) / static_cast<double>(n), radius));
+      const double dent = rng.uniform(0, 0.9) * kDent;  // of the middle of the edge that follows
+      rim.points.push_back(at((static_cast<double>(k) + 0.5) / static_cast<double>(n),
+                              radius * std::cos(std::numbers::pi / static_cast<double>(n)) - dent));
+    }
+    const double inner = radius * std::cos(std::numbers::pi / static_cast<double>(n));
+    EXPECT_NEAR(convex_reach(rim, Vec3::Zero(), 0, kDent), inner, 1e-9);
+    // From the middle of an edge to just before that on the other side, and back.
+    const double across = -(inner - 0.5 * kDent);
+    rim.points.insert(rim.points.begin() + 2, {at(0.5 / static_cast<double>(n), across)});
+    rim.points.insert(rim.points.begin() + 3, {at(0.5 / static_cast<double>(n), inner)});
+    EXPECT_EQ(convex_reach(rim, Vec3::Zero(), 0, kDent), 0) << n;
+  }
 }
 
 }  // namespace
