@@ -2,7 +2,7 @@
 """Whole plans, from import to verified plan: CPU seconds, and as ratios to a sample of the same run; or instruction counts.
 
     tests/bench/end_to_end.py                       # samples, and assemblies of $DISMANTLE_DATA if it is set
-    tests/bench/end_to_end.py --parts 250 1000 3000 # the sample `machine` with so many parts: seconds and memory by size
+    tests/bench/end_to_end.py --parts 250 1000 3000 # the sample `machine` with these numbers of parts: seconds and memory by size
     tests/bench/end_to_end.py --callgrind peg_in_hole
     tests/bench/end_to_end.py --against OTHER/bin/dismantle   # is every plan the same but for its times?
 

@@ -48,7 +48,7 @@ class Isolation(BenchTest):
         left = re.search(r"evil.daemon leaves (\d+) behind", row["last_words"])
         self.assertIsNotNone(left, row["last_words"])
         status = pathlib.Path("/proc", left.group(1), "status")
-        # It is gone, or dead and not yet waited for by whoever adopted it.
+        # It is gone, or dead and not yet waited for by its new parent.
         self.assertTrue(not status.exists() or re.search(r"^State:\s+[ZX]", status.read_text(), re.M))
 
     def test_the_verifier_has_the_last_word(self):

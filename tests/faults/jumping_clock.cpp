@@ -1,4 +1,4 @@
-// Preloaded into a program: the time of day jumps by hours between any two looks at it, forwards and backwards.
+// Preloaded into a program: the time of day jumps by hours between any two readings, forwards and backwards.
 #include <dlfcn.h>
 #include <sys/time.h>
 #include <time.h>
@@ -9,8 +9,8 @@ namespace {
 
 /// 0, 7, -7, 14, -14, ... hours.
 time_t jump() {
-  static std::atomic<long> looks{0};
-  const long n = looks++ % 20;
+  static std::atomic<long> readings{0};
+  const long n = readings++ % 20;
   return 7 * 3600 * ((n + 1) / 2) * (n % 2 == 0 ? -1 : 1);
 }
 

@@ -34,7 +34,7 @@ struct Kind {
   std::function<Assembly(Rng&, bool held)> assembly;
   std::vector<Forgery> forgeries;
   double margin = 0.01;
-  int share = 1;  ///< of the trials one in so many: proofs take seconds
+  int share = 1;  ///< one of this many trials is made: proofs take seconds
   int trials(int daily, int nightly) const { return std::max(1, testing_support::trials(daily, nightly) / share); }
 };
 

@@ -150,7 +150,7 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return a + (vb / den) * ab + (vc / den) * ac;
 }
 
-TriangleBvh::TriangleBvh(const Mesh& mesh, const std::function<void()>& poll) {
+TriangleBvh::TriangleBvh(const Mesh& mesh, const geometry::Poll& poll) {
   const std::size_t n = mesh.triangles.size();
   corners_.resize(n);
   std::vector<Aabb> boxes(n);
@@ -169,8 +169,8 @@ TriangleBvh::TriangleBvh(const Mesh& mesh, const std::function<void()>& poll) {
 }
 
 void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes,
-                        const std::function<void()>& poll) {
-  if (poll && count >= 1 << 16) poll();  // one level of that many triangles takes some 10 ms
+                        const geometry::Poll& poll) {
+  poll.before(count);
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   Aabb box, centers;

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <tuple>
+
+#include "dismantle/geometry/mesh_edges.h"
 #include "dismantle/geometry/mesh_measure.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/testing/mesh_damage.h"
@@ -59,6 +63,55 @@ TEST(Weld, DropsDegenerateTrianglesAndUnusedVertices) {
   EXPECT_EQ(r.unused, 1u);
   EXPECT_EQ(m.triangles.size(), 12u);
   EXPECT_EQ(m.vertices.size(), 8u);
+}
+
+/// Vertices are one exactly where they are equal, and 0 equals -0.
+TEST(Weld, WithoutAToleranceEqualPositionsAreOne) {
+  Rng rng(3);
+  const std::vector<double> coordinates{0.0, -0.0, 1.0, 1.0 + 1e-15, 1e-300, -1e-300};
+  for (int round = 0; round < 50; ++round) {
+    Mesh m;
+    const std::size_t triangles = 1 + rng.below(200);
+    const auto any = [&] { return coordinates[rng.below(coordinates.size())]; };
+    for (std::uint32_t t = 0; t < triangles; ++t) {
+      for (int c = 0; c < 3; ++c) m.vertices.emplace_back(any(), any(), static_cast<double>(rng.below(3)));
+      m.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const Mesh before = m;
+    const WeldResult r = weld(m, 0);
+    for (std::size_t a = 0; a < m.vertices.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) ASSERT_NE(m.vertices[a], m.vertices[b]);
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles; ++t) {
+      const auto &a = before.vertex(t, 0), &b = before.vertex(t, 1), &c = before.vertex(t, 2);
+      if (a == b || b == c || c == a) continue;
+      for (int k = 0; k < 3; ++k) ASSERT_EQ(m.vertex(kept, k), before.vertex(t, k));
+      ++kept;
+    }
+    EXPECT_EQ(m.triangles.size(), kept);
+    EXPECT_EQ(r.degenerate, triangles - kept);
+  }
+}
+
+TEST(MeshEdges, AreInTheOrderOfTheirVertices) {
+  Rng rng(4);
+  for (int round = 0; round < 50; ++round) {
+    Mesh m;
+    const std::size_t vertices = 3 + rng.below(40);
+    m.vertices.resize(vertices);
+    const auto any = [&] { return static_cast<std::uint32_t>(rng.below(vertices)); };
+    for (std::size_t t = rng.below(100); t-- > 0;) m.triangles.push_back({any(), any(), any()});
+    const auto edges = mesh_detail::sorted_edges(m);
+    ASSERT_EQ(edges.size(), 3 * m.triangles.size());
+    const auto key = [](const auto& e) { return std::tuple(e.lo, e.hi, e.triangle, e.corner); };
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const auto& e = edges[k];
+      if (k > 0) ASSERT_LT(key(edges[k - 1]), key(e));  // so none is there twice
+      const Triangle& t = m.triangles[e.triangle];
+      const std::uint32_t a = t[e.corner], b = t[(e.corner + 1) % 3];
+      ASSERT_EQ(std::tuple(e.lo, e.hi, e.forward), std::tuple(std::min(a, b), std::max(a, b), a < b));
+    }
+  }
 }
 
 TEST(DuplicateFaces, CopiesGoAndTheWindingNumberStays) {

@@ -18,7 +18,7 @@
 
 namespace dismantle {
 
-DepthBody::DepthBody(const Mesh& mesh, const std::function<void()>& poll)
+DepthBody::DepthBody(const Mesh& mesh, const geometry::Poll& poll)
     : impl_(std::make_unique<const Impl>(Impl{verify::split_into_solids(mesh, poll)})) {}
 DepthBody::~DepthBody() = default;
 DepthBody::DepthBody(DepthBody&&) noexcept = default;

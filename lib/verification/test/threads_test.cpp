@@ -1,6 +1,7 @@
 // The verifier on several threads, and told to stop.
 #include <gtest/gtest.h>
 
+#include "dismantle/errors.h"
 #include "dismantle/executor.h"
 #include "dismantle/testing/shapes.h"
 #include "dismantle/testing/trials.h"
@@ -77,6 +78,16 @@ TEST(VerifierThreads, ToldToStopItSaysSoAndNothingElse) {
       EXPECT_FALSE(check.violation);
     }
   }
+}
+
+/// Small parts are made ready all the same, so that what was found until then can be checked.
+TEST(VerifierThreads, ToldToStopItIsBuiltOnlyOfSmallParts) {
+  RunContext context;
+  context.cancel.cancel();
+  const Mesh small = shapes::sphere({0, 0, 0}, 1, 3), large = shapes::sphere({3, 0, 0}, 1, 6);
+  const Verifier whole(shapes::assembly_of({small, small}), {0.01}, context);
+  EXPECT_EQ(whole.parts(), 2u);
+  EXPECT_THROW(Verifier(shapes::assembly_of({small, large}), {0.01}, context), Error);
 }
 
 }  // namespace

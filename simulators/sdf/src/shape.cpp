@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -61,9 +60,8 @@ Mesh moved(const Mesh& mesh, const Pose& pose) {
   return out;
 }
 
-/// `poll` is called between the stages; what it throws ends the construction.
 std::shared_ptr<const Shape> make_shape(const Part& part, const Pose& to_shape, const ShapeOptions& options,
-                                        const std::function<void()>& poll) {
+                                        const geometry::Poll& poll) {
   poll();
   auto shape = std::make_shared<Shape>();
   const Mesh mesh = moved(*part.mesh, to_shape);
@@ -119,7 +117,7 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
   ShapeOptions chosen = options;
   chosen.points.spacing = std::clamp(0.5 * thinnest, 0.5 * options.points.spacing, 2 * options.points.spacing);
 
-  const auto poll = [&] {
+  const geometry::Poll poll = [&] {
     if (context.should_stop()) throw std::runtime_error("the run was stopped");
   };
   std::vector<Placed> placed(n);

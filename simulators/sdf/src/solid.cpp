@@ -17,8 +17,8 @@ double corner_angle(const Eigen::Vector3d& at, const Eigen::Vector3d& b, const E
   return std::atan2(u.cross(v).norm(), u.dot(v));
 }
 
-Solid with_normals(Mesh mesh, const std::function<void()>& poll) {
-  if (poll) poll();
+Solid with_normals(Mesh mesh, const geometry::Poll& poll) {
+  poll.before(mesh.triangles.size());
   Solid solid;
   const std::size_t n = mesh.triangles.size();
   solid.face_normal.resize(n);
@@ -34,7 +34,7 @@ Solid with_normals(Mesh mesh, const std::function<void()>& poll) {
     solid.vertex_normal[tri[1]] += corner_angle(b, c, a) * solid.face_normal[t];
     solid.vertex_normal[tri[2]] += corner_angle(c, a, b) * solid.face_normal[t];
   }
-  if (poll) poll();
+  poll.before(mesh.triangles.size());
   mesh_detail::for_each_edge(mesh_detail::sorted_edges(mesh), [&](const auto* first, const auto* last) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto* e = first; e < last; ++e) sum += solid.face_normal[e->triangle];
@@ -106,7 +106,7 @@ MassProperties mass_properties(const Mesh& mesh) {
   return m;
 }
 
-std::vector<Solid> split_solids(const Mesh& mesh, const std::function<void()>& poll) {
+std::vector<Solid> split_solids(const Mesh& mesh, const geometry::Poll& poll) {
   std::vector<Mesh> shells = shells_of(mesh);
   if (shells.size() == 1) {
     std::vector<Solid> one;

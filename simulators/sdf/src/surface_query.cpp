@@ -12,7 +12,7 @@ float above(double x) { return std::nextafter(static_cast<float>(x), std::numeri
 
 }  // namespace
 
-SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const std::function<void()>& poll)
+SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll& poll)
     : near_(near),
       indices_(solid.mesh.triangles),
       face_(solid.face_normal),
@@ -34,16 +34,15 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const std::function<
   coplanar_ = std::numeric_limits<float>::epsilon() * reach.size().norm();
   reach.inflate(near_);
   bounded_within_ = 2 * reach.lo.cwiseAbs().cwiseMax(reach.hi.cwiseAbs()).norm();
-  constexpr std::uint32_t kPolled = 1 << 15;  // triangles: some 10 ms
   for (std::uint32_t s = 0; s < n; ++s) {
-    if (poll && s % kPolled == kPolled - 1) poll();
+    poll.in_pass(s);
     slot_[ids[s]] = s;
     const auto &a = solid.mesh.vertex(ids[s], 0), &b = solid.mesh.vertex(ids[s], 1), &c = solid.mesh.vertex(ids[s], 2);
     corners_[s] = {a, b - a, c - a};
     slabs_.emplace_back(a, b - a, c - a, bounded_within_);
   }
   find_faces(solid);
-  if (poll) poll();
+  poll.before(n);
   find_convex_features(solid);
   if (n == 0) return;
   // 24 cells along the longest edge of the part, or along what surrounds one that is smaller: more cells use more
@@ -113,8 +112,8 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
 }
 
 void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids,
-                         const std::vector<Aabb>& boxes, const std::function<void()>& poll) {
-  if (poll && count >= 1u << 16) poll();  // smaller ones take no longer than a stop may
+                         const std::vector<Aabb>& boxes, const geometry::Poll& poll) {
+  poll.before(count);
   const std::size_t self = nodes_.size();
   nodes_.emplace_back();
   Aabb box, centers;

@@ -57,7 +57,7 @@ std::string new_mark() {
 }
 
 void kill_marked(const std::string& mark) {
-  constexpr int kMostRounds = 1000;  // a process that forks all the time is outrun by then, or the table is full of it
+  constexpr int kMostRounds = 1000;  // a second: a process that forks faster than this kills stays
   for (int round = 0; round < kMostRounds && kill_once(mark); ++round) ::usleep(1000);  // the killed ones disappear
 }
 

@@ -15,8 +15,6 @@ namespace dismantle::geometry {
 namespace {
 
 using Vec3 = Eigen::Vector3d;
-/// Triangles: what takes some 50 ms at most is not interrupted.
-constexpr std::size_t kPolled = 1 << 15;
 
 /// The triangles of `pick` with the vertices that they use, in the order of the mesh.
 Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
@@ -98,11 +96,10 @@ Vec3 inward_direction(const std::vector<Vec3>& normals) {
   return best_sine < 0.05 ? Vec3(Vec3::Zero()) : Vec3(-best);
 }
 
-std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals,
-                                    const std::function<void()>& poll) {
+std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& normals, const Poll& poll) {
   std::vector<std::vector<Vec3>> around(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (poll && t % kPolled == kPolled - 1) poll();
+    poll.in_pass(t);
     if (normals[t].isZero(0)) continue;
     for (const auto v : mesh.triangles[t]) {
       auto& list = around[v];
@@ -112,7 +109,7 @@ std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& n
   }
   std::vector<Vec3> directions(mesh.vertices.size(), Vec3::Zero());
   for (std::size_t v = 0; v < directions.size(); ++v) {
-    if (poll && v % kPolled == kPolled - 1) poll();
+    poll.in_pass(v);
     if (!around[v].empty()) directions[v] = inward_direction(around[v]);
   }
   return directions;
@@ -162,13 +159,13 @@ bool share_corner(const Triangle& a, const Triangle& b) {
 
 }  // namespace
 
-Solid::Solid(const Mesh& m, const std::function<void()>& poll)
+Solid::Solid(const Mesh& m, const Poll& poll)
     : frame(tight_frame(m)), mesh(turned(m, frame)), bvh(mesh, poll), box(mesh.box()) {
   normals.resize(mesh.triangles.size());
   for (std::size_t t = 0; t < normals.size(); ++t) normals[t] = triangle_normal(mesh, t);
-  if (poll) poll();
+  poll.before(mesh.triangles.size());
   inward = inward_directions(mesh, normals, poll);
-  if (poll) poll();
+  poll.before(mesh.triangles.size());
   thickness.assign(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   vertex_thickness.assign(mesh.vertices.size(), std::numeric_limits<double>::infinity());
 
@@ -186,9 +183,9 @@ Solid::Solid(const Mesh& m, const std::function<void()>& poll)
   }
 }
 
-void Solid::measure_thickness(double reach, const std::function<void()>& poll) {
+void Solid::measure_thickness(double reach, const Poll& poll) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (poll && t % kPolled == kPolled - 1) poll();
+    poll.in_pass(t);
     thickness[t] = std::numeric_limits<double>::infinity();
     if (normals[t].isZero(0)) continue;
     const auto blocks = [&](std::uint32_t other) {
@@ -218,12 +215,11 @@ void Solid::measure_thickness(double reach, const std::function<void()>& poll) {
     for (const auto v : mesh.triangles[t]) vertex_thickness[v] = std::min(vertex_thickness[v], thickness[t]);
 }
 
-std::vector<Solid> split_into_solids(const Mesh& mesh, const std::function<void()>& poll) {
-  if (poll && mesh.triangles.size() < kPolled) return split_into_solids(mesh);
-  if (poll) poll();
+std::vector<Solid> split_into_solids(const Mesh& mesh, const Poll& poll) {
+  poll.before(mesh.triangles.size());
   std::size_t shells = 0;
   const std::vector<std::uint32_t> shell = shells_of(mesh, shells);
-  if (poll) poll();
+  poll.before(mesh.triangles.size());
   std::vector<std::vector<std::uint32_t>> triangles(shells);
   for (std::uint32_t t = 0; t < shell.size(); ++t) triangles[shell[t]].push_back(t);
 
@@ -234,7 +230,7 @@ std::vector<Solid> split_into_solids(const Mesh& mesh, const std::function<void(
   std::vector<Group> groups;
   std::vector<std::uint32_t> voids;
   for (std::uint32_t s = 0; s < shells; ++s) {
-    if (poll) poll();
+    poll.before(mesh.triangles.size());
     Mesh m = sub_mesh(mesh, triangles[s]);
     const double v = signed_volume(m);
     if (v < 0)

@@ -23,7 +23,7 @@ bool in_own_tunnel(const State& s) {
 
 bool is_pushed(const Action& action, std::size_t body) { return action.wrenches[body].force.norm() > 0; }
 
-/// As by a rack: y of point 1 is `ratio` times x of point 0, and whoever is not pushed is dragged along.
+/// As by a rack: y of point 1 is `ratio` times x of point 0, and a part that is not pushed is dragged along.
 Maze geared(double ratio) {
   Maze maze = crossed();
   maze.link = [ratio](State& s, const Action& action) {

@@ -11,7 +11,7 @@ namespace dismantle {
 namespace {
 
 TEST(BlockingSearches, DoesNotRepeatSearchesWhileTheirBlockersStand) {
-  // Without geometry all ways are searched for. A chain against the order of trying: whoever is blocked by one that is
+  // Without geometry all ways are searched for. A chain against the order of trying: a part that is blocked by one that is
   // still there is not asked again at the same depth.
   FakeMachine machine(12);
   for (PartId k = 0; k + 1 < 12; ++k) machine.before[k] = {k + 1};

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
+#include "dismantle/geometry/poll.h"
 #include "dismantle/geometry/triangle_bvh.h"
 #include "dismantle/mesh.h"
 #include "dismantle/pose.h"
@@ -15,8 +15,7 @@ namespace dismantle::geometry {
 /// One outer shell and the voids within it. A part whose shells overlap is checked solid by solid: the surface of
 /// one shell inside another must not make a deep penetration look shallow. Immutable.
 struct Solid {
-  /// `poll`, if any, is called now and then; what it throws ends the construction.
-  explicit Solid(const Mesh& m, const std::function<void()>& poll = {});
+  explicit Solid(const Mesh& m, const Poll& poll = {});
 
   /// A rotation: assembled = frame * local. Everything below is in the local frame, whose axes follow the largest flat
   /// faces, so that boxes fit tightly however the part was turned in the input.
@@ -33,13 +32,12 @@ struct Solid {
   std::vector<std::uint32_t> shell_vertices;  ///< for each shell, all its vertices, ...
   std::vector<std::uint32_t> shell_begin;     ///< ... which begin here; one entry more than shells
 
-  /// Fills thickness up to `reach`; until then it is infinite everywhere. `poll` as above.
-  void measure_thickness(double reach, const std::function<void()>& poll = {});
+  /// Fills thickness up to `reach`; until then it is infinite everywhere.
+  void measure_thickness(double reach, const Poll& poll = {});
 };
 
 /// Shells are joined by common edges. A shell turned inside out is a void of the smallest solid around it; if there
-/// is none, it is taken for a solid that was wound the wrong way. `poll`, if any, is called now and then for large meshes;
-/// what it throws ends the split.
-std::vector<Solid> split_into_solids(const Mesh& mesh, const std::function<void()>& poll = {});
+/// is none, it is taken for a solid that was wound the wrong way.
+std::vector<Solid> split_into_solids(const Mesh& mesh, const Poll& poll = {});
 
 }  // namespace dismantle::geometry

@@ -10,6 +10,7 @@
 
 #include "dismantle/export.h"
 #include "dismantle/aabb.h"
+#include "dismantle/geometry/poll.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle {
@@ -37,8 +38,7 @@ class DISMANTLE_API TriangleBvh {
     std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
   };
 
-  /// Copies what it needs. `poll`, if any, is called now and then; what it throws ends the construction.
-  explicit TriangleBvh(const Mesh& mesh, const std::function<void()>& poll = {});
+  explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {});  ///< copies what it needs
 
   ClosestPoint closest(const Eigen::Vector3d& p,
                        double limit = std::numeric_limits<double>::infinity()) const;
@@ -54,7 +54,7 @@ class DISMANTLE_API TriangleBvh {
   const std::array<Eigen::Vector3d, 3>& corners(std::uint32_t triangle) const { return corners_[triangle]; }
 
  private:
-  void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes, const std::function<void()>& poll);
+  void build(std::uint32_t first, std::uint32_t count, std::vector<Aabb>& boxes, const geometry::Poll& poll);
   std::vector<std::array<Eigen::Vector3d, 3>> corners_;  // by triangle id
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;

@@ -10,6 +10,7 @@
 #include "dismantle/assembly.h"
 #include "dismantle/executor.h"
 #include "dismantle/export.h"
+#include "dismantle/geometry/poll.h"
 #include "dismantle/path_planner.h"
 #include "dismantle/run_context.h"
 
@@ -125,8 +126,7 @@ class DISMANTLE_API Verifier {
 /// A mesh made ready for measuring depths: worth keeping when one part meets several others. Immutable.
 class DISMANTLE_API DepthBody {
  public:
-  /// `poll`, if any, is called now and then; what it throws ends the construction.
-  explicit DepthBody(const Mesh& mesh, const std::function<void()>& poll = {});
+  explicit DepthBody(const Mesh& mesh, const geometry::Poll& poll = {});
   ~DepthBody();
   DepthBody(DepthBody&&) noexcept;
   DepthBody& operator=(DepthBody&&) noexcept;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
+#include "dismantle/geometry/poll.h"
 #include "dismantle/mesh.h"
 
 namespace dismantle::sdf {
@@ -21,9 +21,8 @@ struct Solid {
 };
 
 /// Splits by connected shells; a shell of negative volume is a void and goes to the smallest outer
-/// shell around it. `mesh` must be closed and oriented. `poll`, if any, is called between the steps; what it throws ends
-/// the split.
-std::vector<Solid> split_solids(const Mesh& mesh, const std::function<void()>& poll = {});
+/// shell around it. `mesh` must be closed and oriented.
+std::vector<Solid> split_solids(const Mesh& mesh, const geometry::Poll& poll = {});
 
 /// Volume, centre of mass and inertia of a closed mesh of density 1 (divergence theorem; exact).
 struct MassProperties {

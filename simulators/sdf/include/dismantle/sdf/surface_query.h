@@ -51,8 +51,7 @@ class SurfaceQuery {
  public:
   /// `near`: distance from the surface up to which lists of triangles make queries fast; > 0. Answers do not depend on
   /// it.
-  /// `poll`, if any, is called now and then; what it throws ends the construction.
-  explicit SurfaceQuery(const Solid& solid, double near = 0.1, const std::function<void()>& poll = {});
+  explicit SurfaceQuery(const Solid& solid, double near = 0.1, const geometry::Poll& poll = {});
 
   /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle.
   /// `hint`: a triangle that is probably close (from the last query of a moving point); `list`: as prefetch() found it.
@@ -112,7 +111,7 @@ class SurfaceQuery {
   void find_faces(const Solid& solid);
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes,
-             const std::function<void()>& poll);
+             const geometry::Poll& poll);
   /// `near_slot`: any triangle that is not far; only affects speed.
   CandidateDraft candidates_of(const Eigen::Vector3d& center, std::uint32_t near_slot) const;
   /// The closest triangle so far.
