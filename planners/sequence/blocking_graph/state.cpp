@@ -107,6 +107,7 @@ SubassemblyId DisassemblyState::housing_of(const GroupState& group) const {
 void DisassemblyState::set_pose(PartId part, const Pose& pose) {
   poses_[part] = pose;
   orientation_[part] = orientations_.number_of(pose.q);
+  ++arrangement_;
 }
 
 bool DisassemblyState::may_leave(const GroupState& group, const Subassemblies& ids) const {
@@ -183,6 +184,7 @@ void DisassemblyState::merge_two(GroupState& group, SubassemblyId a, Subassembly
   parts_[a].insert(parts_[a].end(), parts_[b].begin(), parts_[b].end());
   std::sort(parts_[a].begin(), parts_[a].end());
   parts_[b].clear();
+  ++arrangement_;
   std::erase(group.members, b);
   for (GroupListener* listener : listeners_) listener->on_group_changed(group, {GroupChange::Kind::merged, {a, b}});
   count("merged");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <string>
@@ -120,6 +121,8 @@ class DisassemblyState {
   std::size_t orientation(PartId part) const { return orientation_[part]; }
   const Orientations& orientations() const { return orientations_; }
   void set_pose(PartId part, const Pose& pose);
+  /// Grows when a part moves and when subassemblies are merged.
+  std::uint64_t arrangement() const { return arrangement_; }
 
   // Groups.
   std::deque<GroupState>& waiting() { return waiting_; }
@@ -167,6 +170,7 @@ class DisassemblyState {
   std::vector<Pose> poses_;               // by part
   std::vector<std::size_t> orientation_;  // by part
   Orientations orientations_;
+  std::uint64_t arrangement_ = 0;
   std::deque<GroupState> waiting_;
   std::size_t groups_ = 0;  // made so far
   std::vector<GroupListener*> listeners_;

@@ -133,19 +133,45 @@ bool StraightMotion::was_refused(const Subassemblies& ids, std::size_t direction
   return refused_.contains({state_.parts_of(ids), direction});
 }
 
+/// Every subassembly of a group asks for its directions: looking at all others each time would cost the square.
+const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, std::size_t direction) const {
+  if (far_ends_.arrangement != state_.arrangement() || far_ends_.members != group.members)
+    far_ends_ = {state_.arrangement(), group.members, {}};
+  const auto [at, is_new] = far_ends_.by_direction.try_emplace(direction);
+  FarEnd& far = at->second;
+  if (!is_new) return far;
+  const Eigen::Vector3d& d = directions_.all[direction];
+  for (const SubassemblyId u : group.members)
+    for (const PartId id : state_.parts_of(u)) {
+      const double end =
+          relations_.extent(id, direction, state_.orientation(id)).second + state_.pose(id).t.dot(d);
+      if (end > far.end) {
+        if (u != far.farthest) far.of_others = far.end;
+        far.farthest = u;
+        far.end = end;
+      } else if (u != far.farthest) {
+        far.of_others = std::max(far.of_others, end);
+      }
+    }
+  return far;
+}
+
 double StraightMotion::path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                                    const Eigen::Vector3d& shift) const {
   const Eigen::Vector3d& d = directions_.all[direction];
   double ours = std::numeric_limits<double>::infinity(), theirs = -ours;
-  for (const SubassemblyId u : group.members) {
-    const bool leaves = std::find(ids.begin(), ids.end(), u) != ids.end();
-    for (const PartId id : state_.parts_of(u)) {
-      const auto [lo, hi] = relations_.extent(id, direction, state_.orientation(id));
-      const double along = state_.pose(id).t.dot(d);
-      if (leaves)
-        ours = std::min(ours, lo + along);
-      else
-        theirs = std::max(theirs, hi + along);
+  for (const SubassemblyId u : ids)
+    for (const PartId id : state_.parts_of(u))
+      ours = std::min(ours, relations_.extent(id, direction, state_.orientation(id)).first + state_.pose(id).t.dot(d));
+  if (ids.size() == 1) {
+    const FarEnd& far = far_end(group, direction);
+    theirs = far.farthest == ids.front() ? far.of_others : far.end;
+  } else {
+    for (const SubassemblyId u : group.members) {
+      if (std::find(ids.begin(), ids.end(), u) != ids.end()) continue;
+      for (const PartId id : state_.parts_of(u))
+        theirs = std::max(theirs, relations_.extent(id, direction, state_.orientation(id)).second +
+                                      state_.pose(id).t.dot(d));
     }
   }
   return std::max(0.0, theirs - ours - shift.dot(d));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -71,6 +73,12 @@ class StraightMotion final : public GroupListener {
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
   double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                      const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
+  /// How far a group reaches along a direction, in the assembly's frame: its farthest subassembly, and all others.
+  struct FarEnd {
+    SubassemblyId farthest = 0;
+    double end = -std::numeric_limits<double>::infinity(), of_others = end;
+  };
+  const FarEnd& far_end(const GroupState& group, std::size_t direction) const;
   std::vector<std::size_t> own_directions(SubassemblyId id) const;
   std::pair<std::optional<SubassemblyId>, std::vector<Pair>> examine(const GroupState& group, SubassemblyId id,
                                                                      std::size_t direction) const;
@@ -86,6 +94,11 @@ class StraightMotion final : public GroupListener {
   Relations relations_;
   std::vector<std::map<std::size_t, SubassemblyId>> blocker_;      // by subassembly, by direction: one blocker
   std::set<std::pair<std::vector<PartId>, std::size_t>> refused_;  // since the last change
+  struct {
+    std::uint64_t arrangement = 0;
+    Subassemblies members;
+    std::map<std::size_t, FarEnd> by_direction;
+  } mutable far_ends_;  // of the last group that was asked about, in the last arrangement
 };
 
 }  // namespace dismantle::blocking
