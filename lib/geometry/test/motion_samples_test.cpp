@@ -32,6 +32,9 @@ TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
     const Finding deepest = deepest_sample(a, b, forward, backward);
     const bool stopped = sample_beyond(a, b, forward, backward, limits);
     EXPECT_EQ(stopped, deepest.depth > limits.at(deepest.thickness)) << trial;  // the walls are equally thick here
+    const bool early = sample_beyond(a, b, forward, backward, limits, SampledTimes::some),
+               late = sample_beyond(a, b, forward, backward, limits, SampledTimes::others);
+    EXPECT_EQ(stopped, early || late) << trial;
     ++(stopped ? beyond : within);
     if (!stopped) continue;
     Budget budget{1'000'000, 80'000};

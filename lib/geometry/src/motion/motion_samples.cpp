@@ -12,7 +12,7 @@ namespace {
 /// in the frame of b) for those within `b`, until it returns true; then returns true.
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
-            bool of_second, const Take& take) {
+            bool of_second, SampledTimes which, const Take& take) {
   const std::size_t segments = motion.segments();
   const bool all = segments <= 12;
   const std::size_t times = all ? 24 : std::min<std::size_t>(2 * segments, 480);  // more find nothing deeper, mostly
@@ -23,6 +23,8 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
   }
   const std::size_t triangles = all ? a.mesh.triangles.size() : near.size();
   for (std::size_t i = 0; i < times; ++i) {
+    const bool among_some = i % 4 == 3;
+    if (which == (among_some ? SampledTimes::others : SampledTimes::some)) continue;
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
     // Another selection each time, so that together they cover more.
@@ -48,18 +50,18 @@ Finding deepest_sample(const Solid& a, const Solid& b, const RelativeMotion& for
     if (f.depth > best.depth) best = f;
     return false;
   };
-  sample(a, b, forward, backward, false, take);
-  sample(b, a, backward, forward, true, take);
+  sample(a, b, forward, backward, false, SampledTimes::all, take);
+  sample(b, a, backward, forward, true, SampledTimes::all, take);
   return best;
 }
 
 bool sample_beyond(const Solid& a, const Solid& b, const RelativeMotion& forward, const RelativeMotion& backward,
-                   const Limits& limits) {
+                   const Limits& limits, SampledTimes which) {
   const auto beyond = [&](const Finding& f, const Eigen::Vector3d& x) {
     const Solid &of = f.of_second ? b : a, &in = f.of_second ? a : b;
     return f.depth > limits.at(f.thickness) && !limits.exempts(of, f.point, in, x);
   };
-  return sample(a, b, forward, backward, false, beyond) || sample(b, a, backward, forward, true, beyond);
+  return sample(a, b, forward, backward, false, which, beyond) || sample(b, a, backward, forward, true, which, beyond);
 }
 
 }  // namespace dismantle::geometry
