@@ -7,6 +7,7 @@
 
 #include "dismantle/errors.h"
 #include "dismantle/plan_io/animation.h"
+#include "dismantle/plan_io/catch_up.h"
 #include "dismantle/plan_io/page.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/plan_io/write_file.h"
@@ -53,7 +54,7 @@ void Saver::save() {
 void Saver::operator()(const Plan& plan) {
   {
     const std::lock_guard lock(mutex_);
-    latest_ = plan;
+    catch_up(latest_, plan);  // a copy of all would cost the square of the steps
     const auto now = std::chrono::steady_clock::now();
     if (!saved_once_ || when_ == When::every_step || now - saved_ >= std::chrono::seconds(1)) {
       write_file(file_, to_json(plan));
