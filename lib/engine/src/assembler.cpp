@@ -162,12 +162,13 @@ void Assembler::place_groups(Scenery& scenery, const RunContext& context) const 
 /// What lies where another part is put in cannot lie there. Our own layout leaves room; a given one may not.
 void Assembler::clear_ways_in(Scenery& scenery, const RunContext& context) const {
   for (std::size_t i = 0; i < scenery.steps.size(); ++i) {
+    if (context.should_stop()) return;  // no way is looked for any more
     const std::size_t from = scenery.steps[i].from;
     std::vector<PlacedPart> others = scenery.others(i);
     // Those that it passed on its way out are in order: the motion is the same.
     std::erase_if(others, [&](const PlacedPart& p) { return scenery.stand(i + 1, p.part).group == from; });
     const MotionCheck check = verifier_.check_motion(scenery.steps[i].parts, others, scenery.way_in(i), context);
-    if (check.interrupted) return;  // no way is looked for any more
+    if (check.interrupted) return;
     if (check.valid) continue;
     const Violation v = check.violation.value_or(Violation{});
     const PartId id = contains(scenery.steps[i].parts, v.part) ? v.other : v.part;

@@ -249,7 +249,7 @@ double ForcedMotions::thickness(const ForcedMotion& motion, const Vec3& along) {
 
 /// The unit alone, with what is in its way, and with what is firmly in its way.
 void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
-                                 const Vec3& along, std::vector<ForcedMotion>& list) {
+                                 const Vec3& along, std::vector<ForcedMotion>& list, const RunContext& context) {
   std::vector<Placed> sets{unit};
   for (const double most : {options_.blocking_share, options_.firm_share}) {
     std::vector<bool> moves(all.size(), false);
@@ -259,7 +259,8 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
         moves[k] = true;
         open.push_back(k);
       }
-    for (std::size_t k = 0; k < open.size(); ++k)
+    for (std::size_t k = 0; k < open.size(); ++k) {
+      if (context.should_stop()) return;
       for (std::size_t other = 0; other < all.size(); ++other) {
         if (moves[other]) continue;
         double share = 0;
@@ -269,6 +270,7 @@ void ForcedMotions::add_straight(const Placed& unit, const std::vector<Placed>& 
         moves[other] = true;
         open.push_back(other);
       }
+    }
     if (open.size() == all.size()) continue;
     Placed set;
     std::copy_if(group.begin(), group.end(), std::back_inserter(set), [&](const PlacedPart& p) {
@@ -311,10 +313,13 @@ std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const R
   std::vector<ForcedMotion> list;
   for (const Vec3& d : directions(group, Variety::all))
     for (const Placed& unit : all) {
-      if (!list.empty() && context.should_stop()) return list;
-      add_straight(unit, all, group, d, list);
+      if (context.should_stop()) break;
+      add_straight(unit, all, group, d, list, context);
     }
-  for (const Placed& unit : all) add_screws(unit, group, list);
+  for (const Placed& unit : all) {
+    if (context.should_stop()) break;
+    add_screws(unit, group, list);
+  }
   std::stable_sort(list.begin(), list.end(), more_promising);
   return list;
 }
@@ -322,23 +327,35 @@ std::vector<ForcedMotion> ForcedMotions::candidates(const Placed& group, const R
 std::optional<ForcedMotion> ForcedMotions::quick_candidate(const Placed& group, const RunContext& context) {
   std::vector<Placed> leaving = units(group);
   std::erase_if(leaving, [&](const Placed& unit) { return !allowed(unit, group); });
-  struct Best {
-    const Placed* unit = nullptr;
-    Vec3 along = Vec3::Zero();
-    double thickness = 0, length = 0;
-  } best;
   blockers_.set_group(group);
-  for (const Vec3& d : directions(group, Variety::few)) {
-    const DirectionalBlockers::Along along_d = blockers_.along(d);
-    for (const Placed& unit : leaving) {
-      if (context.should_stop()) return std::nullopt;
-      const double thickness = along_d.thickness(unit), length = along_d.length(unit);
-      if (!best.unit || thickness < best.thickness || (thickness == best.thickness && length < best.length))
-        best = {&unit, d, thickness, length};
-    }
+  struct Candidate {
+    const Placed* unit;
+    std::size_t direction;
+    double length;
+  };
+  const std::vector<Vec3> directions = this->directions(group, Variety::few);
+  std::vector<DirectionalBlockers::Along> along;
+  std::vector<Candidate> candidates;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    along.push_back(blockers_.along(directions[d]));
+    for (const Placed& unit : leaving) candidates.push_back({&unit, d, along.back().length(unit)});
+    if (context.should_stop()) return std::nullopt;
   }
-  if (!best.unit) return std::nullopt;
-  return straight(*best.unit, group, best.along);
+  // Of equal thickness the shortest is the best, and nothing is thinner than what is not blocked.
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.length < b.length; });
+  const Candidate* best = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& candidate : candidates) {
+    if (context.should_stop()) return std::nullopt;
+    const double thickness = along[candidate.direction].thickness(*candidate.unit);
+    if (best != nullptr && thickness >= least) continue;
+    best = &candidate;
+    least = thickness;
+    if (least == 0) break;
+  }
+  if (best == nullptr) return std::nullopt;
+  return straight(*best->unit, group, directions[best->direction]);
 }
 
 Path ForcedMotions::path(const ForcedMotion& motion) const {

@@ -86,7 +86,7 @@ class ForcedMotions {
   double reach(const PlacedPart& part, const Eigen::Vector3d& along) const;
   bool allowed(const Placed& moving, const Placed& group) const;
   void add_straight(const Placed& unit, const std::vector<Placed>& all, const Placed& group,
-                    const Eigen::Vector3d& along, std::vector<ForcedMotion>& list);
+                    const Eigen::Vector3d& along, std::vector<ForcedMotion>& list, const RunContext& context);
   void add_screws(const Placed& unit, const Placed& group, std::vector<ForcedMotion>& list);
   ForcedMotion straight(const Placed& moving, const Placed& group, const Eigen::Vector3d& along);
   double distance_apart(const ForcedMotion& motion, const Eigen::Vector3d& along) const;

@@ -19,7 +19,7 @@ struct ForceOptions {
   double share = 0.15;
   double verified_share = 0.25;
   double quick_margin = 2;
-  double overtime = 1;  ///< seconds
+  double overtime = 0.5;  ///< seconds
 
   unsigned directions = 26;
   unsigned part_axes = 6;
