@@ -24,6 +24,7 @@ StraightMotion::StraightMotion(DisassemblyState& state, PathOracle& oracle, cons
 
 void StraightMotion::on_group_changed(GroupState&, const GroupChange& change) {
   refused_.clear();
+  keep_far_ends(change);
   if (change.moves_remaining())  // remembered blockers may have moved away
     for (auto& known : blocker_) known.clear();
   else
@@ -146,14 +147,31 @@ const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, s
       const double end =
           relations_.extent(id, direction, state_.orientation(id)).second + state_.pose(id).t.dot(d);
       if (end > far.end) {
-        if (u != far.farthest) far.of_others = far.end;
+        if (u != far.farthest) {
+          far.next = far.farthest;
+          far.next_end = far.end;
+        }
         far.farthest = u;
         far.end = end;
-      } else if (u != far.farthest) {
-        far.of_others = std::max(far.of_others, end);
+      } else if (u != far.farthest && end > far.next_end) {
+        far.next = u;
+        far.next_end = end;
       }
     }
   return far;
+}
+
+/// What has left was rarely at an end: the ends of the rest stay what they were.
+void StraightMotion::keep_far_ends(const GroupChange& change) {
+  const std::size_t moved = state_.parts_of(change.moved).size();
+  if (change.kind != GroupChange::Kind::removed || far_ends_.arrangement + moved != state_.arrangement()) return;
+  const auto has_left = [&](SubassemblyId u) {
+    return std::find(change.moved.begin(), change.moved.end(), u) != change.moved.end();
+  };
+  far_ends_.arrangement = state_.arrangement();
+  std::erase_if(far_ends_.members, has_left);
+  std::erase_if(far_ends_.by_direction,
+                [&](const auto& entry) { return has_left(entry.second.farthest) || has_left(entry.second.next); });
 }
 
 double StraightMotion::path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
@@ -165,7 +183,7 @@ double StraightMotion::path_length(const GroupState& group, const Subassemblies&
       ours = std::min(ours, relations_.extent(id, direction, state_.orientation(id)).first + state_.pose(id).t.dot(d));
   if (ids.size() == 1) {
     const FarEnd& far = far_end(group, direction);
-    theirs = far.farthest == ids.front() ? far.of_others : far.end;
+    theirs = far.farthest == ids.front() ? far.next_end : far.end;
   } else {
     for (const SubassemblyId u : group.members) {
       if (std::find(ids.begin(), ids.end(), u) != ids.end()) continue;

@@ -73,11 +73,12 @@ class StraightMotion final : public GroupListener {
   std::vector<Pair> pairs_of(SubassemblyId moving, SubassemblyId fixed, std::size_t direction) const;
   double path_length(const GroupState& group, const Subassemblies& ids, std::size_t direction,
                      const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const;
-  /// How far a group reaches along a direction, in the assembly's frame: its farthest subassembly, and all others.
+  /// How far a group reaches along a direction, in the assembly's frame: its farthest subassembly, and the next.
   struct FarEnd {
-    SubassemblyId farthest = 0;
-    double end = -std::numeric_limits<double>::infinity(), of_others = end;
+    SubassemblyId farthest = 0, next = 0;
+    double end = -std::numeric_limits<double>::infinity(), next_end = end;
   };
+  void keep_far_ends(const GroupChange& change);
   const FarEnd& far_end(const GroupState& group, std::size_t direction) const;
   std::vector<std::size_t> own_directions(SubassemblyId id) const;
   std::pair<std::optional<SubassemblyId>, std::vector<Pair>> examine(const GroupState& group, SubassemblyId id,

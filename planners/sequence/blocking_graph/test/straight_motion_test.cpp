@@ -1,0 +1,102 @@
+// What StraightMotion keeps from one question to the next does not change its answers.
+#include "blocking_graph/straight_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dismantle/testing/fake_planning.h"
+
+namespace dismantle::blocking {
+namespace {
+
+/// Accepts every path that is proposed.
+class AcceptingOracle final : public PathOracle {
+ public:
+  const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
+  void prefetch(std::span<const Attempt>, RunContext&) override {}
+  const AttemptResult& propose(const Attempt& attempt, const Path& path, RunContext&) override {
+    AttemptResult& answer = answers_.emplace_back();
+    answer.attempt = attempt;
+    answer.result.solve(*checker_.check(path).verified, 1);
+    return answer;
+  }
+  OracleCounts counts() const override { return {}; }
+  double tolerance() const override { return 0.01; }
+
+ private:
+  class Checker final : public PathChecker {
+   public:
+    PathCheck check(const Path& path) const override {
+      PathCheck answer;
+      answer.verified = accept(path, 0);
+      return answer;
+    }
+  };
+  Checker checker_;
+  std::deque<AttemptResult> answers_;
+};
+
+class Observer final : public SequenceObserver {
+  void removed(const Removal&, std::size_t) override {}
+};
+
+/// Boxes of any size, in and out of reach of each other.
+Assembly any_boxes(Rng& rng) {
+  std::vector<std::pair<std::string, std::vector<fake::Box>>> parts;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector3d lo(rng.uniform(0, 20), rng.uniform(0, 20), rng.uniform(0, 20));
+    const Eigen::Vector3d size(rng.uniform(0.5, 4), rng.uniform(0.5, 4), rng.uniform(0.5, 4));
+    parts.push_back({"box_" + std::to_string(k), {{lo, lo + size}}});
+  }
+  return fake::assembly_of(parts);
+}
+
+/// Parts leave alone and together, and are translated within their group; of any group, whichever was asked about last.
+TEST(StraightMotion, DirectionsAreThoseOfOneThatKnowsNothing) {
+  Rng rng(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Assembly assembly = any_boxes(rng);
+    AcceptingOracle oracle;
+    Observer observer;
+    const Constraints constraints;
+    RunContext context;
+    DisassemblyState state(assembly, constraints, {}, PartOrder::as_given, observer, context);
+    const PairSweep sweep(assembly, oracle);
+    StraightMotion kept(state, oracle, sweep, directions_of(assembly));
+    state.add_listener(kept);
+    while (!state.waiting().empty()) {
+      GroupState group = state.waiting().front();
+      state.waiting().pop_front();
+      while (group.members.size() > 1) {
+        StraightMotion fresh(state, oracle, sweep, directions_of(assembly));
+        for (std::uint64_t asked = rng.below(2 * group.members.size()); asked > 0; --asked) {
+          const SubassemblyId id = group.members[rng.below(group.members.size())];
+          ASSERT_EQ(kept.directions_of(group, id), fresh.directions_of(group, id)) << trial;
+          ASSERT_EQ(kept.length_out(group, {id}, 0), fresh.length_out(group, {id}, 0)) << trial;
+        }
+        Subassemblies ids{group.members[rng.below(group.members.size())]};
+        if (const SubassemblyId other = group.members[rng.below(group.members.size())];
+            other != ids[0] && group.members.size() > 2)
+          ids = {std::min(ids[0], other), std::max(ids[0], other)};
+        const bool stays = rng.below(3) == 0;
+        Attempt attempt = state.attempt_for(group, ids);
+        attempt.goal.placement = stays;
+        Path path(2);
+        const Eigen::Vector3d shift(rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-9, 9));
+        for (const PlacedPart& p : attempt.moving) {
+          path[0].push_back(p.pose);
+          path[1].push_back({p.pose.t + shift, p.pose.q});
+        }
+        state.commit(group, ids, attempt, oracle.propose(attempt, path, context),
+                     stays ? GroupChange::Kind::translated : GroupChange::Kind::removed);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dismantle::blocking
