@@ -3,7 +3,7 @@
 
     tools/sensitivity.py -o sensitivity             # samples, and assemblies of $DISMANTLE_DATA if it is set
     tools/sensitivity.py -o sensitivity --random 200 --only sequence_planner.
-    tools/sensitivity.py -o sensitivity --table     # the table of what has been run so far, as Markdown
+    tools/sensitivity.py -o sensitivity --table > docs/parameters.md  # what has been run so far, as Markdown
 
 A switch is turned. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
 OUT/runs.jsonl: a run that is there is not made again, so that the work can be ended and resumed at any time. Random
@@ -29,6 +29,17 @@ SEARCH_ONLY = ("path_planner.", "simulator.")
 ALWAYS_LEFT_OUT = {  # what the user asks for, or what matters under a time limit only
     "verify.max_penetration", "immobility.deadline_share", "force.share", "force.verified_share", "force.quick_margin",
     "force.overtime"}
+
+HEAD = """# Parameters and how much plans depend on them
+
+What becomes of plans when one parameter is halved or doubled, or a switch is turned, and all others have their defaults. What each parameter
+means, with its unit and range, is in [reference/](reference/README.md). Made by `tools/sensitivity.py`, on %d assemblies: samples as they are and
+with random dimensions and rotations, and those of the data folder that take little time.
+
+*assemblies*: on how many the value was tried (of parameters of searches: those where something is searched for). *lost*, *gained*: on how many
+fewer or more parts came out without force. *other plan*: on how many any path differs. *CPU time*: of all of them together, as a ratio to that with the
+defaults; below half a second in all it is mostly noise.
+"""
 
 
 def call(command, seconds=None):
@@ -168,6 +179,7 @@ def write_table(runs):
     for (key, label, assembly), run in runs.items():
         if key and assembly in base:
             rows.setdefault((key, run["default"]), collections.OrderedDict()).setdefault(label, []).append((base[assembly], run))
+    print(HEAD % len(base))
     print("| parameter | default | value | assemblies | lost | gained | other plan | CPU time |")
     print("|---|---|---|---|---|---|---|---|")
     nothing = []

@@ -66,7 +66,8 @@ class DISMANTLE_API PathOracle {
   virtual ~PathOracle();
   /// Reference stays valid for the life of the oracle.
   /// @throws std::invalid_argument when the attempt makes no sense: no part moves, a part is unknown or listed twice,
-  /// or one of the goal does not move.
+  /// or one of the goal does not move. @throws Error when the simulator cannot prepare the parts, which is asked of it
+  /// before the first search; the run ends with that error.
   virtual const AttemptResult& attempt(const Attempt& attempt, RunContext& context) = 0;
   /// Hint: these will probably be asked for, in this order. Replaces earlier hints that were not begun.
   virtual void prefetch(std::span<const Attempt> attempts, RunContext& context) = 0;

@@ -147,6 +147,7 @@ class DISMANTLE_API Simulator {
   virtual ~Simulator();
   virtual Capabilities capabilities() const noexcept = 0;
   /// `tolerance`: penetration above the initial overlap that the verifier lets pass, assembly units.
+  /// A run calls it when it first needs a world: not at all where no search is made.
   /// @throws InputError naming the part that cannot be used.
   virtual std::shared_ptr<const PreparedAssembly> prepare(const Assembly& assembly, double tolerance,
                                                           RunContext& context) = 0;

@@ -86,10 +86,10 @@ struct Assembler::Way {
   std::vector<std::pair<LogLevel, std::string>> log;
 };
 
-Assembler::Assembler(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
+Assembler::Assembler(const Assembly& assembly, const DeferredSimulator& simulator, const PlanningSetup& setup,
                      const RunOptions& options, const Verifier& verifier)
     : assembly_(assembly),
-      prepared_(prepared),
+      simulator_(simulator),
       setup_(setup),
       options_(options),
       verifier_(verifier),
@@ -250,8 +250,8 @@ Assembler::Way Assembler::transfer(const Scenery& scenery, std::size_t i, Transf
 
   const Checker checker(*this, scene, goal, own);
   const TransferQuery query{assembly_,
-                            *setup_.simulator,
-                            prepared_,
+                            simulator_,
+                            nothing_,
                             scene,
                             goal,
                             options_.layout.up_axis(),

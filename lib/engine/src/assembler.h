@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "deferred_simulator.h"
 #include "dismantle/engine/run.h"
 #include "path_normalizer.h"
 #include "plan_builder.h"
@@ -26,7 +27,7 @@ struct AssemblyPlan {
 class Assembler {
  public:
   /// All references must outlive the assembler.
-  Assembler(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
+  Assembler(const Assembly& assembly, const DeferredSimulator& simulator, const PlanningSetup& setup,
             const RunOptions& options, const Verifier& verifier);
 
   /// `written` are the same steps as the plan has them.
@@ -45,7 +46,8 @@ class Assembler {
   Aabb box_of(PartId part, const Pose& pose) const;
 
   const Assembly& assembly_;
-  const PreparedAssembly& prepared_;
+  const DeferredSimulator& simulator_;
+  const PreparedAssembly nothing_;  // the simulator prepares by itself
   const PlanningSetup& setup_;
   const RunOptions& options_;
   const Verifier& verifier_;

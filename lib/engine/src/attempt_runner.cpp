@@ -89,10 +89,12 @@ class AttemptRunner::Checker final : public PathChecker {
 };
 
 AttemptRunner::AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
-                             const RunOptions& options, const Verifier& verifier, const Rng& rng)
+                             const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
+                             const Rng& rng)
     : assembly_(assembly),
       prepared_(prepared),
-      simulator_(*setup.simulator),
+      deferred_(deferred),
+      simulator_(deferred != nullptr ? static_cast<const Simulator&>(*deferred) : *setup.simulator),
       verifier_(verifier),
       planner_id_(setup.path_planner_id),
       path_timeout_(options.path_timeout),
@@ -212,13 +214,30 @@ PathResult AttemptRunner::plan(PathPlanner& planner, const Attempt& attempt, con
   return run_to_end(*search);
 }
 
+/// Can worlds be made? If not, says why.
+bool AttemptRunner::is_prepared(const RunContext& context, PathResult& result) const {
+  try {
+    if (deferred_ == nullptr || deferred_->ready(context)) return true;
+    result.fail(context.cancel.cancelled() ? Outcome::cancelled : Outcome::timeout,
+                "the run was stopped before the parts were prepared");
+  } catch (const Error& e) {  // the run ends with this error
+    result.fail(Outcome::crashed, e.what());
+  }
+  return false;
+}
+
 ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt, const AttemptKey& key,
                                    const AttemptResult* resumed, const std::vector<SearchPause>& pauses,
                                    const RunContext& context) const {
-  const Clock::time_point begin = Clock::now();
   ComputedAttempt computed;
   AttemptResult& answer = computed.answer;
   PathResult& result = answer.result;
+  const bool nothing_left = attempt.fixed.empty() && attempt.goal.any_of.empty();
+  if (!nothing_left && !is_prepared(context, result)) {  // which is not the attempt's time
+    computed.interrupted = context.should_stop();
+    return computed;
+  }
+  const Clock::time_point begin = Clock::now();
   RunContext own = context;
   own.rng = rng_.fork(stream_of(key));
   if (path_timeout_ > 0) own.deadline = context.deadline.earlier(Deadline::after_seconds(path_timeout_));
@@ -226,7 +245,7 @@ ComputedAttempt AttemptRunner::run(PathPlanner& planner, const Attempt& attempt,
   const Checker checker(*this, attempt, context);
   bool false_claim = false;  // of a success: the planner's fault, however late it comes
   try {
-    if (attempt.fixed.empty() && attempt.goal.any_of.empty()) {
+    if (nothing_left) {
       result.start_is_goal();  // nothing left to be apart from
     } else {
       result = plan(planner, attempt, resumed, own, checker, pauses, answer);

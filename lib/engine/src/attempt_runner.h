@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "attempt_key.h"
+#include "deferred_simulator.h"
 #include "dismantle/engine/run.h"
 #include "dismantle/path_oracle.h"
 #include "path_normalizer.h"
@@ -28,9 +29,11 @@ struct ComputedAttempt {
 /// Immutable after construction; run() may be called from several threads, with one planner each.
 class AttemptRunner {
  public:
-  /// All references must outlive the runner. `rng` is the run's generator.
+  /// All references must outlive the runner. `deferred`: null, or what prepares the parts before the first search.
+  /// `rng` is the run's generator.
   AttemptRunner(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
-                const RunOptions& options, const Verifier& verifier, const Rng& rng);
+                const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
+                const Rng& rng);
 
   /// `attempt` is canonical and `key` belongs to it. The deadline of `context` is that of the run; the time limit of
   /// the attempt is added here. `resumed`: null, or the answer of the search that this one resumes. A proof of
@@ -50,10 +53,12 @@ class AttemptRunner {
                   const Checker& checker, const std::vector<SearchPause>& pauses, AttemptResult& answer) const;
   std::optional<PartId> first_out(const Attempt& attempt, const std::vector<PlacedPart>& group) const;
   void explain(const MotionCheck& motion, const NormalizedPath& written, PathCheck& answer) const;
+  bool is_prepared(const RunContext& context, PathResult& result) const;
   std::string lacking(const Capabilities& needs, std::size_t moving) const;
 
   const Assembly& assembly_;
   const PreparedAssembly& prepared_;
+  const DeferredSimulator* deferred_;
   const Simulator& simulator_;
   const Verifier& verifier_;
   std::string planner_id_;

@@ -204,11 +204,11 @@ std::size_t ForceSteps::steps_left() const {
   return std::max<std::size_t>(1, steps);
 }
 
-void ForceSteps::run(bool searches, RunContext& context) {
+void ForceSteps::run(RunContext& context) {
   ForceBudget budget(context.deadline, options_.force);
   for (const Placed& group : builder_.open_groups()) tried_.insert(ids_of_placed(group));
   while (!context.cancel.cancelled() && !builder_.fulfilled() && force_one(budget, context))
-    if (searches && !builder_.fulfilled()) take_apart(budget, context);
+    if (!builder_.fulfilled()) take_apart(budget, context);
 }
 
 }  // namespace dismantle

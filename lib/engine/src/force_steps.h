@@ -24,9 +24,8 @@ class ForceSteps {
   /// Until nothing is left to take apart, or cancelled: forces the part or group out that cuts in least above what it
   /// overlaps when assembled, then removes what verified paths are found for. Without a deadline the result depends on
   /// nothing but the question. With one, motions are compared as long as there is time, and each part that is left then
-  /// still gets a step, of the most promising motion among few, as far as ForceBudget::for_all() allows. `searches`:
-  /// false when no world was prepared for searches, so that none are made.
-  void run(bool searches, RunContext& context);
+  /// still gets a step, of the most promising motion among few, as far as ForceBudget::for_all() allows.
+  void run(RunContext& context);
 
  private:
   /// A motion and how deep it cuts in; `exact`: measured to its end.

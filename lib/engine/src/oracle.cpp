@@ -34,12 +34,14 @@ void check(const PlanningSetup& setup) {
 }  // namespace
 
 Oracle::Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
-               const RunOptions& options, const Verifier& verifier, const RunContext& context)
+               const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
+               const RunContext& context)
     : part_count_((check(setup), assembly.parts.size())),
+      deferred_(deferred),
       verifier_(verifier),
       constraints_(options.constraints),
       make_planner_(setup.path_planner),
-      runner_(assembly, prepared, setup, options, verifier, context.rng),
+      runner_(assembly, prepared, setup, deferred, options, verifier, context.rng),
       proofs_(assembly, verifier, setup.provers, options.proofs, context),
       computed_ahead_(context.threads > 1 ? context.executor : nullptr, Executor::Priority::idle) {}
 
@@ -172,6 +174,7 @@ const AttemptResult& Oracle::attempt(const Attempt& attempt, RunContext& context
   }
   const auto compute_it = [&](const RunContext& c) { return compute(question, c); };
   LoggedAttempt logged = computed_ahead_.get(question.key, compute_it, context);
+  if (deferred_ != nullptr) deferred_->rethrow_failure();  // every other search would fail alike
   for (const auto& line : logged.log) context.log(line.level, line.text);
   ComputedAttempt& computed = logged.computed;
   if (!attempt.resume) computed.answer.result.state = nullptr;
@@ -262,7 +265,7 @@ SearchEffort Oracle::effort_on(PartId part) const {
 std::unique_ptr<PathOracle> make_oracle(const Assembly& assembly, const PreparedAssembly& prepared,
                                         const PlanningSetup& setup, const RunOptions& options, const Verifier& verifier,
                                         RunContext& context) {
-  return std::make_unique<Oracle>(assembly, prepared, setup, options, verifier, context);
+  return std::make_unique<Oracle>(assembly, prepared, setup, nullptr, options, verifier, context);
 }
 
 }  // namespace dismantle

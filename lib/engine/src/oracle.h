@@ -37,7 +37,8 @@ struct SearchEffort {
 class Oracle final : public PathOracle {
  public:
   Oracle(const Assembly& assembly, const PreparedAssembly& prepared, const PlanningSetup& setup,
-         const RunOptions& options, const Verifier& verifier, const RunContext& context);
+         const DeferredSimulator* deferred, const RunOptions& options, const Verifier& verifier,
+         const RunContext& context);
 
   const AttemptResult& attempt(const Attempt& attempt, RunContext& context) override;
   void prefetch(std::span<const Attempt> attempts, RunContext& context) override;
@@ -84,6 +85,7 @@ class Oracle final : public PathOracle {
   const AttemptResult& keep(AttemptResult result);
 
   std::size_t part_count_;
+  const DeferredSimulator* deferred_;
   const Verifier& verifier_;
   Constraints constraints_;
   std::function<std::shared_ptr<PathPlanner>()> make_planner_;

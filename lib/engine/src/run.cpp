@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "assembler.h"
+#include "deferred_simulator.h"
 #include "dismantle/errors.h"
 #include "dismantle/executor.h"
 #include "force_steps.h"
@@ -49,25 +50,6 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
   std::string names;
   for (const auto& part : assembly.parts) names += (names.empty() ? "'" : ", '") + part.name + "'";
   throw InputError(assembly.source, fmt::format("has no part '{}'; its parts are {}", name, names));
-}
-
-/// Nothing when the run was stopped meanwhile.
-std::shared_ptr<const PreparedAssembly> prepare(Simulator& simulator, const Assembly& assembly, double tolerance,
-                                                RunContext& context) {
-  std::shared_ptr<const PreparedAssembly> prepared;
-  try {
-    prepared = simulator.prepare(assembly, tolerance, context);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& e) {
-    if (!context.should_stop()) throw PluginError("simulator", fmt::format("preparing the parts failed: {}", e.what()));
-    context.log(LogLevel::debug, fmt::format("preparing the parts was stopped: {}", e.what()));
-  } catch (...) {
-    throw PluginError("simulator", "preparing the parts threw something that is not a std::exception");
-  }
-  if (context.should_stop()) return nullptr;
-  if (!prepared) throw PluginError("simulator", "preparing the parts gave nothing");
-  return prepared;
 }
 
 /// Books each removal as it comes and passes the plan so far on.
@@ -164,15 +146,15 @@ void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left
 }
 
 /// Where a part that is left touches others at its best pose, as the simulator sees it.
-ContactsOf contacts_of(const Assembly& assembly, const PreparedAssembly& prepared, const Simulator& simulator,
-                       const PlanBuilder& builder, const RunContext& context) {
+ContactsOf contacts_of(const Assembly& assembly, const DeferredSimulator& simulator, const PlanBuilder& builder,
+                       const RunContext& context) {
   if (!simulator.capabilities().contacts) return {};
   return [&](PartId part, const Pose& at) {
     std::vector<Contact> deepest;
     if (context.should_stop()) return deepest;
     try {
       const Scene scene{{{part, at}}, builder.around(part)};
-      const std::unique_ptr<World> world = simulator.world(assembly, prepared, scene, MotionSpace::rigid);
+      const std::unique_ptr<World> world = simulator.world(assembly, PreparedAssembly{}, scene, MotionSpace::rigid);
       std::vector<Contact> all;
       world->contacts(world->initial_state(), all);
       std::ranges::stable_sort(all, [](const Contact& a, const Contact& b) {
@@ -235,30 +217,27 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   if (own.threads > 1 && !own.executor) own.executor = std::make_shared<Executor>(own.threads);
 
   RunResult result;
-  Clock::time_point begin = Clock::now();
-  const std::shared_ptr<const PreparedAssembly> prepared =
-      prepare(*setup.simulator, assembly, options.verify.max_penetration, own);
-  result.prepare_seconds = seconds_since(begin);
-
-  begin = Clock::now();
+  const Clock::time_point begin = Clock::now();
+  const DeferredSimulator simulator(*setup.simulator, assembly, options.verify.max_penetration, own);
   RunContext whole = own;  // forced steps need the verifier, too
   whole.deadline = context.deadline;
   const Verifier verifier(assembly, options.verify, whole);
-  struct Nothing final : PreparedAssembly {};
-  const Nothing nothing;
+  const PreparedAssembly nothing;
   if (only_one) own.threads = 1;  // there is nothing to work ahead on, and the planner's progress gets through
-  Oracle oracle(assembly, prepared ? *prepared : nothing, setup, options, verifier, own);
+  Oracle oracle(assembly, nothing, setup, &simulator, options, verifier, own);
   PlanBuilder builder(assembly, oracle, options, setup.path_planner_id);
   RemovalRecorder recorder(builder, on_step, own);
   SequenceResult sequence;
-  if (!prepared)
+  if (own.should_stop())
     sequence.outcome = why_stopped(own);
   else if (only_one)
     sequence = plan_one(assembly, part, oracle, recorder, own);
   else
     sequence = plan_sequence(assembly, *setup.sequence_planner, oracle, recorder, own);
+  simulator.rethrow_failure();
+  if (simulator.was_stopped()) sequence.outcome = why_stopped(own);
 
-  const ContactsOf places = prepared ? contacts_of(assembly, *prepared, *setup.simulator, builder, own) : ContactsOf{};
+  const ContactsOf places = contacts_of(assembly, simulator, builder, own);
   result.outcome = sequence.outcome;
   result.sequence_counts = sequence.counts;
   if (only_one) {
@@ -277,19 +256,20 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
     own.deadline = context.deadline;
     if (forces && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
       ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options)
-          .run(prepared != nullptr, own);
+          .run(own);
+      simulator.rethrow_failure();
       if (builder.fulfilled() && builder.forced() == 0) result.outcome = Outcome::solved;
       builder.drop_solved();
     }
   }
   AssemblyPlan back;
   const bool puts_together =
-      prepared && setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
+      setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
   const auto put_together = [&] {
     if (!puts_together) return;
     RunContext putting = own;
     putting.rng = Rng(options.seed).fork(transfer_stream);
-    back = Assembler(assembly, *prepared, setup, options, verifier)
+    back = Assembler(assembly, simulator, setup, options, verifier)
                .put_together(builder.recorded(), builder.plan().disassembly, putting);
   };
   std::vector<std::vector<std::size_t>> needed;
@@ -305,7 +285,9 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
   result.plan = builder.plan();
   result.counts = oracle.counts();
   result.planner_counts = oracle.planner_counts();
-  result.plan_seconds = seconds_since(begin);
+  simulator.rethrow_failure();  // of a transfer
+  result.prepare_seconds = simulator.seconds();
+  result.plan_seconds = seconds_since(begin) - result.prepare_seconds;
   result.proof_seconds = oracle.proof_seconds();
   return result;
 }

@@ -33,7 +33,6 @@ std::vector<std::vector<PlanStepOverlap>> step_overlaps(const std::vector<Record
         const bool moves_along = std::find(step.parts.begin(), step.parts.end(), other) != step.parts.end();
         if (moves_along || group[other] != step.from) continue;
         MotionDepthOptions options;
-        options.absolute = verifier.options().max_penetration;
         options.at_most = o->allowed() + verifier.options().max_penetration;  // the step has been verified
         const auto found = meter.deepest({part}, {{other, poses[other]}}, column, options, context, true);
         if (!found || found->depth <= 0) continue;

@@ -112,8 +112,10 @@ MotionDepthMeter::~MotionDepthMeter() = default;
 
 std::optional<MotionDepth> MotionDepthMeter::deepest(const std::vector<PartId>& moving,
                                                      const std::vector<PlacedPart>& fixed, const Path& path,
-                                                     const MotionDepthOptions& options, const RunContext& context,
+                                                     const MotionDepthOptions& wanted, const RunContext& context,
                                                      bool valid_ones) {
+  MotionDepthOptions options = wanted;
+  if (options.absolute <= 0) options.absolute = impl_->verifier.options().max_penetration;
   std::optional<MotionDepth> worst;
   bool proved = true;
   for (std::size_t i = 0; i < moving.size(); ++i) {

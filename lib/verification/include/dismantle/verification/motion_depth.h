@@ -26,8 +26,8 @@ struct MotionDepth {
 
 /// How exactly depths along a motion are measured.
 struct MotionDepthOptions {
-  double absolute = 0.01;                                       ///< assembly units, > 0: resolution of the answer ...
-  double relative = 0.05;                                       ///< ... or this share of the depth, whichever is more
+  double absolute = 0;     ///< assembly units: resolution of the answer; 0: VerifyOptions::max_penetration
+  double relative = 0.05;  ///< or this share of the depth, whichever is more
   double stop_above = std::numeric_limits<double>::infinity();  ///< an excess beyond this need not be exact
   std::uint64_t most_poses = 4000;                              ///< poses measured per pair; then not `proved`
   /// Assembly units: no pair is deeper than this on the path, as another check has proved. Measuring ends where no
