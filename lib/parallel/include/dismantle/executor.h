@@ -16,8 +16,8 @@ namespace dismantle {
 
 /// A work-sharing thread pool. At most `threads` threads run at the same time; each running thread holds one slot, and
 /// the thread that creates the executor holds the first. A thread that waits for a task releases its slot meanwhile.
-/// Scheduling is nondeterministic, and a task may never be started, so no result may depend on which thread runs a task, or when:
-/// callers run a task themselves if no thread has begun it.
+/// Scheduling is nondeterministic, and a task may never be started, so no result may depend on which thread runs a
+/// task, or when: callers run a task themselves if no thread has begun it.
 class DISMANTLE_API Executor {
   struct Task;
   struct Pool;
@@ -96,8 +96,8 @@ class DISMANTLE_API Executor {
   std::shared_ptr<Pool> pool_;
 };
 
-/// For long work that may turn out not to be needed (RunContext::speculative): waits while a thread of the executor does
-/// something more urgent (Executor::PauseScope). Else nothing.
+/// For long work that may turn out not to be needed (RunContext::speculative): waits while a thread of the executor
+/// does something more urgent (Executor::PauseScope). Else nothing.
 DISMANTLE_API void pause_point(const RunContext& context);
 
 namespace detail {
@@ -108,7 +108,9 @@ class SharedLoop {
  public:
   SharedLoop(std::size_t n, Work& work, Stop& stop) : n_(n), work_(work), stop_(stop), errors_(n) {}
   void run() {
-    for (std::size_t i = next_++; i < n_ && !stop_(); i = next_++) {
+    while (!stop_()) {  // before an index is taken: what is taken is done, so all indices below it are
+      const std::size_t i = next_++;
+      if (i >= n_) return;
       try {
         work_(i);
       } catch (...) {
@@ -132,8 +134,9 @@ class SharedLoop {
 }  // namespace detail
 
 /// Calls work(i) for i in [0, n) in ascending order of beginning, on the calling thread and on idle threads of the
-/// executor (null: none), until stop(), which is called from all of them. Of several exceptions the one with the lowest
-/// index is thrown, after the loop; it does not end the loop.
+/// executor (null: none), until stop(), which is called from all of them. All indices below one for which work() was
+/// called have been worked on, too. Of several exceptions the one with the lowest index is thrown, after the loop; it
+/// does not end the loop.
 template <class Work, class Stop>
 void parallel_for(std::size_t n, Executor* executor, Work&& work, Stop&& stop) {
   detail::SharedLoop loop(n, work, stop);
