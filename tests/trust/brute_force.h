@@ -1,7 +1,8 @@
-/// Penetration by brute force, sharing nothing with the verifier: points on one surface, a ray through every triangle of the
-/// other to tell inside from outside, and the distance to every triangle.
+/// Penetration by brute force, sharing nothing with the verifier: points on one surface, a ray through every triangle
+/// of the other to tell inside from outside, and the distance to every triangle.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,24 +28,53 @@ inline std::vector<Vec3> surface_points(const Mesh& mesh, double spacing) {
   return points;
 }
 
-/// Parity of the crossings of a ray. Its direction is no ratio of small numbers: a ray from a lattice point must not meet an
-/// edge between two triangles, where it would count twice or not at all.
-inline bool inside(const Vec3& p, const Mesh& mesh) {
-  const Vec3 d = Vec3(0.31415926535, 0.57721566490, 0.75487766624).normalized();
-  int crossings = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.vertex(t, 0), u = mesh.vertex(t, 1) - a, v = mesh.vertex(t, 2) - a, h = d.cross(v);
+/// Inside or outside of a mesh, by the parity of the crossings of a ray. Its direction is no ratio of small numbers: a
+/// ray from a lattice point must not meet an edge between two triangles, where it would count twice or not at all.
+class RayParity {
+ public:
+  explicit RayParity(const Mesh& mesh) : mesh_(mesh), across_(direction().unitOrthogonal()) {
+    const Vec3 second = direction().cross(across_);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      Box box;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 v = mesh.vertex(t, k);
+        const Eigen::Vector2d shadow(v.dot(across_), v.dot(second));
+        box.extend(Box(shadow.array() - kSlack, shadow.array() + kSlack));
+      }
+      shadows_.push_back(box);
+    }
+  }
+
+  bool inside(const Vec3& p) const {
+    const Vec3 d = direction();
+    const Eigen::Vector2d shadow(p.dot(across_), p.dot(d.cross(across_)));
+    int crossings = 0;
+    for (std::size_t t = 0; t < shadows_.size(); ++t)
+      if (shadows_[t].contains(shadow)) crossings += crosses(p, d, t) ? 1 : 0;
+    return crossings % 2 == 1;
+  }
+
+ private:
+  using Box = Eigen::AlignedBox2d;
+  static constexpr double kSlack = 1e-6;  // far above rounding: no triangle that the ray meets is left out
+
+  static Vec3 direction() { return Vec3(0.31415926535, 0.57721566490, 0.75487766624).normalized(); }
+
+  bool crosses(const Vec3& p, const Vec3& d, std::size_t t) const {
+    const Vec3 a = mesh_.vertex(t, 0), u = mesh_.vertex(t, 1) - a, v = mesh_.vertex(t, 2) - a, h = d.cross(v);
     const double det = u.dot(h);
-    if (std::abs(det) < 1e-300) continue;
+    if (std::abs(det) < 1e-300) return false;
     const double x = (p - a).dot(h) / det;
-    if (x < 0 || x > 1) continue;
+    if (x < 0 || x > 1) return false;
     const Vec3 q = (p - a).cross(u);
     const double y = d.dot(q) / det;
-    if (y < 0 || x + y > 1) continue;
-    crossings += v.dot(q) / det > 0 ? 1 : 0;
+    return y >= 0 && x + y <= 1 && v.dot(q) / det > 0;
   }
-  return crossings % 2 == 1;
-}
+
+  const Mesh& mesh_;
+  Vec3 across_;
+  std::vector<Box> shadows_;  // of the triangles, along the ray
+};
 
 inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 d = b - a;
@@ -66,14 +96,16 @@ inline double distance_to_surface(const Vec3& p, const Mesh& mesh) {
   return best;
 }
 
-/// Deepest of the points of one part in another; a lower bound of the depth. `relative` takes them to the other's frame.
+/// Deepest of the points of one part in another; a lower bound of the depth. `relative` takes them to the other's
+/// frame.
 inline double deepest_of(const std::vector<Vec3>& points, const Pose& relative, const Mesh& other) {
   const Aabb box = other.box();
+  const RayParity parity(other);
   double depth = 0;
   for (const Vec3& at : points) {
     const Vec3 p = relative * at;
     if ((p - box.lo).minCoeff() <= depth || (box.hi - p).minCoeff() <= depth) continue;  // no deeper than found
-    if (inside(p, other)) depth = std::max(depth, distance_to_surface(p, other));
+    if (parity.inside(p)) depth = std::max(depth, distance_to_surface(p, other));
   }
   return depth;
 }
