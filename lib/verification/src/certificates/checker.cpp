@@ -62,10 +62,10 @@ std::string objection(const Checker& checker, const Certificate& certificate, co
     if (!std::all_of(found->second.begin(), found->second.end(), [](double x) { return std::isfinite(x); }))
       return fmt::format("the number '{}' is not finite", list.name);
   }
-  for (const auto& [name, numbers] : certificate.numbers)
+  for (const auto& numbers : certificate.numbers)
     if (std::none_of(checker.numbers.begin(), checker.numbers.end(),
-                     [&](const NumberList& l) { return l.name == name; }))
-      return fmt::format("the number '{}' is no part of the proof", name);
+                     [&](const NumberList& l) { return l.name == numbers.first; }))
+      return fmt::format("the number '{}' is no part of the proof", numbers.first);
   return checker.objection(certificate, query, context);
 }
 
