@@ -73,6 +73,15 @@ Assembly cased(Rng& rng, bool held) {
   return placed({c.block(), c.around()}, rng);
 }
 
+/// A block in a case, whose opening is narrower than the block, or wide enough for it.
+Assembly rimmed(Rng& rng, bool held) {
+  const shapes::Cased c{{rng.uniform(0.4, 0.7), rng.uniform(0.3, 0.5), rng.uniform(0.3, 0.5)},
+                        rng.uniform(0.005, 0.02),
+                        held ? rng.uniform(0.08, 0.15) : -rng.uniform(0, 0.01),
+                        0.15};
+  return placed({c.block(), c.around()}, rng);
+}
+
 /// A ring in a can, one of whose openings may let it out.
 Assembly canned(Rng& rng, bool held) {
   const double radius = rng.uniform(0.6, 0.9), below = radius * rng.uniform(0.1, 0.75);
@@ -134,6 +143,13 @@ const std::vector<Kind>& kinds() {
        {scaled("width", 0, 0.999), shifted("hole", 3), shifted("first_bend", 3), shifted("second_bend", 3),
         scaled("path", 1.2, 2), scaled("steps", 10, 20), scaled("points", 10, 20)},
        0.01,
+       4},
+      {"configuration_cells",
+       rimmed,
+       {scaled("depth", 0, 0.99), scaled("shift", 0, 0.99), scaled("turn", 0, 0.99), scaled("lower", 0, 0.9),
+        scaled("upper", 0, 0.9), scaled("cells", 2, 3), scaled("points", 1.5, 2), scaled("directions", -2, -1),
+        scaled("box", 0.1, 0.5), scaled("tree", 1.1, 1.9)},
+       0.005,
        4},
       {"interlock_lp",
        keyed,

@@ -21,7 +21,7 @@ std::optional<ConfigurationCage> cage_by_configuration_cells(const std::vector<S
   ForkJoin fork_join(context);
   CellDecomposition cells(pair, sampler, params, {2 * separated, tolerance}, fork_join);
   if (cells.run(context) != CellDecomposition::End::closed) return std::nullopt;
-  return ConfigurationCage{cells.bounds().lo, cells.bounds().hi, cells.size()};
+  return ConfigurationCage{cells.bounds().lo, cells.bounds().hi, cells.proof(static_cast<std::uint32_t>(a.size()))};
 }
 
 }  // namespace dismantle::immobility

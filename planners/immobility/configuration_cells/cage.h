@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "configuration_cells/configuration_cells.h"
+#include "configuration_cells/decomposition_record.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/linear_bound.h"
@@ -16,7 +17,7 @@ namespace dismantle::immobility {
 struct ConfigurationCage {
   /// Bounds of the region: rotation vector and shift of `a` relative to `b`, about the centre of `a`'s box.
   Vector6 lo = Vector6::Zero(), hi = Vector6::Zero();
-  std::size_t cells = 0;  ///< of the decomposition
+  DecompositionProof proof;
 };
 
 /// Does every motion of `a` relative to `b` that begins assembled, and along which nothing penetrates by `depth` (> 0)

@@ -29,13 +29,15 @@ CellDecomposition::CellDecomposition(const SampledPair& pair, FreeSpaceSampler& 
   cells_.set_status(0, status(cells_[0]));
 }
 
-CellDecomposition::Cell CellDecomposition::first_cell() const {
+CellDecomposition::Cell CellDecomposition::first_cell() {
   Cell all;
   all.lo = box_.lo();
   all.hi = box_.hi();
   all.samples = std::make_shared<SampleList>();
   all.near = active_.all();
-  contract(all, pair_, active_.list());
+  Contraction made;
+  contract(all, pair_, active_.list(), made);
+  record_.add(std::move(made));
   return all;
 }
 
@@ -101,8 +103,11 @@ void CellDecomposition::grow(const SearchBox::Sides& sides) {
   for (int d = 0; d < 6; ++d)
     for (const bool upper : {false, true}) {
       if (!sides[SearchBox::side(d, upper)]) continue;
+      const double border = (upper ? box_.hi() : box_.lo())[d];
       Cell slab{box_.grow(d, upper, sampler_), active_.all()};
-      contract(slab, pair_, active_.list());
+      Contraction made;
+      contract(slab, pair_, active_.list(), made);
+      record_.grow(d, upper, border, std::move(made));
       const CellStatus at = status(slab);
       cells_.add(std::move(slab), at);
     }
@@ -184,10 +189,13 @@ void CellDecomposition::divide(std::uint32_t node) {
   int d = 0;
   below.size().cwiseProduct(scale_).maxCoeff(&d);
   Cell above = below;
-  below.hi[d] = above.lo[d] = below.center()[d];
+  const double at = below.center()[d];
+  below.hi[d] = above.lo[d] = at;
   below.tested = above.tested = false;
   const SampleList& active = active_.list();
-  fork_join_([&] { contract(below, pair_, active); }, [&] { contract(above, pair_, active); });
+  Contraction made_below, made_above;
+  fork_join_([&] { contract(below, pair_, active, made_below); }, [&] { contract(above, pair_, active, made_above); });
+  record_.divide(node, d, at, std::move(made_below), std::move(made_above));
   const CellStatus first = status(below), second = status(above);
   cells_.divide(node, {std::move(below), first}, {std::move(above), second});
 }

@@ -6,6 +6,7 @@
 
 #include "configuration_cells/active_samples.h"
 #include "configuration_cells/configuration_cells.h"
+#include "configuration_cells/decomposition_record.h"
 #include "configuration_cells/free_space_sampler.h"
 #include "configuration_cells/pose_cell.h"
 #include "configuration_cells/search_box.h"
@@ -34,7 +35,10 @@ class CellDecomposition {
                     const Scale& scale, ForkJoin& fork_join);
 
   End run(const RunContext& context);
-  std::size_t size() const { return cells_.size(); }
+  /// closed: what the proof is made of.
+  DecompositionProof proof(std::uint32_t solids_of_a) const {
+    return record_.proof(pair_, solids_of_a, box_.lo(), box_.hi());
+  }
   /// closed: bounds of the component of the assembled pose.
   const PoseCell& bounds() const { return bounds_; }
 
@@ -44,7 +48,7 @@ class CellDecomposition {
     bool tested = false;  ///< all samples were tested at the centre
   };
 
-  Cell first_cell() const;
+  Cell first_cell();
   CellStatus status(const PoseCell& cell) const;
   double extent(const PoseCell& cell) const;
   std::uint32_t to_divide(std::uint32_t exit) const;
@@ -64,6 +68,7 @@ class CellDecomposition {
   ActiveSamples active_;
   Vector6 scale_;
   SearchBox box_;
+  DecompositionRecord record_;
   CellGraph<Cell> cells_;
   PoseCell bounds_;
   std::size_t sent_at_ = 0,

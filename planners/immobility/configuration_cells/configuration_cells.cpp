@@ -66,11 +66,16 @@ std::optional<Certificate> ConfigurationCells::prove(const SeparationQuery& quer
                    {"turn", {turn}},
                    {"lower", {cage->lo.data(), cage->lo.data() + 6}},
                    {"upper", {cage->hi.data(), cage->hi.data() + 6}},
-                   {"cells", {static_cast<double>(cage->cells)}}};
+                   {"cells", {static_cast<double>(cage->proof.leaves)}},
+                   {"points", cage->proof.points},
+                   {"directions", cage->proof.directions},
+                   {"box", cage->proof.box},
+                   {"tree", cage->proof.tree}};
   found.text = fmt::format(
       "{0} and {1} hold each other as rigid bodies: while they penetrate less than {2:.4g}, {0} moves no further than "
       "{3:.4g} relative to {1} and turns by no more than {4:.4g} rad (proved over {5} cells of poses)",
-      name_of(query, a), name_of(query, b), input_length(query, depth), input_length(query, shift), turn, cage->cells);
+      name_of(query, a), name_of(query, b), input_length(query, depth), input_length(query, shift), turn,
+      cage->proof.leaves);
   return found;
 }
 

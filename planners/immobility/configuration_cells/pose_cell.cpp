@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dismantle/geometry/numerics.h"
 #include "dismantle/immobility/free_space_bound.h"
 
 namespace dismantle::immobility {
@@ -83,14 +82,29 @@ class Linearization {
   double half_turn_, half_shift_;
 };
 
-/// Collects the half spaces of all samples, relative to the cell's centre. False: the cell is empty.
-bool gather(PoseCell& cell, const SampledPair& pair, Polytope& polytope) {
+/// The half spaces of a cell, relative to its centre.
+struct Rows {
+  Polytope polytope;
+  std::vector<Reason> sources;  ///< of the rows of the polytope; no multipliers
+  Multipliers multipliers;      ///< buffer
+
+  std::vector<Reason> reasons() const {
+    std::vector<Reason> found;
+    for (const auto& [row, y] : multipliers) found.push_back({sources[row].sample, sources[row].source, y});
+    return found;
+  }
+};
+
+/// Collects the half spaces of all samples. False: the cell is empty.
+bool gather(PoseCell& cell, const SampledPair& pair, Rows& rows, std::vector<FaceMove>& moves) {
+  Polytope& polytope = rows.polytope;
   const Linearization linear(cell, pair);
   const Vector6 reach = 0.5 * cell.size();
   polytope.lo = -reach;
   polytope.hi = reach;
   polytope.a.clear();
   polytope.b.clear();
+  rows.sources.clear();
   auto kept = std::make_shared<SampleList>();
   cell.center_free = true;
   for (const std::uint32_t number : *cell.samples) {
@@ -98,38 +112,76 @@ bool gather(PoseCell& cell, const SampledPair& pair, Polytope& polytope) {
     const SampledPair::Obstacle& obstacle = pair.obstacle(sample);
     const Positions s = linear.positions(sample);
     const FreeSpaceBound free = free_space_bound(obstacle, s.at, s.half);
-    if (free.none) return false;
+    if (free.none) {
+      moves.push_back({FaceMove::kEmpty, 0, {{number, 0, 1.0}}});
+      return false;
+    }
     if (free.all) continue;
     kept->push_back(number);
     if (cell.center_free && obstacle.occupied.inside(s.at)) cell.center_free = false;
     for (const HalfSpace& h : free.half_spaces) {
       const Vector6 a = -s.slope.transpose() * h.normal;
       const double b = h.normal.dot(s.at) + s.rest - h.least, most = a.cwiseAbs().dot(reach);
-      if (b < -most) return false;
-      if (b < 0.95 * most) polytope.add(a, b);  // one that cuts off less is not worth the time of its row
+      if (b < -most) {
+        moves.push_back({FaceMove::kEmpty, 0, {{number, h.source, 1.0}}});
+        return false;
+      }
+      if (!(b < 0.95 * most)) continue;  // one that cuts off less is not worth the time of its row
+      polytope.add(a, b);
+      rows.sources.push_back({number, h.source});
     }
   }
   cell.samples = std::move(kept);
   return true;
 }
 
+/// Few decimal digits of multipliers will do: any that are not negative prove a bound.
+void shorten(Multipliers& multipliers) {
+  for (auto& [row, y] : multipliers) {
+    const double unit = std::pow(10, 5 - std::ceil(std::log10(y)));
+    if (std::isfinite(unit)) y = std::round(y * unit) / unit;
+  }
+}
+
+/// Upper bound of direction . x, by the multipliers.
+double bound_of(const Vector6& direction, const Rows& rows) {
+  Vector6 left = direction;
+  double sum = 0;
+  for (const auto& [row, y] : rows.multipliers) {
+    left -= y * rows.polytope.a[row];
+    sum += y * rows.polytope.b[row];
+  }
+  return sum + left.cwiseProduct(rows.polytope.lo).cwiseMax(left.cwiseProduct(rows.polytope.hi)).sum();
+}
+
+/// The next number above x of few decimal digits, more than 1e-7 of the width above it.
+double rounded_up(double x, double width) {
+  const double unit = std::pow(10, std::ceil(6 - std::log10(width)));
+  return std::isfinite(unit) ? std::ceil((x + 1e-7 * width) * unit) / unit : x;
+}
+
 /// Moves the faces inwards as far as the half spaces allow. False: the half spaces have no common point.
-bool shrink(PoseCell& cell, Polytope& polytope) {
+bool shrink(PoseCell& cell, Rows& rows, std::vector<FaceMove>& moves) {
   const Vector6 middle = cell.center(), size = cell.size();
+  Polytope& polytope = rows.polytope;
   for (int d = 0; d < 6; ++d)
     for (const bool upper : {false, true}) {
-      const LinearBound m = maximum(Vector6((upper ? 1.0 : -1.0) * Vector6::Unit(d)), polytope);
-      if (m.empty) return false;
-      const double by = m.value + kRounding * size[d];
-      // A face that would move by less than a thousandth of the width stays, and is still shared with the neighbours.
-      if (upper && by < polytope.hi[d] - 1e-3 * size[d]) {
-        polytope.hi[d] = by;
-        cell.hi[d] = middle[d] + by;
-      } else if (!upper && -by > polytope.lo[d] + 1e-3 * size[d]) {
-        polytope.lo[d] = -by;
-        cell.lo[d] = middle[d] - by;
+      const Vector6 direction = (upper ? 1.0 : -1.0) * Vector6::Unit(d);
+      const LinearBound m = maximum(direction, polytope, nullptr, &rows.multipliers);
+      if (m.empty) {
+        moves.push_back({FaceMove::kEmpty, 0, rows.reasons()});
+        return false;
       }
-      if (polytope.lo[d] > polytope.hi[d]) return false;
+      if (!std::isfinite(m.value)) continue;
+      shorten(rows.multipliers);
+      const double side = upper ? 1.0 : -1.0, middle_of = side * middle[d];
+      const double most = rounded_up(middle_of + bound_of(direction, rows), size[d]);
+      // A face that would move by less than a thousandth of the width stays, and is still shared with the neighbours.
+      if (!(most < side * (upper ? cell.hi : cell.lo)[d] - 1e-3 * size[d])) continue;
+      (upper ? cell.hi : cell.lo)[d] = side * most;
+      (upper ? polytope.hi : polytope.lo)[d] = side * most - middle[d];
+      moves.push_back({2 * d + (upper ? 1 : 0), side * most, rows.reasons()});
+      if (cell.lo[d] > cell.hi[d]) return false;
     }
   return true;
 }
@@ -142,18 +194,19 @@ bool PoseCell::touches(const PoseCell& other) const {
   return true;
 }
 
-void contract(PoseCell& cell, const SampledPair& pair, const SampleList& active) {
+void contract(PoseCell& cell, const SampledPair& pair, const SampleList& active, Contraction& made) {
   if (cell.known < active.size()) {
     auto more = std::make_shared<SampleList>(*cell.samples);
     more->insert(more->end(), active.begin() + static_cast<std::ptrdiff_t>(cell.known), active.end());
     cell.samples = std::move(more);
     cell.known = active.size();
   }
-  static thread_local Polytope polytope;
+  static thread_local Rows rows;
   // A smaller cell has a smaller remainder, so contraction is repeated while some width shrinks by a fifth.
   for (int round = 0; round < 6; ++round) {
     const Vector6 before = cell.size();
-    if (!gather(cell, pair, polytope) || !shrink(cell, polytope)) {
+    std::vector<FaceMove>& moves = made.emplace_back();
+    if (!gather(cell, pair, rows, moves) || !shrink(cell, rows, moves)) {
       cell.empty = true;
       cell.samples.reset();
       return;

@@ -104,4 +104,14 @@ bool inside(const Vec3& p, const Body& body) {
 
 double depth(const Vec3& p, const Body& body) { return inside(p, body) ? distance(p, body) : 0; }
 
+const char* objection_to_outside_point(const SeparationQuery& query, PartId own, PartId other, const Body& obstacle,
+                                       const Vec3& point) {
+  const double limit = allowed_depth(query, own, other) + rounding_of(query, own);
+  const std::vector<Body>& bodies = bodies_of(query, own);
+  if (std::none_of(bodies.begin(), bodies.end(), [&](const Body& b) { return b.closed && depth(point, b) > limit; }))
+    return "its point is not deep enough in its part";
+  if (!obstacle.closed || inside(point, obstacle)) return "its point is not outside the other part";
+  return nullptr;
+}
+
 }  // namespace dismantle::certificates

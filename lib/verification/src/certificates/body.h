@@ -15,6 +15,7 @@
 namespace dismantle::certificates {
 
 using Vec3 = Eigen::Vector3d;
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Corners = std::array<Vec3, 3>;
 
 /// One solid of a part, as the law of a valid motion has it: an outer shell with its voids. Assembled frame.
@@ -55,5 +56,10 @@ bool inside(const Vec3& p, const Body& body);
 
 /// Distance from the surface if the point is inside, else 0.
 double depth(const Vec3& p, const Body& body);
+
+/// Why a point of one part might get into a body of another; nullptr if it never does in valid motions: assembled it is
+/// outside, and in its own part deeper than the surface of the other may get, which would have to pass it.
+const char* objection_to_outside_point(const SeparationQuery& query, PartId own, PartId other, const Body& obstacle,
+                                       const Vec3& point);
 
 }  // namespace dismantle::certificates

@@ -43,6 +43,8 @@ std::string objection_to_overlap_lock(const Certificate& certificate, const Sepa
                                       const RunContext& context);
 std::string objection_to_enclosed_ball(const Certificate& certificate, const SeparationQuery& query,
                                        const RunContext& context);
+std::string objection_to_configuration_cells(const Certificate& certificate, const SeparationQuery& query,
+                                             const RunContext& context);
 std::string objection_to_hook(const Certificate& certificate, const SeparationQuery& query, const RunContext& context);
 std::string objection_to_interlock_lp(const Certificate& certificate, const SeparationQuery& query,
                                       const RunContext& context);

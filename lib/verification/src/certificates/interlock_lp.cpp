@@ -28,7 +28,6 @@ namespace dismantle::certificates {
 namespace {
 
 using Eigen::VectorXd;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat3 = Eigen::Matrix3d;
 
@@ -182,11 +181,7 @@ class Interlock {
     if (!(n[2] >= 0 && n[2] < static_cast<double>(other.bodies->size()))) return "its obstacle is none";
     const Body& obstacle = (*other.bodies)[static_cast<std::size_t>(n[2])];
     const Vec3 point(n[3], n[4], n[5]), direction = Vec3(n[6], n[7], n[8]).normalized();
-    const double limit = allowed_depth(query_, own.part, other.part) + rounding_of(query_, own.part);
-    if (std::none_of(own.bodies->begin(), own.bodies->end(),
-                     [&](const Body& b) { return b.closed && depth(point, b) > limit; }))
-      return "its point is not deep enough in its part";
-    if (!obstacle.closed || inside(point, obstacle)) return "its point is not outside the other part";
+    if (const char* wrong = objection_to_outside_point(query_, own.part, other.part, obstacle, point)) return wrong;
 
     // Along our axes, from the centre of a: exp(w) p + s, or seen from a: exp(-w) (p - s).
     const Vec3 p = axes_.conjugate() * (point - members_[pair.a].center);

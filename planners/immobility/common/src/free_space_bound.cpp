@@ -52,6 +52,10 @@ Polygon clipped(const std::array<Vec3, 3>& triangle, const Vec3& half) {
 
 }  // namespace
 
+Vec3 half_space_normal(const Solid& solid, std::uint32_t source) {
+  return source < 6 ? Vec3((source % 2 == 0 ? -1.0 : 1.0) * Vec3::Unit(source / 2)) : solid.normals[source - 6];
+}
+
 FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec3& at, const Vec3& half) {
   FreeSpaceBound result;
   const Solid& solid = *obstacle.solid;
@@ -67,13 +71,19 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
   // Directions of the box's faces, and eight of the solid's: each costs a pass over all corners.
   constexpr std::size_t kMostNormals = 6 + 8;
   // Every access to a thread_local variable is a call, so both are looked up together and only here.
-  static thread_local struct { std::vector<Vec3> corners, normals; } kept;
+  struct Normal {
+    Vec3 of;
+    std::uint32_t source;
+  };
+  static thread_local struct {
+    std::vector<Vec3> corners;
+    std::vector<Normal> normals;
+  } kept;
   auto& corners = kept.corners;
   auto& normals = kept.normals;
   corners.clear();
   normals.clear();
-  for (int k = 0; k < 3; ++k)
-    for (const double s : {-1.0, 1.0}) normals.push_back(s * Vec3::Unit(k));
+  for (std::uint32_t k = 0; k < 6; ++k) normals.push_back({half_space_normal(solid, k), k});
   solid.bvh.overlapping(box, [&](std::uint32_t t) {
     if (corners.size() > kMostCorners) return;
     const auto& whole = solid.bvh.corners(t);
@@ -86,8 +96,8 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
                    polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
     const Vec3& normal = solid.normals[t];
     if (!normal.isZero() && normals.size() < kMostNormals &&
-        std::none_of(normals.begin(), normals.end(), [&](const Vec3& m) { return m.dot(normal) > 0.999; }))
-      normals.push_back(normal);
+        std::none_of(normals.begin(), normals.end(), [&](const Normal& m) { return m.of.dot(normal) > 0.999; }))
+      normals.push_back({normal, 6 + t});
   });
   if (corners.size() > kMostCorners) return result;
   if (corners.empty()) {
@@ -98,13 +108,14 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
   // corners of the box may weaken them below that.
   struct Cut {
     Vec3 normal;
+    std::uint32_t source;
     double least, enough;
   };
   static thread_local std::vector<Cut> cuts;
   cuts.clear();
-  for (const Vec3& m : normals) {
-    Cut cut{m, std::numeric_limits<double>::infinity(), (2 * 0.01 - 1) * m.cwiseAbs().dot(half)};
-    for (const Vec3& c : corners) cut.least = std::min(cut.least, m.dot(c));
+  for (const auto& [m, source] : normals) {
+    Cut cut{m, source, std::numeric_limits<double>::infinity(), (2 * 0.01 - 1) * m.cwiseAbs().dot(half)};
+    for (const Vec3& c : corners) cut.least = std::min(cut.least, cut.normal.dot(c));
     if (cut.least > cut.enough) cuts.push_back(cut);
   }
   for (int k = 0; k < 8 && !cuts.empty(); ++k) {
@@ -116,7 +127,7 @@ FreeSpaceBound free_space_bound(const SampledPair::Obstacle& obstacle, const Vec
     std::erase_if(cuts, [](const Cut& cut) { return !(cut.least > cut.enough); });
   }
   for (const Cut& cut : cuts)
-    result.half_spaces.push_back({cut.normal, cut.least + cut.normal.dot(at) - obstacle.rounding});
+    result.half_spaces.push_back({cut.normal, cut.least + cut.normal.dot(at) - obstacle.rounding, cut.source});
   return result;
 }
 

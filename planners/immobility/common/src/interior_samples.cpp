@@ -74,10 +74,13 @@ SampledPair::SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& 
   Aabb both = box_a;
   both.extend(box_b.lo);
   both.extend(box_b.hi);
+  // As much as errors of positions may be, and more than checkers of certificates give away.
+  const double rounding =
+      kRounding * (both.size().norm() + std::max(both.lo.cwiseAbs().maxCoeff(), both.hi.cwiseAbs().maxCoeff()));
   for (const auto* solids : {&a, &b})
     for (const Solid& s : *solids)
       obstacles_.push_back({&s, s.frame.inverse(), s.frame.q.toRotationMatrix().transpose(),
-                            Occupancy(s.bvh, s.box, cell), planes_of(s), kRounding * both.size().norm()});
+                            Occupancy(s.bvh, s.box, cell), planes_of(s), rounding});
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t k = 0; k < b.size(); ++k) {
       add(a[i], static_cast<std::uint32_t>(a.size() + k), true, depth, spacing_a, reach);

@@ -59,6 +59,7 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
   const Eigen::Index n = direction.size();
   LinearBoundIn<N> result;
   result.at.setZero(n);
+  if (multipliers != nullptr) multipliers->clear();
   const Rows<N> rows(polytope);
   // Ties can make the simplex method cycle, so the objective is perturbed. The bound below accounts for that.
   Vector perturbed = direction;
@@ -67,6 +68,10 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
   Eigen::Matrix<std::size_t, N, 1> basis(n);
   for (Eigen::Index i = 0; i < n; ++i) basis[i] = rows.of_bound(i, perturbed[i] >= 0);
   result.value = std::numeric_limits<double>::infinity();
+  const auto keep = [&](const Vector& y) {
+    for (Eigen::Index i = 0; i < n && multipliers != nullptr; ++i)
+      if (basis[i] < polytope.a.size() && y[i] > 0) multipliers->emplace_back(basis[i], y[i]);
+  };
   Matrix m(n, n);
   Vector bounds(n);
   for (Eigen::Index pivot = 0; pivot < 50 * n; ++pivot) {  // mostly a few times n are enough
@@ -85,11 +90,7 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
       if (const double d = rows.violation(r, result.at); d > most) most = d, enters = r;
     if (enters == rows.count()) {
       // Any multipliers that are not negative prove a bound. The residual covers rounding and the perturbation.
-      if (multipliers != nullptr) {
-        multipliers->clear();
-        for (Eigen::Index i = 0; i < n; ++i)
-          if (basis[i] < polytope.a.size() && y[i] > 0) multipliers->emplace_back(basis[i], y[i]);
-      }
+      keep(y);
       result.value = y.dot(bounds) + rows.slack(direction - m.transpose() * y) + kSumRounding;
       return result;
     }
@@ -104,6 +105,8 @@ LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const Pol
       const Vector others = (-share).cwiseMax(0.0);
       const double sum = rows.bound(enters) + others.dot(bounds);
       result.empty = sum + rows.slack(a + m.transpose() * others) < -kSumRounding;
+      keep(others);
+      if (multipliers != nullptr && enters < polytope.a.size()) multipliers->emplace_back(enters, 1.0);
       return result;
     }
     basis[leaves] = enters;

@@ -43,6 +43,7 @@ struct Confined {
 std::optional<Confined> confined(const ProverRig& rig, PartId a = 0, PartId b = 1, const RunContext& context = {}) {
   const auto c = rig.prove(ConfigurationCells{}, {a}, {b}, 0.5, context);
   if (!c) return std::nullopt;
+  EXPECT_EQ(rig.objection(ConfigurationCells{}, "configuration_cells", *c, 0.5), "");
   const auto number = [&](const char* name) { return c->numbers.at(name).front(); };
   return Confined{c->parts, number("depth"), number("shift"), number("turn"), number("cells")};
 }

@@ -44,6 +44,7 @@ class SampledPair {
   SampledPair(const std::vector<Solid>& a, const std::vector<Solid>& b, double depth, double spacing);
 
   const std::vector<InteriorSample>& samples() const { return samples_; }
+  const Obstacle& obstacle(std::uint32_t number) const { return obstacles_[number]; }
   const Obstacle& obstacle(const InteriorSample& sample) const { return obstacles_[sample.obstacle]; }
   const Eigen::Vector3d& center() const { return center_; }
   double radius() const { return radius_; }  ///< of `a` about the centre

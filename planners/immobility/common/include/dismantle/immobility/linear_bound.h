@@ -41,7 +41,7 @@ using Multipliers = std::vector<std::pair<std::size_t, double>>;
 /// Of direction . x over the polytope, by the dual simplex method (Lemke 1954). The bound is computed from the dual
 /// multipliers, so that errors of the vertex do not matter (safe bounds: Neumaier and Shcherbina 2004). The value is
 /// infinite when `context`, which may be null, says to stop. Fills `multipliers`, which may be null, with those that
-/// prove the value, but for what the bounds lo and hi add.
+/// prove the value, or that there is no point, but for what the bounds lo and hi add.
 template <int N>
 LinearBoundIn<N> maximum(const Eigen::Matrix<double, N, 1>& direction, const PolytopeIn<N>& polytope,
                          const RunContext* context = nullptr, Multipliers* multipliers = nullptr);

@@ -1,0 +1,25 @@
+/// How a cell was contracted, so that it can be checked: which faces moved, and the half spaces that moved them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace dismantle::immobility {
+
+/// A half space of a sample (HalfSpace::source), and its multiplier in the sum that bounds a coordinate.
+struct Reason {
+  std::uint32_t sample = 0, source = 0;
+  double multiplier = 0;
+};
+
+struct FaceMove {
+  static constexpr int kEmpty = 12;  ///< no face: the half spaces have no common point in the cell
+  int face = kEmpty;                 ///< 2 k or 2 k + 1: the lower or the upper one of coordinate k
+  double to = 0;                     ///< the coordinate; nothing for kEmpty
+  std::vector<Reason> reasons;
+};
+
+/// Half spaces are those of the cell as it is at the beginning of a round.
+using Contraction = std::vector<std::vector<FaceMove>>;
+
+}  // namespace dismantle::immobility
