@@ -90,6 +90,12 @@ Assembly canned(Rng& rng, bool held) {
                 rng);
 }
 
+/// A round plate in a can; one of the openings may let it out.
+Assembly plated(Rng& rng, bool held) {
+  const double below = rng.uniform(0.2, 0.5), narrow = rng.uniform(0.4, 0.75), wide = 0.9 + rng.uniform(0.02, 0.08);
+  return placed({shapes::tube(0, 0.9, -0.05, 0.05, 48), shapes::can(1, 0.6, below, held ? narrow : wide)}, rng);
+}
+
 /// A spool in a plate; one of its rims may be narrower than the hole.
 Assembly spooled(Rng& rng, bool held) {
   const double hole = rng.uniform(0.3, 0.6), neck = hole * rng.uniform(0.5, 0.95),
@@ -134,6 +140,13 @@ const std::vector<Kind>& kinds() {
        canned,
        {scaled("diameter", 1.2, 2), scaled("diameter", 0.2, 0.4), scaled("opening", 0, 0.999),
         scaled("opening", 20, 30), shifted("center", 3), scaled("axis", 1.01, 2), elsewhere("planes")}},
+      {"disc",
+       plated,
+       {scaled("diameter", 1.1, 2), scaled("diameter", 0.1, 0.3), scaled("half_thickness", 1.1, 2),
+        scaled("half_thickness", 0, 0.1), shifted("center", 3), scaled("axis", 1.01, 2), scaled("frame", 1.01, 2),
+        scaled("region", 0.2, 0.8), scaled("normals", 0, 0)},
+       0.01,
+       4},
       {"spool",
        spooled,
        {scaled("circle", 2.5, 4), scaled("circle", 0.2, 0.5), scaled("rim", 1.0001, 2), scaled("rim", 0, 0.1),

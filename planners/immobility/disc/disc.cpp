@@ -10,6 +10,26 @@
 
 namespace dismantle::immobility {
 
+namespace {
+
+std::vector<double> numbers_of(const Pose& pose) {
+  return {pose.t.x(), pose.t.y(), pose.t.z(), pose.q.w(), pose.q.x(), pose.q.y(), pose.q.z()};
+}
+
+std::vector<double> numbers_of(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<double> numbers;
+  for (const auto& v : vectors) numbers.insert(numbers.end(), v.begin(), v.end());
+  return numbers;
+}
+
+std::vector<double> numbers_of(const std::vector<Aabb>& boxes) {
+  std::vector<Eigen::Vector3d> corners;
+  for (const Aabb& box : boxes) corners.insert(corners.end(), {box.lo, box.hi});
+  return numbers_of(corners);
+}
+
+}  // namespace
+
 void DiscParams::describe(Schema<DiscParams>& s) {
   s.add("max_discs", &DiscParams::max_discs,
         {.unit = "1",
@@ -43,11 +63,10 @@ std::optional<Certificate> Disc::prove(const SeparationQuery& query, const RunCo
       if (!cage) continue;
       Certificate found;
       found.parts = {inside, other};
-      found.numbers = {{"center", numbers_of(disc.center)},
-                       {"axis", numbers_of(disc.axis)},
-                       {"diameter", {2 * disc.radius}},
-                       {"half_thickness", {disc.half}},
-                       {"cells", {static_cast<double>(cage->cells)}}};
+      found.numbers = {{"center", numbers_of(disc.center)},   {"axis", numbers_of(disc.axis)},
+                       {"diameter", {2 * disc.radius}},       {"half_thickness", {disc.half}},
+                       {"frame", numbers_of(cage->frame)},    {"region", numbers_of(cage->region)},
+                       {"normals", numbers_of(cage->normals)}};
       found.text = fmt::format(
           "{0} and {1} hold each other: {0} has a flat disc of diameter {2:.4g} about {3} in a chamber of {1}, and it "
           "passes none of the openings in any orientation (less the penetration that is allowed)",

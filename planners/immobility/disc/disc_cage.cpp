@@ -50,8 +50,8 @@ class Chamber {
     box_.inflate(disc.half);
   }
 
-  /// The number of cells, if they cut the start off from the border.
-  std::optional<std::size_t> closed(const DiscParams& params, const RunContext& context) {
+  /// The cells that are linked to the start, if they are cut off from the border.
+  std::optional<DiscCage> closed(const DiscParams& params, const RunContext& context) {
     const auto divisions = static_cast<std::size_t>(params.max_divisions);
     const auto facets = static_cast<std::size_t>(params.max_facets);
     if (!facets_.box().contains(start_) || !(solids_.clearance(start_) > disc_.half)) return std::nullopt;
@@ -66,9 +66,7 @@ class Chamber {
       if (context.should_stop()) return std::nullopt;
       const std::uint32_t exit = graph.next_exit();
       if (exit == kNoIndex) {
-        for (std::uint32_t k = 0; k < graph.size(); ++k)
-          if (graph.reachable(k) && graph.has_start(k)) return graph.size();
-        return std::nullopt;  // the start is in no cell, which only rounding can cause
+        return cage(graph);
       }
       if (removes_on_path(graph, exit)) continue;
       const auto size = [&](std::uint32_t n) { return graph[n].box.size().maxCoeff(); };
@@ -90,6 +88,19 @@ class Chamber {
   }
 
  private:
+  /// Nothing: the start is in no cell, which only rounding can cause.
+  std::optional<DiscCage> cage(const Graph& graph) const {
+    DiscCage found{disc_, facets_.frame(), {}, {}};
+    bool has_start = false;
+    for (std::uint32_t k = 0; k < graph.size(); ++k) {
+      if (!graph.reachable(k)) continue;
+      found.region.push_back(graph[k].box);
+      has_start = has_start || graph.has_start(k);
+    }
+    for (const Vec3& n : normals_) found.normals.push_back(facets_.frame().q * n);
+    return has_start ? std::optional(std::move(found)) : std::nullopt;
+  }
+
   CellStatus status(const Cell& c) const {
     CellStatus p;
     p.cost = c.cost;
@@ -293,9 +304,7 @@ class Chamber {
 
 std::optional<DiscCage> disc_cage(const InteriorDisc& disc, const std::vector<Solid>& around, double slack,
                                   const DiscParams& params, const RunContext& context) {
-  const auto cells = Chamber(disc, around, slack).closed(params, context);
-  if (!cells) return std::nullopt;
-  return DiscCage{disc, *cells};
+  return Chamber(disc, around, slack).closed(params, context);
 }
 
 }  // namespace dismantle::immobility

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "disc/disc.h"
+#include "dismantle/aabb.h"
 #include "dismantle/geometry/solid.h"
 #include "dismantle/immobility/geometry_names.h"
 #include "dismantle/immobility/medial_balls.h"
+#include "dismantle/pose.h"
 #include "dismantle/run_context.h"
 
 namespace dismantle::immobility {
@@ -28,7 +30,9 @@ std::vector<InteriorDisc> discs_in(const Solid& solid, const std::vector<MedialB
 
 struct DiscCage {
   InteriorDisc disc;
-  std::size_t cells = 0;  ///< of the decomposition
+  Pose frame;                            ///< of the region: assembled = frame * local
+  std::vector<Aabb> region;              ///< cells that the disc's centre does not leave
+  std::vector<Eigen::Vector3d> normals;  ///< of the planes that were looked at; assembled frame
 };
 
 /// Is the disc in a chamber of the solids that it cannot leave? Nothing: told to stop, or not found with the effort of

@@ -15,6 +15,10 @@ const Checker* checker_of(std::string_view kind) {
   constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
   static const std::vector<Checker> all = {
       {"overlap_lock", kPair, {{"point", 3}, {"depth"}, {"allowed"}}, objection_to_overlap_lock},
+      {"disc",
+       {ProofEffort::medium, 2, 2, false},
+       {{"center", 3}, {"axis", 3}, {"diameter"}, {"half_thickness"}, {"frame", 7}, {"region", 0}, {"normals", 0}},
+       objection_to_disc},
       {"enclosed_ball",
        {ProofEffort::low, 2, kAny, true},
        {{"center", 3}, {"radius"}, {"cell"}},

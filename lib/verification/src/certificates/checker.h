@@ -41,6 +41,7 @@ std::string objection(const Checker& checker, const Certificate& certificate, co
 
 std::string objection_to_overlap_lock(const Certificate& certificate, const SeparationQuery& query,
                                       const RunContext& context);
+std::string objection_to_disc(const Certificate& certificate, const SeparationQuery& query, const RunContext& context);
 std::string objection_to_enclosed_ball(const Certificate& certificate, const SeparationQuery& query,
                                        const RunContext& context);
 std::string objection_to_configuration_cells(const Certificate& certificate, const SeparationQuery& query,

@@ -46,4 +46,22 @@ double NearestTriangles::clearance(const Vec3& p, const List& list) const {
   return least;
 }
 
+NearestTriangles::List NearestTriangles::around(const Vec3& p, double reach, const List& list) const {
+  List found;
+  for (const std::uint32_t t : list)
+    if ((p - items_[t].middle).norm() <= items_[t].radius + reach) found.push_back(t);
+  return found;
+}
+
+NearestTriangles::List NearestTriangles::around_plane(const Vec3& p, const Vec3& normal, double reach,
+                                                      const List& list) const {
+  List found;
+  for (const std::uint32_t t : list) {
+    const Corners& c = items_[t].corners;
+    const Vec3 height(normal.dot(c[0] - p), normal.dot(c[1] - p), normal.dot(c[2] - p));
+    if (height.minCoeff() <= reach && height.maxCoeff() >= -reach) found.push_back(t);
+  }
+  return found;
+}
+
 }  // namespace dismantle::certificates

@@ -23,6 +23,20 @@ class NearestTriangles {
   double clearance(const Vec3& p, const List& list, double radius, List& kept) const;
   /// ... without the list: for single points.
   double clearance(const Vec3& p, const List& list) const;
+  /// Of `list`, those that may be within `reach` of the point; and of the plane through it across a unit vector.
+  List around(const Vec3& p, double reach, const List& list) const;
+  List around_plane(const Vec3& p, const Vec3& normal, double reach, const List& list) const;
+  /// Is the triangle certainly further than `reach` from a segment, `half` long on both sides of a point? `across`: a
+  /// unit vector across the way.
+  bool far_from_line(std::uint32_t t, const Vec3& p, const Vec3& way, const Vec3& across, double half,
+                     double reach) const {
+    const Corners& c = items_[t].corners;
+    const Vec3 side(across.dot(c[0] - p), across.dot(c[1] - p), across.dot(c[2] - p));
+    if (side.minCoeff() > reach || side.maxCoeff() < -reach) return true;
+    const Vec3 along(way.dot(c[0] - p), way.dot(c[1] - p), way.dot(c[2] - p));
+    return along.minCoeff() > half + reach || along.maxCoeff() < -half - reach;
+  }
+  const Corners& corners(std::uint32_t t) const { return items_[t].corners; }
 
  private:
   struct Item {
