@@ -180,7 +180,9 @@ std::string advice_after_crash(bool isolated) {
 }
 
 void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after, bool json) {
-  auto* facts = new Facts;
+  // Never destroyed: a crash may come at any time, also while the process exits.
+  static auto& all = *new std::deque<Facts>;
+  Facts* facts = &all.emplace_back();
   for (const PluginFile& file : registry != nullptr ? registry->files() : std::deque<PluginFile>{})
     facts->plugins.push_back({file.path.string(),
                               fmt::format("plugin {} {} ({}{}{})", file.id, file.version, file.path.string(),
