@@ -160,6 +160,9 @@ function(dismantle_add_test name)
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
     set(limit 7200)
   endif()
+  if("$ENV{DISMANTLE_TESTS}" STREQUAL "nightly")
+    set(limit 86400)  # the long form has up to a thousand times as many trials
+  endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT ${limit}
     ENVIRONMENT "DISMANTLE_PLUGIN_PATH=${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")
 endfunction()
