@@ -8,7 +8,8 @@
 /// centre stays in it. If the parts could be apart, the centre could go anywhere.
 ///
 /// The border is what is left of the faces of the boxes where no other box is on the other side. It is divided into
-/// pieces, and the lines through a piece into fans, until one point of each fan tells.
+/// pieces, and the lines through a piece into fans, until the middle line of each fan has a point so near to the
+/// surface that the lines beside it have one, too.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,11 +121,7 @@ class Walls {
   }
 
   /// Is the centre blocked at all points of the piece? `frame`: assembled = frame * local.
-  bool blocked(const Piece& piece, const Pose& frame) {
-    const Vec3 size = piece.size();
-    const double reach = 0.5 * size.norm() + disc_.radius + half_;
-    return blocked(piece, frame, walls_.around(frame * piece.center(), reach, walls_.all()));
-  }
+  bool blocked(const Piece& piece, const Pose& frame) { return blocked(piece, frame, walls_.all()); }
 
   bool spent() const { return steps_ > kMostSteps; }
 
@@ -137,7 +134,7 @@ class Walls {
     const double radius = 0.5 * piece.size().norm();
     const NearestTriangles::List around = walls_.around(center, radius + disc_.radius + half_, list);
     if (all_near(piece, frame, center, radius, around) || all_inside(center, radius, around)) return true;
-    if (radius < 0.7 * half_)
+    if (radius < 0.7 * half_)  // lines through a larger piece differ by more than what is left for their angles
       for (Vec3& normal : normals_)
         if (no_diameter_fits(center, radius, normal, around)) {
           std::swap(normal, normals_.front());  // most likely the one for the next piece, too
@@ -189,16 +186,16 @@ class Walls {
       fans.pop_back();
       const Vec3 way = std::cos(fan.angle) * e + std::sin(fan.angle) * f;
       const Lines lines{center, way, normal.cross(way), radius, fan.half};
-      // The triangle that ended the last fan comes first.
-      const auto ends =
-          std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return ended(lines, t, true); });
-      if (ends != around.end()) {
-        std::iter_swap(around.begin(), ends);
+      // The triangle that blocks the last fan comes first.
+      const auto blocking =
+          std::find_if(around.begin(), around.end(), [&](std::uint32_t t) { return blocks(lines, t, true); });
+      if (blocking != around.end()) {
+        std::iter_swap(around.begin(), blocking);
         continue;
       }
-      if (spent() || fan.half * disc_.radius < kSmallest * half_) return false;
-      const auto one = [&](std::uint32_t t) { return ended(lines, t, false); };
-      if (std::none_of(around.begin(), around.end(), one)) return false;
+      if (spent() || context_.should_stop() || fan.half * disc_.radius < kSmallest * half_) return false;
+      const auto blocks_one = [&](std::uint32_t t) { return blocks(lines, t, false); };
+      if (std::none_of(around.begin(), around.end(), blocks_one)) return false;
       fans.push_back({fan.angle - 0.5 * fan.half, 0.5 * fan.half});
       fans.push_back({fan.angle + 0.5 * fan.half, 0.5 * fan.half});
     }
@@ -214,7 +211,7 @@ class Walls {
   /// Do all of the lines come near to the triangle, or (not `spread`) those of the same angle? Along a line, the
   /// distance from a triangle is a convex function, and so is what the angle adds: the least is looked for by golden
   /// sections.
-  bool ended(const Lines& lines, std::uint32_t triangle, bool spread) {
+  bool blocks(const Lines& lines, std::uint32_t triangle, bool spread) {
     const double angle = spread ? lines.spread : 0, enough = half_ - lines.radius;
     if (walls_.far_from_line(triangle, lines.from, lines.way, lines.across, disc_.radius, enough)) return false;
     const auto at = [&](double t) {
@@ -270,8 +267,8 @@ std::string objection_to_disc(const Certificate& certificate, const SeparationQu
     return "its disc is not deep enough in the first part";
 
   const auto& f = numbers.at("frame");
-  const Pose frame{{f[0], f[1], f[2]}, Eigen::Quaterniond(f[3], f[4], f[5], f[6])};
-  if (!(std::abs(frame.q.norm() - 1) < 1e-9)) return "its frame is no rotation";
+  const Pose frame{{f[0], f[1], f[2]}, Eigen::Quaterniond(f[3], f[4], f[5], f[6]).normalized()};
+  if (!(std::abs(Eigen::Vector4d(f[3], f[4], f[5], f[6]).norm() - 1) < 1e-9)) return "its frame is no rotation";
   std::vector<Vec3> normals = vectors_of(numbers.at("normals"));
   if (numbers.at("normals").size() % 3 != 0 || numbers.at("region").size() % 6 != 0)
     return "its lists have not the right length";
