@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "dismantle/preparation/sha256.h"
 #include "dismantle/testing/path_checking.h"
 #include "scratch.h"
 

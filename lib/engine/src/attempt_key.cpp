@@ -1,7 +1,6 @@
 #include "attempt_key.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <algorithm>
 #include <bit>
@@ -55,12 +54,9 @@ void append(std::string& bytes, const Goal& goal) {
 }
 
 SceneDigest sha256(const std::string& bytes) {
-  SceneDigest digest{};
-  unsigned length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1 ||
-      length != digest.size())
-    throw std::runtime_error("SHA-256 is not available in this OpenSSL");
-  return digest;
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.digest();
 }
 
 }  // namespace

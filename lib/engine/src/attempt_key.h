@@ -2,17 +2,17 @@
 /// order they are listed.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstdint>
 #include <vector>
 
 #include "dismantle/path_oracle.h"
+#include "dismantle/preparation/sha256.h"
 
 namespace dismantle {
 
 /// SHA-256 of the moving and the fixed parts, their poses and the goal; without the depth.
-using SceneDigest = std::array<unsigned char, 32>;
+using SceneDigest = Sha256Digest;
 
 struct AttemptKey {
   SceneDigest scene{};

@@ -1,7 +1,6 @@
 #include "campaign/enlist.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
 #include <map>
 #include <nlohmann/json.hpp>
@@ -9,6 +8,7 @@
 #include "dismantle/errors.h"
 #include "dismantle/plan.h"
 #include "dismantle/plan_io/write_file.h"
+#include "dismantle/preparation/sha256.h"
 
 namespace dismantle::bench {
 namespace {
@@ -16,13 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string sha256_of(const std::string& text) {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned length = 0;
-  if (EVP_Digest(text.data(), text.size(), digest, &length, EVP_sha256(), nullptr) != 1)
-    throw Error("SHA-256 is not available");
-  std::string out;
-  for (unsigned i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
-  return out;
+  Sha256 hash;
+  hash.add(text);
+  return hash.hex();
 }
 
 RunConfig with_seed(RunConfig config, std::int64_t seed) {

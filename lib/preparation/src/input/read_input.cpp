@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "dismantle/errors.h"
+#include "dismantle/preparation/sha256.h"
 #include "dismantle/referenced_file.h"
 #include "input/own_files.h"
-#include "input/sha256.h"
 
 namespace dismantle {
 namespace {

@@ -5,6 +5,7 @@
 #include "config/yaml_writer.h"
 #include "dismantle/host/config.h"
 #include "dismantle/host/planning_setup.h"
+#include "dismantle/preparation/sha256.h"
 
 namespace dismantle {
 namespace {

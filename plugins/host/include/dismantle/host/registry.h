@@ -51,9 +51,6 @@ DISMANTLE_API std::filesystem::path built_in_plugin_folder();
 /// build tree), or `configs/presets` of the install's share folder. Empty when there are none.
 DISMANTLE_API std::filesystem::path preset_folder(const std::filesystem::path& built_in_folder);
 
-/// SHA-256 of a file's bytes, 64 hexadecimal digits. @throws InputError naming the file.
-DISMANTLE_API std::string sha256_of_file(const std::filesystem::path& file);
-
 struct PresetFile;
 struct LoadedPlugin;
 struct OfferedPlugin;

@@ -1,4 +1,4 @@
-#include "input/sha256.h"
+#include "dismantle/preparation/sha256.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -12,17 +12,26 @@
 
 namespace dismantle {
 
+namespace {
+
+void require(int result) {
+  if (result != 1) throw Error("SHA-256 is not available in this OpenSSL");
+}
+
+}  // namespace
+
 struct Sha256::Impl {
   EVP_MD_CTX* context = EVP_MD_CTX_new();
   ~Impl() { EVP_MD_CTX_free(context); }
 };
 
 Sha256::Sha256() : impl_(std::make_unique<Impl>()) {
-  if (!impl_->context || EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) != 1)
-    throw Error("SHA-256 is not available in this OpenSSL");
+  require(impl_->context != nullptr ? EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) : 0);
 }
 
 Sha256::~Sha256() = default;
+
+void Sha256::add(std::string_view bytes) { require(EVP_DigestUpdate(impl_->context, bytes.data(), bytes.size())); }
 
 void Sha256::add_file(const std::filesystem::path& file) {
   errno = 0;
@@ -31,19 +40,27 @@ void Sha256::add_file(const std::filesystem::path& file) {
   std::vector<char> block(1 << 16);
   while (in) {
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    if (EVP_DigestUpdate(impl_->context, block.data(), static_cast<std::size_t>(in.gcount())) != 1)
-      throw Error("SHA-256 failed");
+    add({block.data(), static_cast<std::size_t>(in.gcount())});
   }
   if (in.bad()) throw InputError(file.string(), fmt::format("cannot be read: {}", std::strerror(errno)));
 }
 
+Sha256Digest Sha256::digest() {
+  Sha256Digest digest{};
+  require(EVP_DigestFinal_ex(impl_->context, digest.data(), nullptr));
+  return digest;
+}
+
 std::string Sha256::hex() {
-  unsigned char digest[EVP_MAX_MD_SIZE];
-  unsigned length = 0;
-  if (EVP_DigestFinal_ex(impl_->context, digest, &length) != 1) throw Error("SHA-256 failed");
   std::string out;
-  for (unsigned i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
+  for (const unsigned char byte : digest()) out += fmt::format("{:02x}", byte);
   return out;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  Sha256 hash;
+  hash.add_file(file);
+  return hash.hex();
 }
 
 }  // namespace dismantle
