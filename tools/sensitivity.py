@@ -3,9 +3,10 @@
 
     tools/sensitivity.py -o sensitivity             # samples, and assemblies of $DISMANTLE_DATA if it is set
     tools/sensitivity.py -o sensitivity --random 200 --only sequence_planner.
+    tools/sensitivity.py -o features --features --random 0 --seconds 60  # switches, and plugins of lists, one left out at a time
     tools/sensitivity.py -o sensitivity --table > docs/parameters.md  # what has been run so far, as Markdown
 
-A switch is turned. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
+A switch is turned; of a list of plugins one is left out. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
 OUT/runs.jsonl: a run that is there is not made again, so that the work can be ended and resumed at any time. Random
 assemblies are samples with random dimensions and rotations. An assembly that takes longer than --seconds with the
 defaults is left out; a run may take 40 times what the defaults take, at least a minute, and counts as lost after that.
@@ -82,9 +83,9 @@ def make_samples(program, folder, count):
     return made
 
 
-def parameters_of(resolved, schema):
-    """Keys for --set with their values, from resolved.yaml, and the range of each from the schema."""
-    path, found = [], collections.OrderedDict()
+def parameters_of(resolved):
+    """Keys for --set with their values, from resolved.yaml; and the lists of plugins in it, by key."""
+    path, found, lists = [], collections.OrderedDict(), collections.OrderedDict()
     for line in resolved.splitlines():
         match = re.match(r"( *)(- )?([\w]+): *([^#]*)", line)
         if not match or line.lstrip().startswith("#"):
@@ -92,13 +93,28 @@ def parameters_of(resolved, schema):
         depth, item, key, value = len(match[1]) + (2 if match[2] else 0), match[2], match[3], match[4].strip()
         path = [p for p in path if p[0] < depth]
         if item and key == "type":  # plugins in a list are named by their type
-            path = [p for p in path if p[0] < depth - 1] + [(depth - 1, value)]
+            path = [p for p in path if p[0] < depth - 1]
+            lists.setdefault(".".join(p[1] for p in path), []).append(value)
+            path.append((depth - 1, value))
             continue
         if value == "":
             path.append((depth, key))
             continue
         found[".".join([p[1] for p in path] + [key])] = value
-    return collections.OrderedDict((k, v) for k, v in found.items() if k.split(".")[0] in SECTIONS)
+    return collections.OrderedDict((k, v) for k, v in found.items() if k.split(".")[0] in SECTIONS), lists
+
+
+def lists_without_one(parameters, lists):
+    """By the name of a plugin in a list: the setting that leaves it out, all others with their parameters."""
+    settings = collections.OrderedDict()
+    for key, types in lists.items():
+        def item(kind):
+            prefix = "%s.%s." % (key, kind)
+            values = ["%s: %s" % (k[len(prefix):], v) for k, v in parameters.items() if k.startswith(prefix)]
+            return "{%s}" % ", ".join(["type: " + kind] + values)
+        for kind in types:
+            settings["%s.%s" % (key, kind)] = "%s=[%s]" % (key, ", ".join(item(t) for t in types if t != kind))
+    return settings
 
 
 def ranges_of(schema):
@@ -210,6 +226,7 @@ def main():
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/dismantle")
     parser.add_argument("--random", type=int, default=200, help="random assemblies")
     parser.add_argument("--only", default="", help="parameters whose key begins so")
+    parser.add_argument("--features", action="store_true", help="only switches, and plugins of lists")
     parser.add_argument("--seconds", type=float, default=1.5, help="of CPU time that an assembly may take as it is")
     parser.add_argument("--table", action="store_true", help="print the table of the runs so far, and run nothing")
     options = parser.parse_args()
@@ -224,10 +241,10 @@ def main():
         assemblies += sorted(p for group in ("two_part", "rotational", "threads", "burr", "cad")
                              for p in (pathlib.Path(data) / group).iterdir() if p.is_dir() and list(p.glob("*.obj")))
 
-    def record(key, label, value, default, assembly, seconds):
+    def record(key, label, value, default, setting, assembly, seconds):
         if (key, label, assembly.name) in runs:
             return runs[key, label, assembly.name]
-        result = plan(options.program, assembly, options.output, ["%s=%s" % (key, value)] if key else [], seconds)
+        result = plan(options.program, assembly, options.output, [setting] if key else [], seconds)
         result.update(key=key, variation=label, value=value, default=default, assembly=assembly.name)
         with file.open("a") as stream:
             stream.write(json.dumps(result) + "\n")
@@ -236,7 +253,7 @@ def main():
 
     used = []
     for k, assembly in enumerate(assemblies):
-        base = record("", "", "", "", assembly, 40 * options.seconds)
+        base = record("", "", "", "", "", assembly, 40 * options.seconds)
         if base["status"] in (0, 1) and base["seconds"] <= options.seconds:
             used.append((assembly, base))
     print("%d of %d assemblies are used" % (len(used), len(assemblies)), flush=True)
@@ -249,14 +266,17 @@ def main():
     resolved = (options.output / "plan" / "resolved.yaml").read_text()
     schema = json.loads((ROOT / "docs/reference/dismantle.schema.json").read_text())
     ranges = ranges_of(schema)
-    pending = [(key, value, *v) for key, value in parameters_of(resolved, schema).items()
-            if key.startswith(options.only) and key not in ALWAYS_LEFT_OUT for v in variations(key, value, ranges)]
-    for k, (key, default, label, value) in enumerate(pending):
+    parameters, lists = parameters_of(resolved)
+    pending = [(key, "in the list", "out", "left out", setting) for key, setting in lists_without_one(parameters, lists).items()]
+    pending += [(key, default, label, value, "%s=%s" % (key, value)) for key, default in parameters.items() if key not in ALWAYS_LEFT_OUT
+                for label, value in variations(key, default, ranges)]
+    pending = [p for p in pending if p[0].startswith(options.only) and (not options.features or p[2] in ("out", "turned"))]
+    for k, (key, default, label, value, setting) in enumerate(pending):
         differ = asked = 0
         for assembly, base in used:
             if key.startswith(SEARCH_ONLY) and base["searches"] == 0:
                 continue  # nothing was searched for
-            run = record(key, label, value, default, assembly, max(60.0, 40 * base["seconds"]))
+            run = record(key, label, value, default, setting, assembly, max(60.0, 40 * base["seconds"]))
             if run["status"] == 2:  # beyond its range
                 break
             asked += 1
