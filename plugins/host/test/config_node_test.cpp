@@ -1,4 +1,4 @@
-// The YAML tree: places of keys and values, repeated keys, limits; no text may end the process.
+// The YAML tree: places of keys and values, repeated keys, limits. No text may end the process.
 #include "dismantle/host/config_node.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST(ParseYaml, NoBombs) {
   }
 }
 
-// Law: whatever the bytes, a tree or problems come back.
+// Law: any bytes give a tree or problems.
 TEST(ParseYaml, RandomTextsNeverEndTheProcess) {
   const std::string seed_text =
       "schema: 1\nextends: base.yaml\nsimulator: {type: sdf, stiffness: 1.0e6}\nlist: [a, 'b', \"c\\n\"]\nblock: |\n  "

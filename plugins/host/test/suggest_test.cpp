@@ -1,4 +1,4 @@
-// Laws of the edit distance: a metric (up to swaps), and what counts as near.
+// Laws of the edit distance: it is a metric (up to swaps); and which words count as near.
 #include "dismantle/host/suggest.h"
 
 #include <gtest/gtest.h>

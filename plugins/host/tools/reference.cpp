@@ -1,4 +1,4 @@
-// dismantle_reference [--check] FOLDER: writes docs/reference from the built-in plugins, or says how it differs.
+// dismantle_reference [--check] FOLDER: writes docs/reference from the built-in plugins, or reports differences.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -20,7 +20,7 @@ namespace {
 
 bool can_limit_memory() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return false;  // the shadow memory of a sanitizer takes terabytes of address space
+  return false;  // the shadow memory of a sanitizer needs terabytes of address space
 #else
   return true;
 #endif
@@ -57,7 +57,7 @@ struct Pipe {
   }
 };
 
-/// Kills and collects the child, whatever happens.
+/// Kills and reaps the child in every case.
 class Child {
  public:
   explicit Child(pid_t id) : id_(id) {}
@@ -70,7 +70,7 @@ class Child {
     }
   }
   void kill() const { ::kill(-id_, SIGKILL); }
-  /// Whether it has ended; then its status.
+  /// True if it has ended; then `status` is set.
   bool ended(int& status) {
     if (::waitpid(id_, &status, WNOHANG) != id_) return false;
     id_ = -1;
@@ -88,14 +88,14 @@ class Child {
   pid_t id_;
 };
 
-/// Between fork and exec, in the child: only calls that are safe there, since the host has other threads.
+/// Runs in the child between fork and exec: only async-signal-safe calls, because the host has other threads.
 [[noreturn]] void become(char* const* arguments, const ChildLimits& limits, int output, int messages, int failure) {
   const auto give_up = [&] {
     const int error = errno;
     (void)!::write(failure, &error, sizeof error);
     ::_exit(127);
   };
-  ::setpgid(0, 0);  // Ctrl-C reaches the host alone, which decides
+  ::setpgid(0, 0);  // Ctrl-C then reaches only the host, which decides
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const auto limit = [](__rlimit_resource what, rlim_t soft, rlim_t hard) {
     rlimit now = {};
@@ -106,7 +106,7 @@ class Child {
   limit(RLIMIT_CORE, 0, 0);
   if (can_limit_memory() && limits.memory > 0 && !limit(RLIMIT_AS, limits.memory, limits.memory)) give_up();
   const auto seconds = static_cast<rlim_t>(std::ceil(limits.seconds)) + 1;
-  if (limits.seconds > 0 && !limit(RLIMIT_CPU, seconds, seconds + 1)) give_up();  // SIGXCPU at the first
+  if (limits.seconds > 0 && !limit(RLIMIT_CPU, seconds, seconds + 1)) give_up();  // SIGXCPU at the soft limit
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -121,7 +121,7 @@ class Child {
   ::_exit(127);
 }
 
-/// A descriptor above those of the standard streams, which the host may have closed.
+/// Moves a descriptor above those of the standard streams, which the host may have closed.
 bool lift(Descriptor& descriptor) {
   const int lifted = ::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, 3);
   if (lifted < 0) return false;
@@ -192,7 +192,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
   int status = 0;
   bool ended = false;
   while (!killed && !ended) {
-    // Streams come first: a child that has ended may have left something in them.
+    // Read the streams to their end first: a child that has ended may have left data in them.
     if (output.read.get() < 0 && messages.read.get() < 0 && child.ended(status)) {
       ended = true;
       break;
@@ -204,7 +204,7 @@ ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::
     if (polled[1].revents != 0)
       drain(messages.read, [&](auto bytes) {
         end.messages.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        const std::size_t kept = 4096;  // bytes, the last ones
+        const std::size_t kept = 4096;  // the last bytes
         if (end.messages.size() > 2 * kept) end.messages.erase(0, end.messages.size() - kept);
       });
     if (!accepted || should_stop())

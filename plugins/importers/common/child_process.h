@@ -1,4 +1,4 @@
-/// Runs a program that may crash, hang or take too much, and hands over what it writes.
+/// Runs a program that may crash, hang or use too much memory, and passes on its output.
 #pragma once
 
 #include <cstddef>
@@ -26,11 +26,11 @@ struct ChildEnd {
   };
   How how = How::not_started;
   int code = 0;
-  std::string messages;  ///< the end of what it wrote to standard error
+  std::string messages;  ///< the last part of its standard error
 };
 
-/// Starts `program` with `arguments`, without a shell. `take` gets its standard output piece by piece; when it returns
-/// false, the child is killed. `should_stop` is asked several times a second. The child is gone when this returns or
+/// Starts `program` with `arguments`, without a shell. `take` receives its standard output piece by piece and returns
+/// false to kill the child. `should_stop` is polled several times a second. The child has ended when this returns or
 /// throws.
 ChildEnd run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                    const ChildLimits& limits, const std::function<bool()>& should_stop,

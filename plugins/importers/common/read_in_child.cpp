@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Plain text: libraries colour their messages, and quote the file, which may come from anybody, as it is.
+/// Plain text without escape sequences: libraries colour their messages and quote the untrusted file unchanged.
 std::string without_control_characters(const std::string& text) {
   std::string plain;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -29,7 +29,7 @@ std::string without_control_characters(const std::string& text) {
   return plain;
 }
 
-/// The last lines that are worth showing.
+/// The last lines, for a message.
 std::string last_words(const std::string& messages) {
   std::string text = messages;
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
@@ -45,7 +45,7 @@ std::string last_words(const std::string& messages) {
   return text;
 }
 
-/// What the loader and the libraries write when there is no memory left.
+/// Recognises the messages of the loader and the libraries when memory has run out.
 bool out_of_memory(const ChildEnd& end) {
   for (const char* text :
        {"bad_alloc", "OutOfMemory", "annot allocate memory", "failed to map segment", "out of memory"})
@@ -58,7 +58,7 @@ std::string said(const ChildEnd& end) {
   return words.empty() ? "" : fmt::format(" ({})", words);
 }
 
-/// Throws what is to be told of a reading that failed.
+/// Throws the errors of a failed read.
 class Failures {
  public:
   Failures(const fs::path& file, const ReaderProgram& program, const ChildLimits& limits)

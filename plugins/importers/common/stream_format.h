@@ -1,9 +1,9 @@
-/// The byte stream from the reader program to the plugin: both run on one machine, numbers have its byte order.
+/// The byte stream from the reader program to the plugin. Both run on one machine; numbers have its byte order.
 ///
 ///   magic, then records: u8 tag, u32 length of the payload, payload. Strings in a payload: u32 length, bytes.
 ///
-/// The reader program is not trusted: it may have been broken by the file that it read. So every length has a bound
-/// that is checked before memory is taken for it (input_limits.h).
+/// The reader program is not trusted: the file that it read may have corrupted it. So every length has a limit that is
+/// checked before memory is allocated for it (input_limits.h).
 #pragma once
 
 #include <cstdint>

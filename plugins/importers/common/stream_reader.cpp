@@ -16,7 +16,7 @@ struct Broken {
 
 }  // namespace
 
-/// The bytes of one record; reading past its end is an error.
+/// The bytes of one record. Reading past its end is an error.
 class StreamReader::Payload {
  public:
   explicit Payload(std::span<const std::byte> bytes) : bytes_(bytes) {}

@@ -1,4 +1,4 @@
-/// Reads the stream of the reader program (stream_format.h), piece by piece, trusting nothing in it.
+/// Reads the stream of the reader program (stream_format.h) piece by piece and checks everything in it.
 #pragma once
 
 #include <cstddef>
@@ -18,20 +18,20 @@ class StreamReader {
  public:
   using OnPhase = std::function<void(const std::string& phase, std::size_t done, std::size_t total)>;
 
-  /// More than `max_triangles` in all bodies are refused.
+  /// Refuses streams with more than `max_triangles` in all bodies together.
   StreamReader(std::uint64_t max_triangles, OnPhase on_phase);
 
-  /// Returns false when the stream is none: see problem(). Memory taken is proportional to the bytes given.
+  /// Returns false when the stream is invalid: see problem(). Uses memory in proportion to the bytes received.
   bool feed(std::span<const std::byte> bytes);
 
   const std::string& problem() const { return problem_; }
-  /// All bodies that were announced have come.
+  /// True when all announced bodies were received.
   bool complete() const { return ended_ && problem_.empty(); }
   struct Reported {
     Failure kind = Failure::unreadable;
     std::string text;
   };
-  /// What the reader program says went wrong.
+  /// The failure that the reader program reported.
   const std::optional<Reported>& failure() const { return failure_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   std::vector<RawPart> take_parts();

@@ -13,14 +13,14 @@ namespace dismantle::reader_process {
 
 struct Body {
   std::string name;
-  std::vector<std::string> parents;                   ///< names of the assemblies that it is in, outermost first
+  std::vector<std::string> parents;                   ///< names of the assemblies that contain it, outermost first
   std::optional<std::array<std::uint8_t, 4>> colour;  ///< RGBA, sRGB
-  std::string problem;  ///< not empty: it cannot be a part, and why; then it has no triangles
+  std::string problem;  ///< not empty: reason why it cannot be a part; then it has no triangles
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Ends the process when the reading end is closed.
+/// Writes the stream. Ends the process when the reading end is closed.
 class StreamWriter {
  public:
   explicit StreamWriter(int descriptor);

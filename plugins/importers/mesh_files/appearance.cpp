@@ -11,7 +11,7 @@
 namespace dismantle::mesh_files {
 namespace {
 
-/// IEC 61966-2-1.
+/// sRGB encoding of IEC 61966-2-1.
 double encoded(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
@@ -61,7 +61,7 @@ std::map<std::string, Rgba> read_material_library(const std::filesystem::path& f
       }
     }
   } catch (const InputError&) {
-    return {};  // appearance only: the mesh is there without it
+    return {};  // appearance only: the mesh is usable without it
   }
   std::map<std::string, Rgba> out;
   for (const auto& [name, v] : read)

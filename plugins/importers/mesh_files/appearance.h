@@ -1,4 +1,4 @@
-/// Colours and units as files give them, and the material libraries of OBJ.
+/// Colours and units in files, and the material libraries of OBJ.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 namespace dismantle::mesh_files {
 
-/// The one colour of a part, or none once two of its faces differ.
+/// The single colour of a part; none when two of its faces differ.
 class OneColour {
  public:
   void add(const std::optional<Rgba>& colour);
@@ -21,14 +21,14 @@ class OneColour {
   std::optional<Rgba> colour_;
 };
 
-/// From [0, 1] per channel; values outside are cut off, what is not finite is no colour. `linear`: linear light, else
-/// sRGB.
+/// Converts channels in [0, 1]; values outside are clamped, non-finite values give no colour. `linear`: linear light,
+/// else sRGB.
 std::optional<Rgba> rgba(double r, double g, double b, double a, bool linear);
 
-/// Kd and d (or Tr) of the materials in an .mtl file, by name. A file that cannot be read has none.
+/// Kd and d (or Tr) of the materials in an .mtl file, by name. Empty if the file cannot be read.
 std::map<std::string, Rgba> read_material_library(const std::filesystem::path& file);
 
-/// "mm", "cm", "m", "inch", "foot", "micron" of a length in metres; empty when it is none of them.
+/// Name of a length unit given in metres: "mm", "cm", "m", "inch", "foot", "micron"; empty for any other length.
 std::string unit_of_length(double metres);
 
 }  // namespace dismantle::mesh_files

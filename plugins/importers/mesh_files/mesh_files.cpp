@@ -25,15 +25,12 @@ std::string ending(const std::filesystem::path& file) {
 
 void MeshFilesParams::describe(Schema<MeshFilesParams>& s) {
   s.add("time_limit", &MeshFilesParams::time_limit,
-        {.unit = "s",
-         .min = 0,
-         .max = 1e6,
-         .doc = "Reading a glTF, 3MF or DAE file is given up after this time; 0 = no limit."});
+        {.unit = "s", .min = 0, .max = 1e6, .doc = "Time limit for reading a glTF, 3MF or DAE file; 0 = no limit."});
   s.add("memory_limit", &MeshFilesParams::memory_limit,
         {.unit = "MiB",
          .min = 0,
          .max = 1e7,
-         .doc = "Address space of the process that reads a glTF, 3MF or DAE file; 0 = no limit."});
+         .doc = "Address space limit of the process that reads a glTF, 3MF or DAE file; 0 = no limit."});
 }
 
 MeshFiles::MeshFiles(const MeshFilesParams& params)

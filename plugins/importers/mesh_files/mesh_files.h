@@ -1,4 +1,4 @@
-/// The importer: chooses the reader by the file's ending.
+/// The importer: selects the reader by the file's extension.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace dismantle::mesh_files {
 
-/// `importers: {mesh_files: ...}` in a configuration: of glTF, 3MF and DAE files, which another process reads.
+/// `importers: {mesh_files: ...}` in a configuration. Limits for glTF, 3MF and DAE files, which another process reads.
 struct MeshFilesParams {
   double time_limit = 600;
   double memory_limit = 4096;

@@ -71,7 +71,7 @@ class ObjReader {
     } else if (keyword == "f") {
       face(line);
     } else if (keyword == "o") {
-      // Two objects of one name are two parts.
+      // Two objects with one name are two parts.
       object_ = std::string(trimmed(line));
       object_open_ = false;
     } else if (keyword == "g") {
@@ -81,7 +81,7 @@ class ObjReader {
     } else if (keyword == "mtllib") {
       libraries_.emplace_back(trimmed(line));
     }
-    // All else is geometry that is no mesh.
+    // Everything else is geometry without a mesh.
   }
 
   std::uint32_t index(std::string_view word) const {
@@ -121,11 +121,12 @@ class ObjReader {
     for (const auto i : corners_) points_.push_back(vertices_[i]);
     const auto cut = triangulate_polygon(points_);
     for (const auto& t : cut) out.push_back({corners_[t[0]], corners_[t[1]], corners_[t[2]]});
-    if (cut.empty())  // crosses itself or has no area: a fan keeps the surface closed
+    if (cut.empty())  // self-intersecting or without area: a fan keeps the surface closed
       for (std::size_t i = 2; i < corners_.size(); ++i) out.push_back({corners_[0], corners_[i - 1], corners_[i]});
   }
 
-  /// Where faces go now. Both ways of dividing the file are kept until its end tells which one it uses.
+  /// The section of the next faces. Objects and groups are both kept until the end of the file shows which are the
+  /// parts.
   Section& section() {
     if (!object_open_) {
       objects_.push_back({object_, {}});
@@ -148,14 +149,14 @@ class ObjReader {
         to.insert(to.end(), groups_[g].triangles.begin(), groups_[g].triangles.end());
         objects_[object_of_group_[g]].materials.insert(groups_[g].materials.begin(), groups_[g].materials.end());
       }
-      // One object around all groups names the file, not a part.
+      // A single object around all groups names the file, not a part.
       if (objects_.size() == 1 && groups_.size() > 1) return built(groups_, objects_[0].name);
       return built(objects_);
     }
     return built(groups_);
   }
 
-  /// The colours of all materials that the file's libraries define; they lie beside it.
+  /// The colours of all materials in the file's libraries, which are beside it.
   std::map<std::string, Rgba> colours() const {
     std::map<std::string, Rgba> all;
     for (const std::string& library : libraries_) {
@@ -165,7 +166,7 @@ class ObjReader {
     return all;
   }
 
-  /// `object`: what the sections are groups of; empty: nothing.
+  /// `object`: the object that contains the sections as groups; empty: none.
   std::vector<RawPart> built(const std::vector<Section>& sections, const std::string& object = {}) const {
     const std::map<std::string, Rgba> known = colours();
     std::vector<RawPart> parts;
@@ -229,7 +230,7 @@ std::optional<std::uint64_t> count_obj_triangles(const std::filesystem::path& fi
     }
     return triangles;
   } catch (const InputError&) {
-    return std::nullopt;  // reading it will say why
+    return std::nullopt;  // read_obj() reports the error
   }
 }
 

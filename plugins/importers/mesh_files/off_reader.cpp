@@ -9,7 +9,7 @@
 namespace dismantle::mesh_files {
 namespace {
 
-/// Next line with something on it but comments.
+/// Skips empty lines and comments.
 bool next_filled(LineReader& lines, std::string_view& line) {
   while (lines.next(line)) {
     line = trimmed(line.substr(0, line.find('#')));
@@ -70,7 +70,7 @@ std::vector<RawPart> read_off(const std::filesystem::path& file, const RunContex
     if (*n < 3) continue;  // points and lines
     const auto cut = triangulate_polygon(points);
     for (const auto& t : cut) part.mesh.triangles.push_back({corners[t[0]], corners[t[1]], corners[t[2]]});
-    if (cut.empty())  // crosses itself or has no area: a fan keeps the surface closed
+    if (cut.empty())  // self-intersecting or without area: a fan keeps the surface closed
       for (std::size_t k = 2; k < corners.size(); ++k)
         part.mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
   }

@@ -1,5 +1,5 @@
-// Stanford PLY, text and binary of both byte orders, in double precision. (assimp's reader does not come to an end on
-// some damaged files.)
+// Stanford PLY, text and binary in both byte orders, in double precision. (assimp's reader does not terminate on some
+// damaged files.)
 #include <fmt/format.h>
 
 #include <bit>
@@ -231,7 +231,7 @@ class PlyReader {
       }
     const auto cut = corners_.size() > 3 ? triangulate_polygon(points_) : std::vector<Triangle>{{0, 1, 2}};
     for (const auto& t : cut) mesh.triangles.push_back({corners_[t[0]], corners_[t[1]], corners_[t[2]]});
-    if (cut.empty())  // crosses itself or has no area: a fan keeps the surface closed
+    if (cut.empty())  // self-intersecting or without area: a fan keeps the surface closed
       for (std::size_t k = 2; k < corners_.size(); ++k)
         mesh.triangles.push_back({corners_[0], corners_[k - 1], corners_[k]});
   }
@@ -257,7 +257,7 @@ std::optional<std::uint64_t> count_ply_triangles(const std::filesystem::path& fi
   try {
     return PlyReader(file).faces_stated();
   } catch (const InputError&) {
-    return std::nullopt;  // reading it will say why
+    return std::nullopt;  // read_ply() reports the error
   }
 }
 

@@ -12,14 +12,14 @@
 namespace dismantle::mesh_files {
 namespace {
 
-/// Bytes before the triangles (a comment of 80 and their number), and of a triangle (twelve floats and two bytes).
+/// Bytes before the triangles (a comment of 80 bytes, their number), and per triangle (twelve floats, two bytes).
 constexpr std::size_t kHeader = 80 + sizeof(std::uint32_t), kRecord = 12 * sizeof(float) + sizeof(std::uint16_t);
 
-/// What a binary file states about itself.
+/// Header of a binary file.
 struct BinaryHeader {
   std::uint64_t size = 0;       ///< of the file
   std::uint32_t triangles = 0;  ///< as stated
-  bool says_solid = false;      ///< starts like a text file (many binary files do, too)
+  bool says_solid = false;      ///< starts like a text file (many binary files also do)
   bool fits() const { return size >= kHeader && size == kHeader + kRecord * std::uint64_t{triangles}; }
 };
 
@@ -146,7 +146,7 @@ std::optional<std::uint64_t> count_stl_triangles(const std::filesystem::path& fi
     while (lines.next(rest)) triangles += take_word(rest) == "endfacet";
     return triangles;
   } catch (const InputError&) {
-    return std::nullopt;  // reading it will say why
+    return std::nullopt;  // read_stl() reports the error
   }
 }
 

@@ -33,7 +33,7 @@ void stop_if_told(const RunContext& context, const std::filesystem::path& file) 
   if (context.should_stop()) throw Error("stopped while reading " + file.string());
 }
 
-/// The next block of the file; false at its end.
+/// Reads the next block of the file; false at its end.
 bool LineReader::fill() {
   stop_if_told(context_, file_);
   in_.read(block_.data(), static_cast<std::streamsize>(block_.size()));
@@ -56,7 +56,7 @@ bool LineReader::next(std::string_view& line) {
     const std::size_t size = ended ? static_cast<std::size_t>(stop - begin) : end_ - at_;
     buffer_.append(begin, size);
     at_ += size + (ended ? 1 : 0);
-    if (buffer_.size() > 1 << 24) {  // bytes: this is no text file
+    if (buffer_.size() > 1 << 24) {  // bytes: not a text file
       ++number_;
       fail("the line is too long for a mesh file");
     }
@@ -95,7 +95,7 @@ std::optional<double> to_double(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (word.empty() || end != word.data() + word.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) {
-    // Too small is zero, too large is no coordinate.
+    // Underflow is zero; overflow is not a valid coordinate.
     const auto exponent = word.find_last_of("eE");
     const bool tiny = exponent != std::string_view::npos && exponent + 1 < word.size() && word[exponent + 1] == '-';
     return tiny ? 0.0 : HUGE_VAL;

@@ -1,4 +1,4 @@
-/// Reading numbers and words from lines, independent of the locale, with errors that name file and line.
+/// Reads numbers and words from lines, independent of the locale; errors name file and line.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace dismantle::mesh_files {
 
-/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines, before memory is taken for them.
+/// Lines of a text file without line ends (LF, CRLF). Refuses binary data and overlong lines before they use memory.
 class LineReader {
  public:
   /// @throws InputError when the file cannot be opened.
   explicit LineReader(const std::filesystem::path& file, const RunContext& context = {});
-  /// False at the end. The view holds until the next call. @throws InputError on read errors and binary data, Error when
-  /// the context wants to stop.
+  /// False at the end. The view is valid until the next call. @throws InputError on read errors and binary data, Error
+  /// when the context requests a stop.
   bool next(std::string_view& line);
   /// @throws InputError "FILE: line N: problem".
   [[noreturn]] void fail(const std::string& problem) const;
@@ -32,23 +32,23 @@ class LineReader {
   RunContext context_;
   std::ifstream in_;
   std::vector<char> block_;
-  std::size_t at_ = 0, end_ = 0;  // what of the block is still to be read
+  std::size_t at_ = 0, end_ = 0;  // range of the block that is not read yet
   std::string buffer_;
   std::size_t number_ = 0;
 };
 
-/// Takes the next word (no blanks) off the front of `rest`; empty at the end.
+/// Removes and returns the next word (no blanks) of `rest`; empty at the end.
 std::string_view take_word(std::string_view& rest);
 std::string_view trimmed(std::string_view text);
 
-/// The whole word as a number. Accepts a leading '+'. Infinite and NaN values are returned as they are.
+/// The whole word as a number. Accepts a leading '+', infinity and NaN.
 std::optional<double> to_double(std::string_view word);
 std::optional<std::int64_t> to_integer(std::string_view word);
 
-/// @throws Error when the context wants to stop: for what reads long files without lines.
+/// @throws Error when the context requests a stop. For readers of long files without lines.
 void stop_if_told(const RunContext& context, const std::filesystem::path& file);
 
-/// Next word of `rest` as a finite coordinate. @throws InputError through `lines`.
+/// Takes the next word of `rest` as a finite coordinate. @throws InputError through `lines`.
 double take_coordinate(std::string_view& rest, const LineReader& lines);
 
 }  // namespace dismantle::mesh_files

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Refuses what is no whole STEP file before another process is started for it.
+/// Refuses truncated files and files of other formats before a process is started for them.
 void check_ends(const fs::path& file) {
   const std::streamoff look = 1 << 16;  // bytes at both ends; comments may stand there
   std::ifstream in(file, std::ios::binary);
@@ -46,23 +46,26 @@ void StepParams::describe(Schema<StepParams>& s) {
          .min = 1e-6,
          .max = 0.5,
          .doc = "Largest distance between a body and its triangles, as a share of the diagonal of the body's box."});
-  s.add(
-      "assembly_deflection", &StepParams::assembly_deflection,
-      {.unit = "1",
-       .min = 0,
-       .max = 0.5,
-       .doc = "The same as a share of the diagonal of the whole assembly; the smaller of both counts. 0 = no bound."});
+  s.add("assembly_deflection", &StepParams::assembly_deflection,
+        {.unit = "1",
+         .min = 0,
+         .max = 0.5,
+         .doc =
+             "The same as a share of the diagonal of the whole assembly; the smaller distance applies. 0 = no bound."});
   s.add("angular_deflection", &StepParams::angular_deflection,
         {.unit = "rad",
          .min = 0.01,
          .max = 1.5,
          .doc = "Largest angle between the directions of a curve, or normals of a surface, at neighbouring vertices."});
   s.add("triangle_limit", &StepParams::triangle_limit,
-        {.unit = "1", .min = 1, .max = 1e9, .doc = "A file that gives more triangles is refused."});
+        {.unit = "1", .min = 1, .max = 1e9, .doc = "Files with more triangles are refused."});
   s.add("time_limit", &StepParams::time_limit,
-        {.unit = "s", .min = 0, .max = 1e6, .doc = "Reading a file is given up after this time; 0 = no limit."});
+        {.unit = "s", .min = 0, .max = 1e6, .doc = "Time limit for reading a file; 0 = no limit."});
   s.add("memory_limit", &StepParams::memory_limit,
-        {.unit = "MiB", .min = 0, .max = 1e7, .doc = "Address space of the process that reads a file; 0 = no limit."});
+        {.unit = "MiB",
+         .min = 0,
+         .max = 1e7,
+         .doc = "Address space limit of the process that reads a file; 0 = no limit."});
 }
 
 StepImporter::StepImporter(const StepParams& params)

@@ -1,4 +1,4 @@
-/// Reads STEP files through a program of its own, step_reader.
+/// Reads STEP files with a separate program, step_reader.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct StepParams {
 
 class StepImporter : public Importer {
  public:
-  /// With the reader program that was installed with this plugin.
+  /// Uses the reader program that was installed with this plugin.
   explicit StepImporter(const StepParams& params);
   /// `reader`: the program to start, which may be missing.
   StepImporter(const StepParams& params, std::filesystem::path reader);

@@ -1,5 +1,5 @@
-// acme.walled_in: an immobility prover. A point deep inside one part is walled in by a closed surface of the other part:
-// when the two are apart it is outside, so on the way it passes through that surface, which is then too deep in the part.
+// acme.walled_in: an immobility prover. A closed surface of one part encloses a point deep inside the other part. When
+// they are apart, the point is outside, so on the way it crosses the surface, which then is too deep in the other part.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -22,7 +22,7 @@ struct AcmeWalledInParams {
           {.unit = "1",
            .min = 1,
            .max = 100,
-           .doc = "Points that are tried along each edge of the part's box, in search of one that is deep enough."});
+           .doc = "Points along each edge of the part's box, in the search for one that is deep enough."});
   }
 };
 
@@ -38,7 +38,7 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
                                               const dismantle::RunContext& context) const override {
     if (query.moving.size() != 1 || query.fixed.size() != 1) return std::nullopt;
     const dismantle::PartId a = query.moving[0].part, b = query.fixed[0].part;
-    // What separates a from b separates b from a: each may be the one that is walled in.
+    // Separation is symmetric: either part may be the enclosed one.
     for (const auto& [inside, around] : {std::pair(a, b), std::pair(b, a)}) {
       const double allowed = query.assembly.initial_overlap(inside, around) + query.margin();
       const auto point = walled_in(*query.assembly.parts[inside].mesh, *query.assembly.parts[around].mesh, allowed, context);
@@ -54,7 +54,7 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
     double depth = 0;
   };
 
-  /// The deepest of the points of `part` that are deeper than `allowed` and inside a closed shell of `other`.
+  /// The deepest point of `part` that is deeper than `allowed` and inside a closed shell of `other`.
   std::optional<DeepPoint> walled_in(const dismantle::Mesh& part, const dismantle::Mesh& other, double allowed,
                                      const dismantle::RunContext& context) const {
     const dismantle::Aabb box = part.box();
@@ -76,7 +76,7 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
     return found;
   }
 
-  /// The closed surfaces that a mesh consists of: its outsides and its cavities.
+  /// The closed surfaces of a mesh: its outer shells and its cavities.
   static std::vector<dismantle::TriangleBvh> shells_of(const dismantle::Mesh& mesh) {
     dismantle::DisjointSets connected(mesh.vertices.size());
     for (const auto& t : mesh.triangles) {
@@ -99,7 +99,7 @@ class AcmeWalledIn final : public dismantle::ImmobilityProver {
     dismantle::Certificate c;
     c.parts = {inside, around};
     c.numbers = {{"point", {point.at.x(), point.at.y(), point.at.z()}}, {"depth", {point.depth}}, {"allowed", {allowed}}};
-    const double scale = query.assembly.normalization.scale;  // a reader sees the units of the input
+    const double scale = query.assembly.normalization.scale;  // the text uses input units
     c.text = "'" + query.assembly.parts[inside].name + "' is walled in by '" + query.assembly.parts[around].name +
              "': a point of it lies " + std::to_string(point.depth / scale) + " below its surface, and would have to pass " +
              "a closed wall; " + std::to_string(allowed / scale) + " is allowed";

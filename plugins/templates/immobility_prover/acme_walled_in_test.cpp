@@ -1,4 +1,4 @@
-// What is expected of acme.walled_in beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.walled_in beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 
 #include "dismantle/host/registry.h"
@@ -9,7 +9,7 @@ namespace {
 
 using dismantle::fake::Box;
 
-/// A cube with half an edge of `half` in a closed case, or in one without a lid.
+/// A cube with half edge `half` in a closed case, or in a case without a lid.
 dismantle::Assembly cube_in_case(double half, double wall, bool lid) {
   const double in = 1, out = in + wall;
   std::vector<Box> walls = {{{-out, -out, -out}, {out, out, -in}},
@@ -54,7 +54,7 @@ TEST(AcmeWalledIn, WithoutALidNothingIsClaimed) {
 }
 
 TEST(AcmeWalledIn, WhatIsThinnerThanTheToleranceIsNotClaimed) {
-  EXPECT_FALSE(prove(cube_in_case(0.1, 0.2, true), 0.11));  // no point of the cube is as deep as it may be cut
+  EXPECT_FALSE(prove(cube_in_case(0.1, 0.2, true), 0.11));  // no point of the cube is deeper than the tolerance
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 //
 //   facets 1            the format and its version; comments begin with #
 //   unit mm             optional: the unit of all coordinates
-//   part shaft          a part and its name, which goes on to the end of the line
+//   part shaft          a part; its name ends with the line
 //   v 0 0 12.5          a vertex of this part
 //   f 0 1 2             a triangle of this part: vertices by number from 0, counter-clockwise seen from outside
 #include <cctype>

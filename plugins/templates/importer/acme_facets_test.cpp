@@ -1,4 +1,4 @@
-// What is expected of acme.facets beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.facets beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// What is expected of acme.lines beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.lines beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 
 #include "dismantle/engine/run.h"
@@ -9,7 +9,7 @@
 
 namespace {
 
-/// Plans one part's path, all others fixed.
+/// Plans the path of one part, with all others fixed.
 dismantle::Outcome plan(const dismantle::Assembly& assembly, const std::string& part) {
   dismantle::Registry registry;
   registry.scan();

@@ -1,4 +1,4 @@
-// What is expected of acme.in_turn beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.in_turn beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 
 #include "dismantle/host/registry.h"
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// With parameters as in a configuration; the oracle knows which part has to leave before which.
+/// Runs the planner with these parameters; the oracle knows the precedence of the parts.
 dismantle::FakeRun run(const dismantle::FakeMachine& machine, const dismantle::ParamSet& params = {}) {
   dismantle::Registry registry;
   registry.load(PLUGIN_FILE);

@@ -1,4 +1,4 @@
-// What is expected of acme.stepper beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.stepper beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 
 #include "dismantle/host/registry.h"
@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A plate in a closed box, and what moves it.
+/// A plate in a closed box, and helpers that move it.
 class AcmeStepper : public testing::Test {
  protected:
   AcmeStepper() : assembly_(dismantle::fake::closed_box()) {

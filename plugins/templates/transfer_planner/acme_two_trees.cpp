@@ -1,5 +1,5 @@
-// acme.two_trees: a transfer planner. Two random trees of displacements, from where the parts lie and from where they are
-// to be put in, grow towards each other (RRT-Connect).
+// acme.two_trees: a transfer planner. Two random trees of displacements, from the start pose and from the goal pose
+// of the parts, grow towards each other (RRT-Connect).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,27 +27,27 @@ struct AcmeTwoTreesParams {
            .min = 0,
            .max = 1,
            .min_open = true,
-           .doc = "Distance between two states that are checked on an extension."});
+           .doc = "Distance between neighbouring state checks on an extension."});
     s.add("share", &AcmeTwoTreesParams::share,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .doc = "Share of the verifier's tolerance by which a state may penetrate."});
     s.add("max_checks", &AcmeTwoTreesParams::max_checks,
-          {.unit = "1", .min = 0, .doc = "States that are checked for one transfer; 0 = no limit but that of the run."});
+          {.unit = "1", .min = 0, .doc = "Most state checks for one transfer; 0 = only the limit of the run."});
   }
 };
 
 constexpr dismantle::Capabilities kNeeds{.distance = true};
 
-/// One transfer. A configuration is the displacement of the whole group from where it lies.
+/// One transfer. A configuration is the displacement of the whole group from its start pose.
 class Transfer {
  public:
   Transfer(const AcmeTwoTreesParams& params, const dismantle::TransferQuery& query, dismantle::RunContext& context)
       : params_(params), query_(query), context_(context) {
     world_ = query.simulator.world(query.assembly, query.prepared, query.scene, dismantle::MotionSpace::rigid);
     start_ = world_->initial_state();
-    goal_ = query.goal[0] * start_.bodies[0].pose.inverse();  // the same for all parts of the group
+    goal_ = query.goal[0] * start_.bodies[0].pose.inverse();  // equal for all parts of the group
     dismantle::Aabb group;
     for (const auto& part : query.scene.moving) extend(group, part, Pose{});
     center_ = group.center();
@@ -72,7 +72,7 @@ class Transfer {
           result.solve(*check.verified, static_cast<unsigned>(way.size() - 1));
           break;
         }
-        ++result.stats.refused;  // other trees may find another way
+        ++result.stats.refused;  // other trees may find another path
         result.message = check.reason;
       }
       if (!is_success(result.outcome())) result.fail(end());
@@ -85,7 +85,7 @@ class Transfer {
  private:
   struct Node {
     Pose displacement;
-    std::size_t parent = 0;  // the root is its own
+    std::size_t parent = 0;  // the root is its own parent
   };
   using Tree = std::vector<Node>;
 
@@ -105,11 +105,11 @@ class Transfer {
     for (auto& body : state.bodies) body.pose = displacement * body.pose;
     return world_->penetration(state) <= params_.share * query_.tolerance;
   }
-  /// No point of the group moves further than this on the way from a to b.
+  /// Upper bound of the travel of all points of the group from a to b.
   double distance(const Pose& a, const Pose& b) const { return dismantle::screw_travel(a, b, center_, radius_); }
-  /// All states on the screw motion from a to b; a itself is free.
+  /// True if all checked states on the screw motion from a to b are free; a itself must be free.
   bool free_between(const Pose& a, const Pose& b) {
-    if (dismantle::angle_between(a.q, b.q) > 0.9 * std::numbers::pi) return false;  // half a turn has two directions
+    if (dismantle::angle_between(a.q, b.q) > 0.9 * std::numbers::pi) return false;  // near half a turn the direction is ambiguous
     const auto states = std::max(1.0, std::ceil(distance(a, b) / (params_.step * radius_)));
     for (double k = 1; k <= states; ++k)
       if (!free(dismantle::screw_interpolate(a, b, k / states))) return false;
@@ -126,7 +126,7 @@ class Transfer {
     return best;
   }
 
-  /// One extension towards `to`. Returns whether it got all the way; `tree` has grown when `grown` is set.
+  /// One extension towards `to`. Returns true if it reached `to`; sets `grown` if the tree has grown.
   bool extend_towards(Tree& tree, const Pose& to, bool& grown) {
     const std::size_t from = nearest(tree, to);
     const Pose begin = tree[from].displacement;
@@ -137,11 +137,11 @@ class Transfer {
     return grown && d <= range;
   }
 
-  /// The displacements from start to goal, or nothing when time or budget is spent.
+  /// The displacements from start to goal; empty when time or budget is used up.
   std::vector<Pose> connect() {
     Tree from_start = {{Pose{}, 0}}, from_goal = {{goal_, 0}};
     Tree *a = &from_start, *b = &from_goal;
-    Pose target = goal_;  // first of all the straight way
+    Pose target = goal_;  // try the direct motion first
     while (!stopped()) {
       bool grown = false;
       extend_towards(*a, target, grown);
@@ -168,11 +168,11 @@ class Transfer {
     std::vector<Pose> way = branch(from_start);
     std::reverse(way.begin(), way.end());
     const std::vector<Pose> rest = branch(from_goal);
-    way.insert(way.end(), rest.begin() + 1, rest.end());  // both have the displacement where they met
+    way.insert(way.end(), rest.begin() + 1, rest.end());  // both branches contain the displacement where they meet
     return way;
   }
 
-  /// Leaves out what a direct motion can replace.
+  /// Replaces detours by direct motions.
   std::vector<Pose> shortened(const std::vector<Pose>& way) {
     std::vector<Pose> out;
     for (std::size_t i = 0; i < way.size();) {
@@ -188,7 +188,7 @@ class Transfer {
     return out;
   }
 
-  /// The centre of the group anywhere in the room; turned as at the start, as at the goal or between, or in any way.
+  /// A random centre of the group in the room; orientation of the start, of the goal, between them, or random.
   Pose random_displacement() {
     Vector3d p;
     for (int k = 0; k < 3; ++k) p[k] = context_.rng.uniform(room_.lo[k], room_.hi[k]);
@@ -222,7 +222,7 @@ class Transfer {
   std::unique_ptr<dismantle::World> world_;
   dismantle::State start_;
   Pose goal_;
-  Vector3d center_ = Vector3d::Zero();  // of the group where it lies
+  Vector3d center_ = Vector3d::Zero();  // of the group at the start
   double radius_ = 0;
   dismantle::Aabb room_;
   std::uint64_t checks_ = 0;

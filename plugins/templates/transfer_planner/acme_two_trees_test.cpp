@@ -1,4 +1,4 @@
-// What is expected of acme.two_trees beyond the laws of its kind, which `dismantle plugins check` tries.
+// Tests of acme.two_trees beyond the laws of its kind, which `dismantle plugins check` tests.
 #include <gtest/gtest.h>
 
 #include "dismantle/host/registry.h"
@@ -9,7 +9,7 @@ namespace {
 
 using dismantle::Pose;
 
-/// A wall, and a block that is to be brought from one side of it to the other; `turn`: turned by that on the way.
+/// Moves a block from one side of a wall to the other and rotates it by `turn`.
 dismantle::PathResult carry(double turn, std::int64_t max_checks, std::uint64_t seed) {
   const auto assembly = dismantle::fake::assembly_of({{"wall", {{{-0.2, -2, -2}, {0.2, 2, 2}}}}, {"block", {{{-1, -0.3, -0.3}, {1, 0.3, 0.3}}}}});
   dismantle::Registry registry;

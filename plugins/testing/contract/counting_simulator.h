@@ -1,4 +1,4 @@
-/// A simulator that counts what a path planner asks of it.
+/// A simulator that counts the queries of a path planner.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,13 @@ namespace dismantle::contract {
 
 using Eigen::Vector3d;
 
-/// Steps simulated or, without dynamics, states checked.
+/// Simulated steps or, without dynamics, state checks.
 struct Counted {
   std::uint64_t steps = 0;
   std::function<void()> on_step;
 };
 
-/// A real world that counts what is asked of it.
+/// Wraps a real world and counts the queries.
 class CountingWorld final : public World {
  public:
   CountingWorld(std::unique_ptr<World> inner, bool dynamics, Counted& counted)

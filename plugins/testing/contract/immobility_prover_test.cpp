@@ -1,4 +1,4 @@
-// What every immobility prover must obey, with its default parameters.
+// Laws of all immobility provers with default parameters.
 #include "dismantle/immobility_prover.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 using shapes::Vec3;
 
-/// An assembly, and the groups of its parts that a query may be about.
+/// An assembly and the groups of its parts that are queried.
 struct Question {
   std::string name;
   Assembly assembly;
@@ -43,8 +43,8 @@ std::size_t triangles_of(const Assembly& assembly) {
   return count;
 }
 
-/// Every part of these leaves by a motion that touches nothing, one after the other or several together; so no two of
-/// them hold each other, nor all of them.
+/// Assemblies whose parts all leave by contact-free motions, one after the other or several together; so no pair of
+/// them holds each other, nor do all together.
 std::vector<Question> separable() {
   std::vector<Question> questions;
   for (const samples::Sample& sample : samples::list()) {
@@ -55,12 +55,12 @@ std::vector<Question> separable() {
     RunContext context;
     PrepareReport report;
     Assembly assembly = prepare_assembly(parts, sample.name, "", options, context, report);
-    // On samples with more triangles provers take up to a minute: those belong into the long form of the tests.
+    // Provers take up to a minute on samples with more triangles, so these run only in the nightly tests.
     if (testing_support::nightly() || triangles_of(assembly) <= 300)
       questions.emplace_back(sample.name, std::move(assembly));
   }
   Rng rng(5);
-  for (int i = 0; i < 4; ++i) {  // a block in a case that is open above
+  for (int i = 0; i < 4; ++i) {  // a block in a case with an open top
     const shapes::Cased c{{rng.uniform(0.4, 0.7), rng.uniform(0.3, 0.5), rng.uniform(0.3, 0.5)},
                           rng.uniform(0.005, 0.03),
                           rng.uniform(-0.02, 0),
@@ -81,7 +81,7 @@ std::vector<Question> separable() {
   return questions;
 }
 
-/// Some of these hold each other, each in another way.
+/// Assemblies with parts that hold each other, each in a different way.
 std::vector<Question> inseparable() {
   std::vector<Question> questions;
   const Mesh ring = shapes::tube(0.4, 0.8, -0.1, 0.1, 48), disc = shapes::tube(0, 0.9, -0.05, 0.05, 48);
@@ -112,7 +112,7 @@ class ImmobilityProverContract : public testing::TestWithParam<std::string> {
     return prover.prove(query(assembly, group, tolerance, share, memo), context);
   }
 
-  /// By the independent checker of the kind; by the prover where there is none.
+  /// The objection of the independent checker of the kind, or of the prover if there is no checker.
   std::string objection(Certificate certificate, const SeparationQuery& asked, const RunContext& context) const {
     certificate.kind = GetParam();
     const auto independent = independent_objection(certificate, asked, context);
@@ -172,7 +172,7 @@ TEST_P(ImmobilityProverContract, ItsCertificatesHoldAndForgedOnesDoNot) {
       Certificate forged = *found;
       forged.numbers.clear();
       EXPECT_NE(objection(forged, q, {}), "") << question.name;
-      // The same claim of parts that stand beside each other.
+      // The same claim about parts side by side.
       std::vector<Mesh> apart;
       for (const PartId id : found->parts)
         apart.push_back(shapes::moved(*question.assembly.parts[id].mesh,

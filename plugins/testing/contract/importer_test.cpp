@@ -1,4 +1,4 @@
-// What every importer must obey, with its default parameters.
+// Laws of all importers with default parameters.
 #include "dismantle/importer.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What two files that hold the same surface agree on, whatever their triangles share.
+/// Measures that are equal for two files with the same surface, also if their triangles share vertices differently.
 struct Measures {
   double volume = 0, area = 0;
   Aabb box;
@@ -36,7 +36,7 @@ struct Measures {
 
 Measures measures_of(const Mesh& mesh) { return {signed_volume(mesh), surface_area(mesh), mesh.box()}; }
 
-/// `relative`: what the format may lose of a coordinate, as a share of the largest one.
+/// `relative`: allowed rounding of coordinates by the format, relative to the largest coordinate.
 void expect_same(const Measures& a, const Measures& b, double relative) {
   const double size = std::max(b.box.lo.cwiseAbs().maxCoeff(), b.box.hi.cwiseAbs().maxCoeff());
   EXPECT_LT((a.box.lo - b.box.lo).cwiseAbs().maxCoeff(), relative * size);
@@ -50,7 +50,7 @@ struct Format {
   bool names_parts = false;
 };
 
-/// A part called "a shaft" in the formats that this test can write.
+/// Writers of a part named "a shaft", for the formats that this test can write.
 const std::map<std::string, Format>& formats() {
   const auto number = [](std::ostringstream& out) -> std::ostringstream& {
     out << std::setprecision(17);
@@ -111,7 +111,7 @@ class ImporterContract : public testing::TestWithParam<std::string> {
     return folder_ / name;
   }
 
-  /// Parts that are well-formed, or the text of the InputError that names the file.
+  /// Returns well-formed parts, or sets `refusal` to the text of an InputError that names the file.
   std::vector<RawPart> read(const fs::path& file, std::string& refusal) const {
     SCOPED_TRACE(file.string());
     refusal.clear();
@@ -170,7 +170,7 @@ TEST_P(ImporterContract, AFileThatIsNotThereIsAnInputError) {
   }
 }
 
-/// No bytes end the process, and what is no file of the format is an InputError that names the file.
+/// No content ends the process; an invalid file is an InputError that names the file.
 TEST_P(ImporterContract, BrokenFilesAreInputErrors) {
   Rng rng(61);
   for (const std::string& ending : importer_->extensions()) {
@@ -201,7 +201,7 @@ TEST_P(ImporterContract, SameFileSameParts) {
   }
 }
 
-/// An example of a format of its own, and beside it a folder of that name with an OBJ file for each part.
+/// Compares an example file with the folder of the same name, which contains each part as an OBJ file.
 TEST_P(ImporterContract, ExamplesHoldWhatStandsBesideThem) {
   int compared = 0;
   for (const fs::path& file : examples(importer_->extensions())) {
@@ -227,7 +227,7 @@ TEST_P(ImporterContract, ExamplesHoldWhatStandsBesideThem) {
   if (compared == 0) GTEST_SKIP() << "no example has a folder of OBJ files beside it (--examples)";
 }
 
-/// The same surface in every format: same geometry, and the name where the format has one.
+/// The same surface in every format gives the same geometry, and the name if the format has names.
 TEST_P(ImporterContract, SameGeometryByEveryFormat) {
   const auto endings = importer_->extensions();
   if (std::none_of(endings.begin(), endings.end(), [](const auto& e) { return formats().contains(e); }))
@@ -260,7 +260,7 @@ TEST_P(ImporterContract, StopsWhenTold) {
     if (format == formats().end()) continue;
     const fs::path file = write("solid." + ending, format->second.text(shapes::box({0, 0, 0}, {1, 1, 1})));
     try {
-      importer_->read(file, context);  // a small file may be read before it is noticed
+      importer_->read(file, context);  // a small file may be read before the stop is noticed
     } catch (const InputError& e) {
       ADD_FAILURE() << "the file is not at fault: " << e.what();
     } catch (const Error&) {

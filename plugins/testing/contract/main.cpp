@@ -1,4 +1,4 @@
-// The laws that every plugin of a kind must obey, tried on the plugins that are found or named.
+// Tests the laws of each plugin kind on all plugins that are found or named.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ DISMANTLE_TESTS=nightly makes random trials more numerous, without a limit of ti
 Exit status: 0 all laws hold, 1 some do not, 2 wrong use or a plugin that is refused.
 )";
 
-/// Collects what was skipped and why.
+/// Collects the skipped tests and the reasons.
 class Skips final : public testing::EmptyTestEventListener {
  public:
   void OnTestPartResult(const testing::TestPartResult& result) override {
@@ -52,10 +52,10 @@ class Skips final : public testing::EmptyTestEventListener {
   std::string reason_;
 };
 
-/// Seconds that one law may take; 0: no limit.
+/// Time limit for one law in seconds; 0: no limit.
 unsigned g_limit = 600;
 
-/// "LAW/ID" of the law that is being tried, for on_crash.
+/// "LAW/ID" of the current test, for on_crash.
 char g_law[256] = "";
 
 class CurrentLaw final : public testing::EmptyTestEventListener {
@@ -71,7 +71,7 @@ class CurrentLaw final : public testing::EmptyTestEventListener {
   }
 };
 
-/// A plugin that crashes has broken the law that was being tried. Only system calls.
+/// Reports a crash of the plugin as a failure of the current law. Uses only system calls.
 extern "C" void on_crash(int number) {
   const auto say = [](const char* text) {
     if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) ::_exit(1);

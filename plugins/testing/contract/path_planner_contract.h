@@ -1,5 +1,5 @@
-/// What the laws of path planners are tried with: the first simulator that has what a planner needs, with its default
-/// parameters.
+/// Fixture for the laws of path planners. A planner runs with the first simulator that has the needed capabilities,
+/// with default parameters.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -32,10 +32,10 @@ inline bool same(const Path& a, const Path& b) {
   return true;
 }
 
-/// Empty where nothing was found.
+/// The poses of the path found; empty without one.
 inline Path poses_of(const PathResult& result) { return result.path() ? result.path()->poses() : Path{}; }
 
-/// Doc of PathPlanner: cancellation and budgets are looked at at least so often.
+/// A planner polls cancellation and budget at least once in this many steps (see PathPlanner).
 constexpr std::uint64_t kLook = 100;
 /// VerifyOptions::max_penetration, assembly units.
 constexpr double kTolerance = 0.01;
@@ -46,22 +46,22 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
  protected:
   struct Ready {
     std::shared_ptr<Simulator> simulator;
-    std::vector<std::shared_ptr<const PreparedAssembly>> prepared;  ///< as small_assemblies()
+    std::vector<std::shared_ptr<const PreparedAssembly>> prepared;  ///< in the order of small_assemblies()
   };
   struct Run {
     PathResult result;
-    std::vector<std::pair<Path, bool>> checked;  ///< and whether it was accepted
+    std::vector<std::pair<Path, bool>> checked;  ///< path, and whether it was accepted
     Counted counted;
     std::string output;
   };
   using Rule = std::function<fake::Ruling(const Path&)>;
 
   static std::shared_ptr<PathPlanner> make() { return registry().create<PathPlanner>(GetParam()); }
-  /// The simulator and what it prepared, once for all tests; null when there is none.
+  /// The simulator and its prepared assemblies, once for all tests; null when no simulator fits.
   static const Ready* ready() {
     static std::map<std::string, Ready> cache;
     const Capabilities needs = make()->traits().needs;
-    auto candidates = registry().types(PluginKind::simulator);  // this project's first: a third party's id has a dot
+    auto candidates = registry().types(PluginKind::simulator);  // own simulators first: third-party ids contain a dot
     std::stable_partition(candidates.begin(), candidates.end(),
                           [](const RegisteredType* t) { return t->type.id.find('.') == std::string::npos; });
     for (const RegisteredType* candidate : candidates) {
@@ -97,7 +97,7 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     return v;
   }
 
-  /// One search; a rule that is empty is the verifier.
+  /// Runs one search. Without a rule the verifier checks the paths.
   static void plan(Run& run, std::size_t which, const Budget& effort = {.max_steps = kPlenty}, RunContext context = {},
                    const Rule& rule = {}, const Scene* scene = nullptr, PathPlanner* planner = nullptr,
                    const SearchState* resume_from = nullptr) {
@@ -118,7 +118,7 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
     expect_lawful(run, small, chosen, effort);
   }
 
-  /// What holds however a search ends.
+  /// Checks the laws of every search, independent of its outcome.
   static void expect_lawful(const Run& run, const Small& small, const Scene& scene, const Budget& effort) {
     SCOPED_TRACE(small.name);
     const PathResult& r = run.result;
@@ -133,7 +133,7 @@ class PathPlannerContract : public testing::TestWithParam<std::string> {
       EXPECT_EQ(r.best_pose.size(), scene.moving.size());
     }
     if (effort.max_steps > 0) {
-      // Between two looks at the budget; and without dynamics a path that was found within it may still be simplified.
+      // Steps between two polls are allowed, and simplifying a path that was found within the budget.
       const std::uint64_t simplify = 300;
       EXPECT_LE(run.counted.steps, effort.max_steps + kLook + (run.checked.empty() ? 0 : simplify));
     }

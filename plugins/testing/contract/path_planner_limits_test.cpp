@@ -1,4 +1,4 @@
-// What every path planner must obey: budgets, deadlines, cancellation, refusals, and what its simulator lacks.
+// Laws of all path planners: budgets, deadlines, cancellation, refused paths, missing simulator capabilities.
 #include "path_planner_contract.h"
 
 namespace dismantle::contract {
@@ -72,7 +72,7 @@ TEST_P(PathPlannerContract, StepBudgetsAreKept) {
   plan(free, 1);
   for (const std::uint64_t budget : {1u, 30u, 300u}) {
     Run run;
-    plan(run, 1, {.max_steps = budget});  // expect_lawful looks at the steps
+    plan(run, 1, {.max_steps = budget});  // expect_lawful checks the steps
     if (free.counted.steps > budget + kLook) {
       EXPECT_EQ(run.result.outcome(), Outcome::timeout) << budget;
     }

@@ -1,4 +1,4 @@
-// What every path planner must obey: its answers.
+// Laws of the answers of all path planners.
 #include <thread>
 
 #include "dismantle/testing/fake_planning.h"
@@ -29,7 +29,7 @@ TEST_P(PathPlannerContract, WhatIsSolvedWasAccepted) {
   }
 }
 
-/// One that says that it may be used by several threads finds on each what it finds alone.
+/// A concurrent planner gives on each of several threads the result that it gives alone.
 TEST_P(PathPlannerContract, AConcurrentOneIsNotConfusedByOthers) {
   const auto shared = make();
   if (!shared->traits().concurrent) GTEST_SKIP() << "each thread has its own";
@@ -71,7 +71,7 @@ TEST_P(PathPlannerContract, ABlockedPartIsNotSolved) {
   }
 }
 
-/// A plate in a closed box, with room to move and to turn, at any size of the room and any seed.
+/// A plate in a closed box, with room to move and turn, for any size of the room and any seed.
 TEST_P(PathPlannerContract, ABoxInAClosedBoxIsNeverSolved) {
   Rng rng(64);
   for (int trial = 0; trial < 3; ++trial) {
@@ -102,8 +102,8 @@ TEST_P(PathPlannerContract, ABoxInAClosedBoxIsNeverSolved) {
   }
 }
 
-/// A planner may resume an unsuccessful search from its state when a blocker has left, also in another object with the same
-/// parameters. A state that it has not made itself is ignored. All laws hold as for a search from the start.
+/// A planner may resume an unsuccessful search from its state when a blocker has left, also in another object with the
+/// same parameters. It ignores states of other planners. All laws hold as for a search from the start.
 TEST_P(PathPlannerContract, GoesOnFromWhatItReachedOrBeginsAnew) {
   const std::size_t which = 2;
   const Small& small = small_assemblies()[which];
@@ -193,7 +193,7 @@ TEST_P(PathPlannerContract, SeveralPartsMoveAtOnce) {
   plan(run, 2, {.max_steps = kPlenty}, {}, {}, &scene);
 }
 
-/// A search that is run in growing portions ends as one that is run in one portion.
+/// A search in growing portions has the same result as in one portion.
 TEST_P(PathPlannerContract, InPortionsAsAtOnce) {
   for (std::size_t which = 0; which < 2; ++which) {
     Run at_once;

@@ -1,4 +1,4 @@
-// What every sequence planner must obey, with its default parameters, on machines whose answers are known.
+// Laws of all sequence planners with default parameters, on machines with known answers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ TEST_P(SequencePlannerContract, TakesApartWhatCanBeTakenApart) {
     const FakeRun run = go(machine, seeded(static_cast<std::uint64_t>(trial)));
     expect_lawful(run, machine);
     EXPECT_EQ(run.result.outcome, Outcome::solved);
-    // Every part once per round; a round removes a part or goes one deeper.
+    // Each round asks for every part once, and removes a part or increases the depth by one.
     EXPECT_LE(run.asked.size(), (machine.size() + depth) * machine.size());
   }
 }
@@ -64,7 +64,7 @@ TEST_P(SequencePlannerContract, NoticesADeadlock) {
   Rng rng(102);
   for (int trial = 0; trial < 50; ++trial) {
     FakeMachine machine = FakeMachine::random(6, 0.3, 3, rng);
-    machine.before[0].push_back(1);  // 0 and 1 wait for each other, and so do all that wait for them
+    machine.before[0].push_back(1);  // 0 and 1 wait for each other, so all parts that wait for them stay
     machine.before[1].push_back(0);
     const FakeRun run = go(machine, seeded(1));
     expect_lawful(run, machine);
@@ -131,7 +131,7 @@ TEST_P(SequencePlannerContract, ReportsProgressThatGrows) {
   EXPECT_TRUE(complete);
 }
 
-// The real oracle and runner, boxes and a scripted path planner: threads must not show.
+// Real oracle and runner, boxes and a scripted path planner: the plan must not depend on the threads.
 TEST_P(SequencePlannerContract, SamePlanOnAnyNumberOfThreads) {
   const Assembly assembly = fake::tube_with_blocks(4);
   std::set<std::string> plans;

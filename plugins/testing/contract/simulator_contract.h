@@ -1,4 +1,4 @@
-/// What the laws of simulators are tried with: a world of each small assembly, with default parameters.
+/// Fixture for the laws of simulators: worlds of each small assembly, with default parameters.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class SimulatorContract : public testing::TestWithParam<std::string> {
     m.prepared = m.simulator->prepare(small.assembly, 0.01, context);
     return m;
   }
-  /// One of each sample, prepared once for all tests.
+  /// One simulator for each sample, prepared once for all tests.
   static const std::vector<Made>& all() {
     static std::map<std::string, std::vector<Made>> cache;
     auto& list = cache[GetParam()];

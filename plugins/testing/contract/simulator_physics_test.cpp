@@ -1,4 +1,4 @@
-// What every simulator with dynamics or contacts must obey: its physics.
+// Laws of all simulators with dynamics or contacts: their physics.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,8 +9,8 @@
 namespace dismantle::contract {
 namespace {
 
-/// From rest, under a constant force: constant speed (drag, no inertia) or constant acceleration (inertia), to within
-/// one time step; and the same wherever the body is.
+/// From rest under a constant force a body has constant speed (drag, no inertia) or constant acceleration (inertia), to
+/// within one time step, independent of its position.
 TEST_P(SimulatorContract, FreeFlightHasItsClosedForm) {
   if (!make()->capabilities().dynamics) GTEST_SKIP() << "it has no dynamics";
   Rng rng(54);
@@ -36,8 +36,8 @@ TEST_P(SimulatorContract, FreeFlightHasItsClosedForm) {
     }
 }
 
-/// Two bodies act on each other with equal and opposite forces: what one is held back, the other is carried along, each
-/// measured by how far it goes when it is free.
+/// Two bodies act on each other with equal and opposite forces: one loses as much travel as the other gains, each
+/// relative to its free travel.
 TEST_P(SimulatorContract, ContactForcesAreEqualAndOpposite) {
   const Capabilities has = make()->capabilities();
   if (!has.dynamics || has.max_moving < 2) GTEST_SKIP() << "it moves no two bodies";
@@ -67,8 +67,8 @@ TEST_P(SimulatorContract, ContactForcesAreEqualAndOpposite) {
   }
 }
 
-/// The normal of the deepest contact is the direction in which it becomes shallower fastest, one unit of depth for one
-/// of displacement: what a finite difference of the penetration says, where one contact alone is the deepest.
+/// The normal of the deepest contact is the negative gradient of the depth: one unit of displacement reduces the depth
+/// by one unit. Tested by finite differences of the penetration, where a single contact is the deepest.
 TEST_P(SimulatorContract, NormalsAreGradientsOfTheDepth) {
   const Capabilities has = make()->capabilities();
   if (!has.contacts || !has.distance) GTEST_SKIP() << "it reports no contacts, or measures no distance";
@@ -96,7 +96,7 @@ TEST_P(SimulatorContract, NormalsAreGradientsOfTheDepth) {
   EXPECT_LT(slopes[slopes.size() * 3 / 4], -0.5);
 }
 
-/// With a parameter `time_step`: half the step changes the motion by less than the step before did.
+/// With a parameter `time_step`: each halving of the step changes the motion by less than the halving before.
 TEST_P(SimulatorContract, ConvergesWithTheTimeStep) {
   if (!make()->capabilities().dynamics) GTEST_SKIP() << "it has no dynamics";
   const auto& params = registry().find(PluginKind::simulator, GetParam()).type.params;

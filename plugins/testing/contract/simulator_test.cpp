@@ -1,4 +1,4 @@
-// What every simulator must obey, as far as its capabilities go, with its default parameters.
+// Laws of all simulators with default parameters, depending on their capabilities.
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -190,7 +190,7 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
       Trace trace;
       for (int k = 0; k < 10 && !world->separated(s); ++k) world->advance(s, push(*world, 100 * along), 0.1, &trace);
       EXPECT_LT(world->penetration(s), 0.005) << m.small->name << ", direction " << direction;
-      // ... and for the verifier, which shares nothing with the simulator.
+      // ... and for the verifier, which is independent of the simulator.
       Path path{{Pose{}}};
       path.insert(path.end(), trace.begin(), trace.end());
       const MotionCheck check = m.small->verifier->check_motion({m.small->leaves}, world->scene().fixed, path);
@@ -198,7 +198,7 @@ TEST_P(SimulatorContract, WhatIsBlockedStaysOut) {
     }
 }
 
-/// Whatever is not finite is reported; a state that was finite stays finite, and so does its trace.
+/// Non-finite states and actions are reported; a finite state and its trace stay finite.
 TEST_P(SimulatorContract, NoNumberThatIsNotFiniteLeavesUnnoticed) {
   const Capabilities has = make()->capabilities();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -225,7 +225,7 @@ TEST_P(SimulatorContract, NoNumberThatIsNotFiniteLeavesUnnoticed) {
         EXPECT_FALSE(world->advance(t, action, 0.1, &trace).finite);
         EXPECT_TRUE(bitwise(t.bodies[0].pose, good.bodies[0].pose));
         EXPECT_TRUE(trace.empty());
-        // The world is as good as new afterwards.
+        // The world is unaffected afterwards.
         const StepReport report = world->advance(t, push(*world, Vector3d(0, 0, 100)), 0.1, &trace);
         EXPECT_TRUE(report.finite);
         for (const auto& instant : trace) EXPECT_TRUE(is_finite(instant[0]));

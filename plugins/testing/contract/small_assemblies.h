@@ -1,4 +1,4 @@
-/// What the contract tests of simulators and path planners try them on: small samples.
+/// Small samples for the contract tests of simulators and path planners.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Small {
     verifier = std::make_unique<Verifier>(assembly, VerifyOptions{});
   }
   Scene scene() const { return cast_of({leaves}); }
-  /// `moving` where they are assembled, all others fixed.
+  /// Parts `moving` in assembled position, all others fixed.
   Scene cast_of(const std::vector<PartId>& moving) const {
     Scene c;
     for (const PartId id : moving) c.moving.push_back({id, Pose{}});

@@ -1,4 +1,4 @@
-// What every transfer planner must obey, with its default parameters, on whatever simulator measures distances.
+// Laws of all transfer planners with default parameters, on a simulator with distance queries.
 #include "dismantle/transfer_planner.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace dismantle::contract {
 namespace {
 
-/// Parts of an assembly that are to be brought from one place to another.
+/// A transfer of parts of an assembly from one place to another.
 struct Errand {
   const Assembly& assembly;
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("fcl");
@@ -70,7 +70,7 @@ Pose turned(Pose p) {
   return p;
 }
 
-/// A block in a pipe that is open at +x, and a plate before the opening: straight ways out are blocked.
+/// A block in a pipe that is open at +x, and a plate in front of the opening: straight paths are blocked.
 Assembly pipe() {
   return fake::assembly_of({{"pipe",
                              {{{-2, -2, -2}, {-1.5, 2, 2}},

@@ -29,7 +29,7 @@ std::string wanted(const ParamSpec& spec) {
   }
 }
 
-/// A number, an integer or a boolean; what is wrong with the text is put into `problem`.
+/// Parses a number, an integer or a boolean; `problem` receives the error.
 std::optional<ParamValue> parse_plain(ParamType type, const std::string& text, std::string& problem) {
   const char* begin = text.data();
   const char* end = begin + text.size();

@@ -10,13 +10,13 @@
 namespace dismantle {
 namespace {
 
-/// Members of a map are looked at with the key `type` left out.
+/// The declaration of `key`; nullptr when there is none.
 const ParamSpec* spec_of(const std::vector<ParamSpec>& specs, const std::string& key) {
   const auto it = std::find_if(specs.begin(), specs.end(), [&](const auto& s) { return s.name == key; });
   return it == specs.end() ? nullptr : &*it;
 }
 
-/// An empty map.
+/// An empty map at `mark`.
 ConfigNode nothing_said(const ConfigMark& mark) {
   ConfigNode node;
   node.kind = ConfigNode::Kind::map;
@@ -78,7 +78,7 @@ std::optional<PluginChoice> Binder::choice(PluginKind kind, const std::vector<Pa
   out.type = id != nullptr ? id->scalar : below->type;
   const RegisteredType* found = types_.lookup(kind, out.type);
   if (found == nullptr) return fail((id != nullptr ? *id : node).mark, types_.why_missing(kind, out.type));
-  if (below != nullptr && below->type != out.type) below = nullptr;  // starts afresh
+  if (below != nullptr && below->type != out.type) below = nullptr;  // another type: its values do not apply
   for (const ParamSpec& option : options)
     if (spec_of(found->type.params, option.name) != nullptr)
       return fail(node.mark, fmt::format("{}: '{}' has a parameter '{}', which here is read by what holds it, so that "
@@ -141,7 +141,7 @@ void Binder::bind_parts(std::vector<Part>& parts, const ConfigNode* node, const 
   }
 }
 
-/// A value that no layer sets. Plugins that a type holds by default are named there without their parameters.
+/// A value that no layer sets. Default plugins may lack parameters; these are filled in here.
 ParamValue Binder::defaulted(const ParamSpec& spec, const ParamValue& value, const ConfigNode& untouched,
                              const std::string& name, const std::string& origin) {
   if (const auto* one = std::get_if<PluginChoice>(&value))

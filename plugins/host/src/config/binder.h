@@ -1,4 +1,4 @@
-/// Binds sections whose parameters may hold plugins, which have parameters of their own, and so on.
+/// Binds sections whose parameters may be plugins with parameters of their own, to any depth.
 #pragma once
 
 #include <functional>
@@ -12,42 +12,42 @@
 
 namespace dismantle {
 
-/// Where plugin types are looked up while choices are bound.
+/// Looks up plugin types while choices are bound.
 struct TypeSource {
-  std::function<const RegisteredType*(PluginKind, const std::string&)> lookup;  ///< nullptr: there is none
+  std::function<const RegisteredType*(PluginKind, const std::string&)> lookup;  ///< nullptr: no such type
   std::function<std::string(PluginKind, const std::string&)> why_missing;
 };
-/// What a registry holds. `registry` outlives it.
+/// Looks up the types of `registry`, which must outlive the result.
 TypeSource types_of(const Registry& registry);
 
 /// "bfs 0.1.0, libbfs.so", for messages.
 std::string source_text(const RegisteredType& type);
-/// The stated origin of a value that no layer sets: "default", or "preset guided".
+/// The origin to state for a value that no layer sets: "default" or "preset guided".
 std::string default_origin(const RegisteredType& type);
 
 class Binder {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this.
   Binder(const TypeSource& types, const KeyHomes& homes, std::map<std::string, std::string>& origins,
          std::vector<Diagnostic>& problems)
       : types_(types), homes_(homes), origins_(origins), problems_(problems) {}
 
-  /// The values of a section (`node` may be nullptr: all defaults), complete unless there were problems. `origin`: of
-  /// the values that are defaults.
+  /// The values of a section (`node` may be nullptr: all defaults), complete unless there were problems. `origin`:
+  /// origin to state for default values.
   ParamSet section(const std::vector<ParamSpec>& specs, const ConfigNode* node, const SectionContext& context,
                    const std::string& origin = "default");
 
-  /// A choice of a plugin, `{type: ID, ...}` or just `ID`. `name`: its place, "path_planner.of.1". `below`: what is
-  /// laid under it as long as the type stays; may be nullptr. Nothing, and a diagnostic, where no such type can be had.
+  /// Binds a plugin choice, `{type: ID, ...}` or `ID`. `name`: its key, "path_planner.of.1". `below`: the choice whose
+  /// values are used unless the type changes; may be nullptr. On an error: nothing, and a diagnostic.
   std::optional<PluginChoice> choice(PluginKind kind, const std::vector<ParamSpec>& options, const ConfigNode& node,
                                      const std::string& name, const PluginChoice* below, const std::string& origin);
 
  private:
-  /// One of the sets of values that a map holds side by side.
+  /// One of several parameter sets whose values are in the same map.
   struct Part {
     const std::vector<ParamSpec>* specs;
     const ParamSet* below;  ///< nullptr: the declared defaults
-    std::string origin;     ///< of these
+    std::string origin;     ///< of the values in `below`, or of the defaults
     ParamSet values{};
   };
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One pass over the merged tree; each step reports all that it finds.
+/// One pass over the merged tree. Each step reports all errors that it finds.
 class Loader {
  public:
   Loader(const ConfigNode& root, Registry& registry, std::vector<Diagnostic>& problems)
@@ -65,7 +65,7 @@ class Loader {
     return member == nullptr ? nullptr : &member->value;
   }
 
-  /// Each is asked once.
+  /// A prover may be listed only once.
   void check_provers() {
     std::set<std::string> seen;
     for (std::size_t k = 0; k < config_.provers.size(); ++k)
@@ -111,7 +111,7 @@ class Loader {
             item.mark.error(fmt::format("plugins.search_paths must hold names of folders, not {}", item.kind_name())));
         continue;
       }
-      // Relative to the file that says so; what the command line says is relative to the working directory.
+      // A path is relative to the file that states it, or to the working directory if the command line does.
       const std::string file = item.mark.file();
       const fs::path base = file.starts_with('<') ? fs::path() : fs::path(file).parent_path();
       const fs::path path = (base / item.scalar).lexically_normal();
@@ -174,7 +174,7 @@ class Loader {
           member->key_mark.error(unknown_key_message(member->key, {"plugins", "", ""}, {"search_paths"}, homes_)));
   }
 
-  /// Of the plugins that one parameter holds: what the file names, or else the default.
+  /// Collects the keys of the plugins in one parameter: those that the file names, otherwise the default.
   void collect_nested_homes(const ParamSpec& spec, const ConfigNode* section, const std::string& name) {
     std::vector<std::string> types;
     const ConfigMember* given = section != nullptr && section->is_map() ? section->find(spec.name) : nullptr;
@@ -196,7 +196,7 @@ class Loader {
   void bind_plugin(const PluginSection& section) {
     const ConfigNode* map = node(section.name);
     const auto* type = chosen_[section.name].type;
-    if (type == nullptr) {  // its keys cannot be checked, but that the section is no map can
+    if (type == nullptr) {  // its keys cannot be checked, only that the section is a map
       if (map != nullptr && !map->is_map())
         problems_.push_back(
             map->mark.error(fmt::format("{} must be a map of keys, not {}", section.name, map->kind_name())));
@@ -206,7 +206,7 @@ class Loader {
         type->type.params, map, {section.name, type->type.id, source_text(*type)}, default_origin(*type));
   }
 
-  /// `importers`: a map from ids to maps of parameters. Every importer is in use, whether it is named or not.
+  /// `importers`: a map from ids to maps of parameters. Every importer is used, also without an entry.
   void bind_importers() {
     const ConfigNode* section = node("importers");
     if (section != nullptr && !section->is_map()) {
@@ -239,7 +239,7 @@ class Loader {
     }
   }
 
-  /// Of what was chosen and of the plugins that its parameters hold.
+  /// Checks the chosen type and the plugins in its parameters.
   void check_capabilities(PluginKind kind, const PluginChoice& chosen, const ConfigMark& mark,
                           const PluginType& simulator) {
     const RegisteredType* type = registry_.lookup(kind, chosen.type);
@@ -264,7 +264,7 @@ class Loader {
     }
   }
 
-  /// `layout.poses`: a map from part names to poses. Taken out of the section, whose other keys are plain parameters.
+  /// Reads `layout.poses`, a map from part names to poses, and returns the section with the plain parameters only.
   ConfigNode without_poses(const ConfigNode& layout) {
     ConfigNode rest = layout;
     const ConfigMember* poses = layout.find("poses");

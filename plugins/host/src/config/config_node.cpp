@@ -19,7 +19,7 @@
 namespace dismantle {
 namespace {
 
-/// Ends the parsing; what is wrong has been reported.
+/// Ends the parsing after an error was reported.
 struct Stop {};
 
 std::size_t node_count(const ConfigNode& node) {
@@ -29,7 +29,7 @@ std::size_t node_count(const ConfigNode& node) {
   return count;
 }
 
-/// Builds the tree from the parser's events: only they tell where a key stands, and that it came twice.
+/// Builds the tree from the parser's events: only they give the place of a key and show repeated keys.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(std::shared_ptr<const std::string> source, std::vector<Diagnostic>& problems)
@@ -82,7 +82,7 @@ class TreeBuilder : public YAML::EventHandler {
     ConfigNode node;
     YAML::anchor_t anchor;
     bool has_key = false;
-    bool skip = false;  // the key in hand is a repetition or no text
+    bool skip = false;  // the current key is a repetition or not a text
     std::string key;
     ConfigMark key_mark;
   };
@@ -119,7 +119,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void leaf(ConfigNode node, YAML::anchor_t anchor) {
     if (anchor != YAML::NullAnchor) {
-      count(node_count(node), {});  // the copy that aliases are made from: nested anchors multiply
+      count(node_count(node), {});  // counts the copy for aliases: nested anchors multiply
       anchors_[anchor] = node;
     }
     if (open_.empty()) {
@@ -132,7 +132,7 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (!parent.has_key) {
       take_key(parent, node);
     } else {
-      // An empty value has the place of whatever comes next: its key says more.
+      // The parser puts an empty value at the next token; the place of its key is more useful.
       if (node.kind == ConfigNode::Kind::null) node.mark = parent.key_mark;
       if (!parent.skip) parent.node.members.push_back({parent.key, parent.key_mark, std::move(node)});
       parent.has_key = false;

@@ -29,13 +29,13 @@ std::optional<double> number_of(const ConfigNode& node) {
 
 bool is_name(const ConfigNode& node) { return node.is_scalar() && !node.scalar.empty(); }
 
-/// Reads the section; each name is kept with its place.
+/// Reads the section and records the place of each name.
 class Reader {
  public:
   Reader(std::vector<ConstraintName>& places, std::vector<Diagnostic>& problems)
       : places_(places), problems_(problems) {}
 
-  /// A list of names; `least` of them at least.
+  /// A list of at least `least` names.
   std::vector<std::string> names(const std::string& key, const ConfigNode& list, std::size_t least) {
     std::vector<std::string> out;
     const bool good = list.kind == ConfigNode::Kind::sequence && list.items.size() >= least &&
@@ -102,7 +102,7 @@ class Reader {
   std::vector<Diagnostic>& problems_;
 };
 
-/// What cannot hold together, whatever the parts are.
+/// Finds constraints that contradict each other, independent of the input.
 class Contradictions {
  public:
   Contradictions(const NamedConstraints& asked, const std::vector<ConstraintName>& places,
@@ -126,7 +126,7 @@ class Contradictions {
     }
   }
 
-  /// At the place where the two names stand one after the other.
+  /// Reports a problem at the place where the two names follow each other.
   void link_problem(const std::pair<std::string, std::string>& link, const std::string& message) {
     for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
       if (places_[i].key != "before" || places_[i].name != link.first || places_[i + 1].name != link.second) continue;
@@ -137,7 +137,7 @@ class Contradictions {
     }
   }
 
-  /// Parts that are to stay together leave as one.
+  /// The first name of the group of `name`: parts of `together` leave as one.
   std::string group_of(const std::string& name) const {
     std::set<std::string> reached{name};
     for (bool grown = true; grown;) {
@@ -149,7 +149,7 @@ class Contradictions {
     return *reached.begin();
   }
 
-  /// A part that has to leave before itself: the first such circle that is found.
+  /// Reports the first cycle found: a part that must leave before itself.
   void report_cycle() {
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> later;  // group -> (names of the link)
     for (const auto& list : asked_.before)
@@ -186,7 +186,7 @@ class Contradictions {
     return false;
   }
 
-  /// What never moves never leaves.
+  /// Base parts never move, so they cannot leave.
   void report_base() {
     const auto in_base = [&](const std::string& name) { return std::ranges::count(asked_.base, name) > 0; };
     for (const auto& list : asked_.before)

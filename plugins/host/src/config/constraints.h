@@ -1,4 +1,4 @@
-/// The `constraints:` section: names of parts, in lists.
+/// The `constraints:` section: lists of part names.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace dismantle {
 
-/// Reads the section; what is wrong with it goes to `problems`. The names are checked against the parts later.
-/// `places` receives every name with its place. Constraints that contradict each other (a circle of `before`, a base that
-/// is to leave, a part that is ignored) are problems.
+/// Reads the section and appends errors to `problems`. The names are checked against the parts later.
+/// `places` receives every name with its place. Constraints that contradict each other are errors (a cycle of `before`,
+/// a base part that must leave, a constrained part that is ignored).
 NamedConstraints read_constraints(const ConfigNode& section, std::vector<ConstraintName>& places,
                                   std::vector<Diagnostic>& problems);
 

@@ -1,4 +1,4 @@
-// The section `immobility:` which provers run, in which order, and when.
+// The section `immobility:`: which provers run, in which order, and when.
 #include "dismantle/host/config.h"
 #include "dismantle/host/registry.h"
 
@@ -12,7 +12,7 @@ ParamSpec provers_parameter(const Registry& registry) {
   spec.type = ParamType::plugins;
   spec.plugin_kind = PluginKind::immobility_prover;
   spec.may_be_empty = true;
-  spec.doc = "Proofs that parts cannot be separated, in the order of asking; [] = none.";
+  spec.doc = "Immobility provers, in the order in which they are asked; [] = none.";
   std::vector<PluginChoice> fallback;
   for (const char* id : built_in)
     if (registry.lookup(PluginKind::immobility_prover, id) != nullptr) fallback.push_back({id, {}, {}});

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Does a map of `over` choose another plugin than the map below it?
+/// True if `over` chooses another plugin than `base`, the map below it.
 bool changes_type(const ConfigNode& base, const ConfigNode& over) {
   const std::string below = named_type(base), above = named_type(over);
   return !below.empty() && !above.empty() && below != above;
@@ -57,7 +57,7 @@ void merge_items(ConfigNode& list, ConfigNode over, const std::string& path, std
   }
 }
 
-/// A value over another one.
+/// Merges one value into the value below it.
 void merge_nodes(ConfigNode& base, ConfigMember over, const std::string& path, std::vector<Diagnostic>& problems) {
   if (base.is_map() && over.value.is_map() && !changes_type(base, over.value))
     merge_maps(base, std::move(over.value), path, problems);
@@ -71,7 +71,7 @@ class FileChain {
  public:
   explicit FileChain(std::vector<Diagnostic>& problems) : problems_(problems) {}
 
-  /// The file with all that it extends below it. `from`: the place that names it, if a file does.
+  /// Loads a file, merged over the files that it extends. `from`: the place that names it; nullptr if no file does.
   ConfigNode load(const std::string& shown, const ConfigMark* from) {
     std::error_code error;
     fs::path identity = fs::weakly_canonical(shown, error);
@@ -89,7 +89,7 @@ class FileChain {
       problems_.push_back(from != nullptr ? from->error(unreadable) : Diagnostic{"", 0, 0, unreadable});
       return empty();
     }
-    if (root.cut_off) return empty();  // what is missing may stand in the part that could not be read
+    if (root.cut_off) return empty();  // missing keys may be in the part that could not be read
     if (!root.is_map()) {
       problems_.push_back(
           root.mark.error(fmt::format("a configuration must be a map of keys, not {}", root.kind_name())));
@@ -140,7 +140,7 @@ class FileChain {
   std::vector<std::string> names_;
 };
 
-/// The tree of all --set and options: keys with dots become nested maps.
+/// The tree of all --set values and options: dotted keys become nested maps.
 class Overrides {
  public:
   explicit Overrides(std::vector<Diagnostic>& problems) : problems_(problems) { root_.kind = ConfigNode::Kind::map; }
@@ -232,7 +232,7 @@ std::string named_type(const ConfigNode& choice) {
 }
 
 void merge_config(ConfigNode& base, ConfigNode over, std::vector<Diagnostic>& problems) {
-  for (const auto& section : plugin_sections()) {  // without a type, the default one is meant
+  for (const auto& section : plugin_sections()) {  // without a type, the default type applies
     const auto* below = base.find(section.name);
     const auto* above = over.find(section.name);
     if (below == nullptr || above == nullptr || !below->value.is_map() || !above->value.is_map()) continue;

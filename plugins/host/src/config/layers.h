@@ -1,4 +1,4 @@
-/// From files and command line to one tree: `extends`, overrides, deep merge.
+/// Merges files and command line into one tree: `extends`, overrides, deep merge.
 #pragma once
 
 #include <string>
@@ -12,12 +12,12 @@ namespace dismantle {
 /// The merged tree, without the keys `schema` and `extends`. Problems are appended.
 ConfigNode merged_tree(const ConfigSource& source, std::vector<Diagnostic>& problems);
 
-/// Lays `over` on `base`: maps are merged key by key, everything else is replaced. A map with a `type` that changes
-/// starts afresh, since the parameters below belong to another plugin. Over a list, a map names items by index or by
-/// type (list_items.h): these are merged one by one. Problems are appended.
+/// Merges `over` into `base`: maps are merged key by key, everything else is replaced. A map whose `type` changes
+/// replaces the map in `base`, because its parameters belong to another plugin. A map over a list merges single items,
+/// named by index or by type (list_items.h). Problems are appended.
 void merge_config(ConfigNode& base, ConfigNode over, std::vector<Diagnostic>& problems);
 
-/// The `type` of a map, or the text of a scalar, which stands for `{type: TEXT}`; empty where there is none.
+/// The `type` of a map, or the text of a scalar (short for `{type: TEXT}`); otherwise empty.
 std::string named_type(const ConfigNode& choice);
 
 }  // namespace dismantle

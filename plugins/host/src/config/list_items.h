@@ -1,4 +1,4 @@
-/// How a layer names one item of a list that lies below it: `of: {1: {...}}` or `of: {tunnel_forest: {...}}`.
+/// Finds the list item of a lower layer that a key names: `of: {1: {...}}` or `of: {tunnel_forest: {...}}`.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace dismantle {
 
-/// Index of the item that `key` names: its index, from 0, or its type, where just one item has that type. `types`: of
-/// the items, empty for items without one. Nothing: there is no such item; see no_item_message().
+/// Index of the item that `key` names by index (from 0) or by type, if exactly one item has that type. `types`: types
+/// of the items, empty for items without one. Nothing: no such item; see no_item_message().
 std::optional<std::size_t> item_index(const std::string& key, const std::vector<std::string>& types);
 
 /// "path_planner.of has no item 'tree'; items are 0 (bfs), 1 (rrt)".

@@ -49,7 +49,7 @@ std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry, co
   for (const RegisteredType* type : registry.types(PluginKind::importer)) {
     const auto given = params.find(type->type.id);
     ParamSet values = given == params.end() ? ParamSet{} : given->second;
-    // A plan file may hold a number without fraction as an integer.
+    // A plan file may store a number without a fraction as an integer.
     for (const auto& spec : type->type.params)
       if (const auto it = values.find(spec.name); it != values.end() && spec.type == ParamType::number)
         if (const auto* integer = std::get_if<std::int64_t>(&it->second)) it->second = static_cast<double>(*integer);

@@ -61,7 +61,7 @@ class Writer {
     yaml_.choice(section.name, 2, section.kind, {}, choice);
   }
 
-  /// Only what is not the default: a reader of meshes needs no importer of CAD files.
+  /// Writes only non-default values, so that a file for mesh input does not need the CAD importer.
   void importers(const ImportParams& params, const Registry& registry) {
     if (params.empty()) return;
     line("importers:");
@@ -80,7 +80,7 @@ class Writer {
   const std::string& text() const { return yaml_.text(); }
 
  private:
-  /// The file that a type comes from.
+  /// Describes the plugin file of a type.
   std::string origin(const RegisteredType& type) {
     const PluginFile& file = *type.file;
     std::string& hash = hashes_[file.path];

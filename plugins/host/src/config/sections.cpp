@@ -11,56 +11,60 @@ struct VerifySettings {
                 overlap_factor = budget.overlap_factor;
   double trial_share = budget.trial_share, resolution = budget.resolution;
   static void describe(Schema<VerifySettings>& s) {
-    s.add(
-        "max_penetration", &VerifySettings::max_penetration,
-        {.unit = "assembly units",
-         .min = 0,
-         .max = 0.05 * PrepareOptions{}.size,
-         .min_open = true,
-         .doc = "Deepest penetration that a path may have, above what the pair had when assembled. The largest edge of "
-                "the assembly is 10; at more than a twentieth of it parts pass through each other's walls, and that a "
-                "plan is valid says nothing."});
-    s.add("named_overlap", &VerifySettings::named_overlap,
+    s.add("max_penetration", &VerifySettings::max_penetration,
           {.unit = "assembly units",
            .min = 0,
-           .doc = "Pairs that overlap by more than this when assembled are named in each step of the plan that makes "
-                  "use of it, with the depth along the path."});
+           .max = 0.05 * PrepareOptions{}.size,
+           .min_open = true,
+           .doc = "Deepest penetration allowed along a path, beyond the overlap of the pair. The largest edge of the "
+                  "assembly "
+                  "is 10; with more than a twentieth of that, parts could pass through each other's walls, and a valid "
+                  "plan would mean nothing."});
+    s.add(
+        "named_overlap", &VerifySettings::named_overlap,
+        {.unit = "assembly units",
+         .min = 0,
+         .doc = "Pairs that overlap by more than this when assembled are named in each step of the plan that uses the "
+                "overlap, with the depth along the path."});
     s.add("tests", &VerifySettings::tests,
           {.unit = "1",
            .min = 1,
            .max = 1e12,
-           .doc = "Advanced. Sweep tests that the proof for one pair of solids may take. With more, fewer motions of "
-                  "close fits are refused as uncertain, and refused ones take longer."});
-    s.add("tests_per_segment", &VerifySettings::tests_per_segment,
-          {.unit = "1",
-           .min = 0,
-           .max = 1e12,
-           .doc = "Advanced. Sweep tests that are added for each segment of the path."});
-    s.add("patches", &VerifySettings::patches,
-          {.unit = "1",
-           .min = 4,
-           .max = 1e9,
-           .doc = "Advanced. Patches that the surface of one pair of solids may be divided into; also bounds memory."});
+           .doc =
+               "Advanced. Most sweep tests for the proof of one pair of solids. With more, fewer motions of close fits "
+               "are refused as uncertain, but refused ones take longer."});
+    s.add(
+        "tests_per_segment", &VerifySettings::tests_per_segment,
+        {.unit = "1", .min = 0, .max = 1e12, .doc = "Advanced. Additional sweep tests for each segment of the path."});
+    s.add(
+        "patches", &VerifySettings::patches,
+        {.unit = "1",
+         .min = 4,
+         .max = 1e9,
+         .doc =
+             "Advanced. Most patches into which the surfaces of one pair of solids are divided; also bounds memory."});
     s.add("overlap_factor", &VerifySettings::overlap_factor,
           {.unit = "1",
            .min = 1,
            .max = 1000,
-           .doc = "Advanced. Times as many patches for pairs that overlap by more than max_penetration when assembled: "
+           .doc = "Advanced. Factor on the number of patches for pairs that overlap by more than max_penetration when "
+                  "assembled: "
                   "they are divided along the ridges of what is inside."});
     s.add("trial_share", &VerifySettings::trial_share,
           {.unit = "1",
            .min = 0,
            .max = 1,
            .min_open = true,
-           .doc = "Advanced. Share of these counts for proofs that need not succeed: of smaller penetrations than "
-                  "max_penetration, and of parts that pass each other for the precedence of steps."});
-    s.add("resolution", &VerifySettings::resolution,
-          {.unit = "max_penetration",
-           .min = 0,
-           .max = 1,
-           .min_open = true,
-           .doc = "Advanced. Size at which a patch of surface is not divided further, as a share of the penetration "
-                  "allowed. Smaller: fewer motions are refused as uncertain, and refused ones take longer."});
+           .doc = "Advanced. Share of these counts for optional proofs: of penetrations below max_penetration, and of "
+                  "parts that pass each other, for the precedence of steps."});
+    s.add(
+        "resolution", &VerifySettings::resolution,
+        {.unit = "max_penetration",
+         .min = 0,
+         .max = 1,
+         .min_open = true,
+         .doc = "Advanced. Size below which a patch of surface is not divided further, as a share of the penetration "
+                "allowed. With smaller values fewer motions are refused as uncertain, but refused ones take longer."});
   }
 };
 
@@ -75,18 +79,18 @@ void bind_verify_section(RunConfig& config) {
 
 void RunSettings::describe(Schema<RunSettings>& s) {
   s.add("seed", &RunSettings::seed, {.unit = "1", .min = 0, .doc = "Seed of every random choice."});
-  s.add("threads", &RunSettings::threads,
-        {.unit = "1",
-         .min = 0,
-         .max = 1024,
-         .doc = "Threads to plan with; 0 = all cores. The plan does not depend on it."});
+  s.add(
+      "threads", &RunSettings::threads,
+      {.unit = "1", .min = 0, .max = 1024, .doc = "Number of threads; 0 = all cores. The plan does not depend on it."});
   s.add("path_timeout", &RunSettings::path_timeout,
-        {.unit = "s", .min = 0, .doc = "Time for one attempt to take one part out; 0 = no limit."});
+        {.unit = "s", .min = 0, .doc = "Time limit for one attempt to remove parts; 0 = no limit."});
   s.add("path_steps", &RunSettings::path_steps,
         {.unit = "1",
          .min = 0,
-         .doc = "Simulated time steps for one attempt; 0 = no limit. Unlike seconds, the same on every machine."});
-  s.add("timeout", &RunSettings::timeout, {.unit = "s", .min = 0, .doc = "Time for the whole run; 0 = no limit."});
+         .doc = "Limit of simulated time steps for one attempt; 0 = no limit. Unlike seconds, it is the same on every "
+                "machine."});
+  s.add("timeout", &RunSettings::timeout,
+        {.unit = "s", .min = 0, .doc = "Time limit for the whole run; 0 = no limit."});
   s.add_choice<ForceWhen>(
       "force", &RunSettings::force,
       {{"off", ForceWhen::off, "parts that no verified path was found for stay"},
@@ -98,7 +102,7 @@ void RunSettings::describe(Schema<RunSettings>& s) {
       {.unit = "s",
        .min = 0,
        .doc =
-           "Time that plugins have to end after the run's time is up or Ctrl-C; then the plan so far is saved and the "
+           "Time that plugins have for stopping after the time limit or Ctrl-C; then the plan so far is saved and the "
            "process ends with status 4. 0 = wait without limit."});
 }
 

@@ -5,7 +5,7 @@
 
 namespace dismantle {
 
-/// Takes the values of `config.sections["verify"]`, which is complete, into `verify` and `named_overlap`.
+/// Copies the values of `config.sections["verify"]`, which must be complete, to `verify` and `named_overlap`.
 void bind_verify_section(RunConfig& config);
 
 }  // namespace dismantle

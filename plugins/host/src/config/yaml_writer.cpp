@@ -23,7 +23,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// A word that means nothing else needs no quotes.
+/// A word without a special meaning in YAML needs no quotes.
 std::string plain_or_quoted(const std::string& text) {
   const bool word =
       !text.empty() && text[0] >= 'a' && text[0] <= 'z' && std::all_of(text.begin(), text.end(), [](char c) {
@@ -32,7 +32,7 @@ std::string plain_or_quoted(const std::string& text) {
   return word && text != "true" && text != "false" && text != "null" ? text : quoted(text);
 }
 
-/// A file name may hold a line break.
+/// A file name may contain a line break.
 std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';

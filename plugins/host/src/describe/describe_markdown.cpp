@@ -7,7 +7,7 @@
 namespace dismantle {
 namespace {
 
-/// Text inside a table: a bar would begin a new column.
+/// Escapes text for a table cell: a bar would begin a new column.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -8,7 +8,7 @@
 namespace dismantle {
 namespace {
 
-/// Breaks `text` at blanks so that lines stay below `width`; all lines begin with `indent` blanks.
+/// Breaks `text` at blanks into lines shorter than `width`; all lines begin with `indent` blanks.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
   std::string out, line;
   std::size_t begin = 0;

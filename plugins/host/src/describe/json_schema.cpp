@@ -7,7 +7,7 @@
 namespace dismantle {
 namespace {
 
-/// Definitions of what a list or a parameter may hold, by name; they refer to each other.
+/// Definitions of list items and plugin parameters by name; they refer to each other.
 class Definitions {
  public:
   explicit Definitions(const Registry& registry) : registry_(registry) {}
@@ -69,7 +69,7 @@ Json properties_of(const std::vector<ParamSpec>& specs, const std::string& place
   return properties;
 }
 
-/// One alternative per type; the type `optional_id` may leave its id out.
+/// One alternative per type; the type `optional_id` may omit its id.
 Json alternatives(const Registry& registry, PluginKind kind, const std::vector<ParamSpec>& options,
                   const std::string& optional_id, Definitions& definitions) {
   Json all = Json::array();
@@ -92,7 +92,7 @@ Json alternatives(const Registry& registry, PluginKind kind, const std::vector<P
 
 Json Definitions::choice_of(PluginKind kind, const std::vector<ParamSpec>& options, const std::string& place) {
   if (!all_.contains(place)) {
-    all_[place] = Json();  // a type may hold its own kind
+    all_[place] = Json();  // placeholder: a type may contain plugins of its own kind
     all_[place] = {{"oneOf", alternatives(registry_, kind, options, "", *this)}};
   }
   return {{"$ref", "#/$defs/" + place}};

@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 inline Json json_value(const ParamValue& value);
 
-/// As it would stand in YAML: {"type": ..., options, parameters}.
+/// In the form of the YAML: {"type": ..., options, parameters}.
 inline Json json_value(const PluginChoice& choice) {
   Json json = {{"type", choice.type}};
   for (const ParamSet* set : {&choice.options, &choice.parameters})

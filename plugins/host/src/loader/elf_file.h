@@ -1,4 +1,4 @@
-/// Reads what a plugin exports out of a shared library's bytes, without loading the library.
+/// Reads exported symbols from the bytes of a shared library, without loading it.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace dismantle {
 
-/// A shared library as bytes. Making one makes sure that every segment lies inside the file: the dynamic linker maps a
-/// truncated library without complaint and the process dies on first touch.
+/// A shared library as bytes. The constructor checks that every segment is inside the file: the dynamic linker maps a
+/// truncated library without an error, and the process crashes at the first access.
 class ElfFile {
  public:
-  /// @throws PluginError: unreadable, no ELF library, truncated, for another machine.
+  /// @throws PluginError: unreadable, not an ELF library, truncated, or for another machine.
   explicit ElfFile(const std::filesystem::path& file);
   ~ElfFile();
-  /// Bytes of a symbol that it exports: at most `limit` of them, fewer when the symbol is smaller; nothing when there
-  /// is none of that name. @throws PluginError: truncated, or without a table of symbols.
+  /// The first bytes of an exported symbol, at most `limit`; nothing when there is no such symbol.
+  /// @throws PluginError: truncated, or without a symbol table.
   std::optional<std::vector<std::uint8_t>> symbol(const std::string& name, std::size_t limit);
 
  private:

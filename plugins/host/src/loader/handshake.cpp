@@ -31,7 +31,7 @@ std::map<std::string, std::string> items_of(std::string_view tag) {
   return items;
 }
 
-/// What the user can do about an item that differs.
+/// Tells the user what to do about a differing item.
 std::string remedy(const std::string& key) {
   if (key == "eigen") return "rebuild the plugin with the Eigen that Dismantle was built with";
   if (key == "eigen_max_align_bytes")

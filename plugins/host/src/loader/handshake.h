@@ -1,4 +1,4 @@
-/// Decides from its header alone whether a plugin fits this host.
+/// Decides from the plugin header alone whether a plugin is compatible with this host.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace dismantle {
 /// Each differing item of two ABI tags, with both values: "eigen_max_align_bytes is 32 in the plugin, 16 here".
 std::vector<std::string> tag_differences(std::string_view plugin, std::string_view host);
 
-/// The header in `bytes` (of the symbol in the file), checked. @throws PluginError naming `file`: what differs, both
-/// values, what to rebuild.
+/// Reads and checks the header in `bytes`, the bytes of its symbol. @throws PluginError that names `file`, the
+/// differing item, both values and what to rebuild.
 PluginHeader accept_header(const std::vector<std::uint8_t>& bytes, const std::string& file);
 
 }  // namespace dismantle

@@ -22,7 +22,7 @@ bool word(const std::string& s) {
                      [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
 }
 
-/// Words of lower-case letters, digits, '_' and '-', joined by dots.
+/// True for words of lower-case letters, digits, '_' and '-', joined by dots.
 bool good_id(const std::string& id) {
   std::size_t begin = 0;
   while (true) {
@@ -41,7 +41,7 @@ std::string demangled(const std::string& symbol) {
   return result;
 }
 
-/// The dynamic linker's message, C++ names made readable, the path (said already) left off.
+/// The dynamic linker's message with demangled C++ names and without the path, which the caller adds.
 std::string linker_message(const std::string& path) {
   const char* raw = dlerror();
   std::string text = raw != nullptr ? raw : "unknown error of the dynamic linker";
@@ -80,7 +80,7 @@ std::vector<std::string> problems_of_ids(const std::vector<OfferedType>& types, 
   return problems;
 }
 
-/// "KIND ID, KIND ID". Nothing when it is spelled in another way.
+/// Parses "KIND ID, KIND ID". Nothing when the text has another form.
 std::optional<std::vector<OfferedType>> read_offers(std::string_view text) {
   std::vector<OfferedType> offers;
   while (!text.empty()) {
@@ -150,7 +150,7 @@ OfferedPlugin read_plugin(const std::filesystem::path& file, bool built_in) {
                                           "plugin lacks DISMANTLE_PLUGIN)",
                                           kPluginHeaderSymbol));
     header = accept_header(*bytes, path);
-    // Optional: all that a plugin registers, in that order, as "KIND ID", separated by commas
+    // Optional: all types of the plugin in order of registration, as "KIND ID" separated by commas
     // (cmake/DismantlePlugin.cmake).
     if (const auto text = elf.symbol("dismantle_plugin_types", 65536)) types.assign(text->begin(), text->end());
     types.resize(std::min(types.find('\0'), types.size()));

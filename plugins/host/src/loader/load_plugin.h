@@ -1,4 +1,4 @@
-/// One plugin file: from path to what it offers, and on to registered types, or a reason why not.
+/// Loads one plugin file in two steps: its list of types, then the registered types; or a reason for the refusal.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace dismantle {
 
-/// A refusal that knows what was in the file as far as it got.
+/// A refusal, with all that was known about the file at that point.
 struct PluginRefused {
   PluginProblem problem;
 };
 
-/// What a file says that it registers, before any of its code runs.
+/// A type that a file lists, read before any of its code runs.
 struct OfferedType {
   PluginKind kind = PluginKind::simulator;
   std::string id;
@@ -23,7 +23,7 @@ struct OfferedType {
 
 struct OfferedPlugin {
   PluginFile file;
-  std::vector<OfferedType> types;  ///< empty: it does not say
+  std::vector<OfferedType> types;  ///< empty: the file has no list
 };
 
 struct LoadedPlugin {
@@ -31,17 +31,18 @@ struct LoadedPlugin {
   std::vector<PluginType> types;
 };
 
-/// Handshake on the bytes alone. `file` is canonical. @throws PluginRefused
+/// Handshake on the file's bytes, without loading it. `file` must be canonical. @throws PluginRefused
 OfferedPlugin read_plugin(const std::filesystem::path& file, bool built_in);
 
-/// dlopen (never closed), registration and the checks of what was registered: all that was offered, if it was said.
+/// Calls dlopen (never closed), registers the types and checks them. A file with a list must register exactly its
+/// types.
 /// @throws PluginRefused
 LoadedPlugin load_plugin(const OfferedPlugin& offered);
 
 /// The kind and id of each type, in order.
 std::vector<OfferedType> offers_of(const std::vector<PluginType>& types);
 
-/// Everything wrong with the types of one file: bad ids, missing docs, defaults out of range, an id twice.
+/// All problems of the types of one file: bad ids, missing docs, defaults out of range, repeated ids.
 std::vector<std::string> problems_of_types(const std::vector<PluginType>& types, bool built_in);
 
 }  // namespace dismantle

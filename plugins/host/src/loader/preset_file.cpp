@@ -54,7 +54,7 @@ std::vector<std::unique_ptr<PresetFile>> read_presets(const fs::path& folder) {
     fs::directory_iterator it(folder / to_string(kind), error);
     for (; !error && it != fs::directory_iterator(); it.increment(error))
       if (it->path().extension() == ".yaml") files.push_back(it->path());
-    std::sort(files.begin(), files.end());  // the folder's own order differs between machines
+    std::sort(files.begin(), files.end());  // the directory order differs between machines
     for (const auto& file : files) presets.push_back(read_preset(file, kind));
   }
   return presets;

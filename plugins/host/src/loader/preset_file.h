@@ -1,4 +1,4 @@
-/// A preset as it stands in its file: `schema`, `summary`, and the choice under the key of its kind.
+/// A preset file: `schema`, `summary`, and the choice under the key of its kind.
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ struct PresetFile {
   std::string id;  ///< name of the file
   std::string summary;
   ConfigNode choice;                 ///< a map with a type
-  std::vector<Diagnostic> problems;  ///< then it cannot be used
+  std::vector<Diagnostic> problems;  ///< not empty: the preset cannot be used
 };
 
-/// `folder`/<kind>/<id>.yaml, by kind and name.
+/// Reads `folder`/<kind>/<id>.yaml, sorted by kind and name.
 std::vector<std::unique_ptr<PresetFile>> read_presets(const std::filesystem::path& folder);
 
 }  // namespace dismantle

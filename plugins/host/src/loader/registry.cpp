@@ -36,13 +36,13 @@ std::string with_article(PluginKind kind) {
   return fmt::format("{} {}", name.front() == 'i' ? "an" : "a", name);
 }
 
-/// Types that no file brings, by id.
+/// Types that come from no file, by id.
 struct ProgramTypes {
   std::mutex mutex;
   std::map<std::string, LoadedPlugin> by_id;
 };
 
-/// Never destroyed: types may hold objects of an interpreter that is gone when the process ends.
+/// Never destroyed: types may own objects of an interpreter that is gone when the process ends.
 ProgramTypes& program_types() {
   static auto* types = new ProgramTypes;
   return *types;
@@ -133,7 +133,7 @@ void Registry::scan() {
     for (; !error && it != fs::directory_iterator(); it.increment(error))
       if (it->path().extension() == ".so") files.push_back(it->path());
     if (error) problems_.push_back({path, "", {}, "plugin folder cannot be read: " + error.message()});
-    std::sort(files.begin(), files.end());  // the folder's own order differs between machines
+    std::sort(files.begin(), files.end());  // the directory order differs between machines
     for (const auto& file : files) try_load(file);
     read_presets_of(path);
   }
@@ -212,7 +212,7 @@ const PluginFile& Registry::load_canonical(const fs::path& file) {
   return accept(load_plugin(read(file)));
 }
 
-/// Nothing when it is loaded. A file that is refused stays unloaded. @throws PluginRefused
+/// Does nothing for a loaded file. A refused file stays unloaded. @throws PluginRefused
 void Registry::load_now(const PluginFile& file) const {
   const auto waiting = unloaded_.find(&file);
   if (waiting == unloaded_.end()) return;
@@ -242,7 +242,7 @@ const PluginFile& Registry::accept(LoadedPlugin plugin) {
   return added;
 }
 
-/// The types of ids that no other file claimed before.
+/// Adds the types whose ids no other file claimed before.
 void Registry::fill(const PluginFile& file, LoadedPlugin plugin) const {
   for (auto& type : plugin.types) {
     Claim& claim = claims_.at(type.id);
@@ -307,7 +307,7 @@ std::string Registry::refused_files_text(const std::string& id) const {
   for (const auto& problem : problems_) {
     const bool known = std::find(problem.types.begin(), problem.types.end(), id) != problem.types.end();
     if (known) return fmt::format("; {} offers it, but was refused: {}", problem.file.string(), problem.message);
-    if (problem.types.empty())  // what it offers is not known: it may be this
+    if (problem.types.empty())  // its types are unknown: the wanted one may be among them
       text += fmt::format("\n  not loaded: {}: {}", problem.file.string(), problem.message);
   }
   return text;

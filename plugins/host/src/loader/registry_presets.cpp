@@ -1,4 +1,4 @@
-// Presets become types: the type that they name, with other defaults.
+// Turns presets into types: the type that a preset names, with other defaults.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The needs of what a parameter holds; presets among it have those of what they hold.
+/// Adds the needs of the plugins in a parameter. Presets already include those of their nested plugins.
 void add_needs(const ParamSpec& spec, const TypeSource& types, Capabilities& needs) {
   std::vector<PluginChoice> held;
   if (const auto* one = std::get_if<PluginChoice>(&spec.fallback)) held = {*one};
@@ -44,7 +44,7 @@ fs::path preset_folder(const fs::path& built_in_folder) {
   return {};
 }
 
-/// Those that cannot be used now may be later, when more plugins are there.
+/// Retries all open presets: some may become usable when more plugins are loaded.
 void Registry::resolve_presets() {
   for (const auto& preset : open_presets_)
     std::erase_if(problems_, [&](const PluginProblem& p) { return p.file == preset.second->file; });
@@ -63,7 +63,7 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
   std::vector<Diagnostic> problems = preset.problems;
   std::string cycle;
   chain.push_back(id);
-  // A preset may hold others, which have to be resolved first.
+  // A preset may contain other presets, which are resolved first.
   const TypeSource types{[&](PluginKind kind, const std::string& other) -> const RegisteredType* {
                            if (std::find(chain.begin(), chain.end(), other) != chain.end()) return nullptr;
                            const RegisteredType* found = lookup(kind, other);
@@ -88,7 +88,7 @@ const RegisteredType* Registry::resolve_preset(const std::string& id, std::vecto
   if (!problems.empty()) {
     const auto known =
         std::find_if(problems_.begin(), problems_.end(), [&](const PluginProblem& p) { return p.file == preset.file; });
-    if (known == problems_.end())  // not reported on behalf of another one that holds it
+    if (known == problems_.end())  // not yet reported through a preset that contains it
       problems_.push_back({preset.file, "", {id}, ConfigError(std::move(problems)).what()});
     return nullptr;
   }

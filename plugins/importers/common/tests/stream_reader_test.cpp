@@ -14,7 +14,7 @@
 namespace dismantle::reader_process {
 namespace {
 
-/// What the writer writes.
+/// The output of the writer.
 template <class Fill>
 std::string written(Fill fill) {
   std::FILE* out = std::tmpfile();
@@ -128,7 +128,7 @@ TEST(StepStream, DamageGivesValidPartsOrAProblem) {
         for (const auto corner : t) EXPECT_LT(corner, part.mesh.vertices.size());
     }
   }
-  EXPECT_GT(problems, 300u);  // most damage is in coordinates, which may be anything
+  EXPECT_GT(problems, 300u);  // most damage hits coordinates, which may have any value
 }
 
 TEST(StepStream, PromisesTakeNoMemory) {
@@ -155,7 +155,7 @@ TEST(StepStream, PromisesTakeNoMemory) {
   EXPECT_EQ(few.problem(), "too many triangles");
 }
 
-/// A record of vertices or triangles before any body, with or without anything in it.
+/// A record of vertices or triangles before any body, empty or not.
 TEST(StepStream, GeometryOfNoBodyIsRefused) {
   const std::string magic(kMagic, sizeof kMagic);
   for (const char tag : {'V', 'T'})

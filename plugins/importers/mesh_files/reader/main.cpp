@@ -1,5 +1,5 @@
 // assimp_reader FILE: reads a glTF, 3MF or DAE file and writes its parts to standard output in the format of
-// stream_format.h. Started by the importer, in a process of its own because assimp may crash, hang or take all memory.
+// stream_format.h. The importer starts it as a separate process because assimp may crash, hang or use all memory.
 #include <unistd.h>
 
 #include <cstdio>
@@ -30,7 +30,7 @@ Body body_of(const RawPart& part) {
   return body;
 }
 
-/// Without the file, which the importer names itself.
+/// The error text without the file, which the importer adds.
 std::string problem_of(const InputError& error) {
   const std::string text = error.what(), begin = error.subject() + ": ";
   return text.starts_with(begin) ? text.substr(begin.size()) : text;
@@ -66,5 +66,5 @@ int main(int argc, char** argv) {
   if (stream < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
   dismantle::reader_process::StreamWriter out(stream);
   const int status = dismantle::mesh_files::convert(argv[1], out);
-  std::_Exit(status);  // taking the scene apart takes time; the process ends anyway
+  std::_Exit(status);  // destroying the scene takes time; the process ends anyway
 }

@@ -38,7 +38,7 @@ void put_utf8(std::uint32_t c, std::string& out) {
   }
 }
 
-/// Attribute text with XML's entities resolved.
+/// Attribute text with XML entities resolved.
 std::string decoded(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -69,7 +69,7 @@ std::string decoded(std::string_view text) {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-/// Value of an attribute in the inside of a tag; empty when there is none.
+/// Value of an attribute inside a tag; empty when there is none.
 std::string attribute(std::string_view tag, std::string_view name) {
   for (std::size_t at = tag.find(name); at != std::string_view::npos; at = tag.find(name, at + 1)) {
     std::size_t i = at + name.size();
@@ -125,7 +125,7 @@ Facts3mf facts_of_3mf(const std::filesystem::path& file) {
     std::string xml;
     std::vector<char> block(1 << 16);
     int n = 0;
-    const std::size_t longest = std::size_t{1} << 31;  // bytes: a small archive can expand without end
+    const std::size_t longest = std::size_t{1} << 31;  // bytes: a small archive can expand without limit
     while (xml.size() < longest &&
            (n = unzReadCurrentFile(archive.handle, block.data(), static_cast<unsigned>(block.size()))) > 0)
       xml.append(block.data(), static_cast<std::size_t>(n));

@@ -1,4 +1,4 @@
-/// Scenes that assimp reads, as parts.
+/// Reads scenes with assimp and converts them to parts.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@
 namespace dismantle::mesh_files {
 
 /// glTF, 3MF, DAE: one part per mesh node, node transforms applied, units of the file.
-/// @throws InputError whose text begins with the file. assimp itself may crash, hang or take all memory.
+/// @throws InputError whose text begins with the file. assimp itself may crash, hang or use all memory.
 std::vector<RawPart> read_scene(const std::filesystem::path& file);
 
 }  // namespace dismantle::mesh_files

@@ -1,4 +1,4 @@
-// Colours: one per part or none, whatever the files say.
+// Colours: one per part or none, for any file.
 #include "appearance.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using testing::TempFolder;
 
 TEST(Appearance, LinearLightIsEncodedAsSrgb) {
-  // Known values of IEC 61966-2-1, and the law that decoding gives the light back.
+  // Known values of IEC 61966-2-1, and the law that decoding inverts encoding.
   EXPECT_EQ(rgba(0, 0.5, 1, 1, true), (Rgba{0, 188, 255, 255}));
   EXPECT_EQ(rgba(0, 0.5, 1, 0.5, false), (Rgba{0, 128, 255, 128}));
   Rng rng(4);

@@ -1,4 +1,4 @@
-/// Made-up meshes and files for the importer's tests.
+/// Synthetic meshes and files for the importer's tests.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace dismantle::mesh_files::testing {
 /// Box from `lo` to `hi`, outward.
 Mesh box(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi);
 
-/// A folder of its own for one test, removed at the end.
+/// A temporary folder for one test, removed at its end.
 class TempFolder {
  public:
   TempFolder();
@@ -36,7 +36,7 @@ std::string text_stl(const Mesh& mesh, const std::string& name);
 /// A zip archive without compression.
 std::string zip(const std::vector<std::pair<std::string, std::string>>& files);
 
-/// What an InputError says, or "" when `f` throws none.
+/// The text of the InputError that `f` throws, or "".
 std::string input_error(const std::function<void()>& f);
 
 }  // namespace dismantle::mesh_files::testing

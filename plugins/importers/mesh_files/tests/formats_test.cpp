@@ -1,4 +1,4 @@
-// Round trips through every format, and the known traps of assimp.
+// Round trips through every format, and known faults of assimp.
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 

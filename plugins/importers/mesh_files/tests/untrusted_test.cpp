@@ -1,4 +1,4 @@
-// Files from anywhere: what they name, how much memory they ask for, and how long they take.
+// Untrusted files: the files that they name, the memory that they request, and the time that they take.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -116,13 +116,13 @@ TEST(UntrustedFiles, ReadingEndsWhenItIsToldTo) {
       MeshFiles().read(file, stopped);
       ADD_FAILURE() << file;
     } catch (const InputError& e) {
-      ADD_FAILURE() << e.what();  // nothing is wrong with the file
+      ADD_FAILURE() << e.what();  // the file is valid
     } catch (const Error&) {
     }
   }
 }
 
-/// An executable text that takes the place of assimp_reader.
+/// An executable script that replaces assimp_reader.
 std::filesystem::path reader_that(const TempFolder& folder, const std::string& lines) {
   const auto program = folder.write("reader", "#!/bin/sh\n" + lines);
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);

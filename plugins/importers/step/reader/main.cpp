@@ -1,5 +1,5 @@
 // step_reader FILE LINEAR LINEAR_OF_ASSEMBLY ANGULAR MAX_TRIANGLES: reads a STEP file and writes its bodies to standard
-// output in the format of stream_format.h. Started by the plugin, in a process of its own because Open CASCADE may
+// output in the format of stream_format.h. The plugin starts it as a separate process because Open CASCADE may
 // crash or hang.
 #include <unistd.h>
 
@@ -42,7 +42,7 @@ struct Arguments {
 };
 
 struct Unit {
-  const char* in_file;  ///< begin of the name that Open CASCADE gives
+  const char* in_file;  ///< prefix of the name in Open CASCADE
   const char* name;
   double millimetres;
 };
@@ -100,7 +100,7 @@ class Converter {
     return document;
   }
 
-  /// Shapes come in millimetres; what is written is in the file's own unit, if it has one.
+  /// Shapes are read in millimetres and written in the file's own unit, if it has one.
   void find_unit(STEPControl_Reader& reader) {
     TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
     reader.FileUnits(lengths, angles, solid_angles);
@@ -123,7 +123,7 @@ class Converter {
     out_.unit(unit.name);
   }
 
-  /// Diagonal of the box around all bodies, and of each body without its location. Millimetres.
+  /// Measures the diagonal of the box around all bodies (returned) and of each body without its location. Millimetres.
   double measure(const ProductTree& tree) {
     Bnd_Box all;
     for (const PlacedBody& body : tree.bodies) {
@@ -147,7 +147,7 @@ class Converter {
     return box.IsVoid() || box.IsOpen() ? 0 : std::sqrt(box.SquareExtent());
   }
 
-  /// Returns false when the limit of triangles is passed.
+  /// Returns false when the triangle limit is exceeded.
   bool convert(const PlacedBody& placed, double assembly) {
     Body body;
     body.name = placed.name;
@@ -248,6 +248,6 @@ int main(int argc, char** argv) {
   if (stream < 0 || ::dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
   dismantle::reader_process::StreamWriter out(stream);
   const int status = convert(arguments, out);
-  // Taking the document apart takes time and can crash; the process ends anyway.
+  // Destroying the document takes time and can crash; the process ends anyway.
   std::_Exit(status);
 }

@@ -54,7 +54,7 @@ std::optional<Rgba8> ProductColours::of(const TopoDS_Shape& body, const Surface&
   if (index_.IsEmpty()) return rest;
   std::map<std::optional<Rgba8>, double> areas;
   for (const auto& [face, area] : surface.faces) {
-    // The surface was made of the body without its location.
+    // The surface was computed from the body without its location.
     const auto colour = find(face.Located(body.Location() * face.Location()));
     areas[colour ? colour : rest] += area;
   }

@@ -1,4 +1,4 @@
-/// One colour for a body out of those that the file gives to its instances, product, solid and faces.
+/// Chooses one colour for a body from the colours of its instances, product, solid and faces.
 #pragma once
 
 #include <Quantity_ColorRGBA.hxx>
@@ -17,15 +17,15 @@ namespace dismantle::step_import {
 
 using Rgba8 = std::array<std::uint8_t, 4>;  ///< sRGB, as in "#rrggbb", and opacity
 
-/// The colour of a label itself.
+/// The colour of the label itself, not of its parents.
 std::optional<Rgba8> colour_of(const TDF_Label& label);
 
-/// Colours within one product.
+/// The colours in one product.
 class ProductColours {
  public:
   ProductColours(const TDF_Label& product, const Handle(XCAFDoc_ShapeTool) & shapes);
 
-  /// The colour that covers most of the body's area: that of a face, else of the body, else of the product.
+  /// The colour with the largest area. A face has its own colour, else that of the body, else that of the product.
   std::optional<Rgba8> of(const TopoDS_Shape& body, const Surface& surface) const;
 
  private:

@@ -47,7 +47,7 @@ void put_utf8(std::string& out, long c) {
 }
 
 /// \X2\....\X0\ and \X4\........\X0\: characters of `digits` digits each; UTF-16 pairs are joined. Returns the place
-/// after it, or `begin` when it is none.
+/// behind it, or `begin` when there is no such directive.
 std::size_t read_extended(const std::string& text, std::size_t begin, std::size_t digits, std::string& out) {
   std::string found;
   std::size_t i = begin + 4;

@@ -22,7 +22,7 @@ std::string entry(const TDF_Label& label) {
   return text.ToCString();
 }
 
-/// What one product is made of; found once, however often it is used.
+/// The bodies of one product; computed once, however often it is used.
 struct Product {
   struct Member {
     BodyKind kind = BodyKind::solid;
@@ -54,7 +54,7 @@ class Walker {
   }
 
  private:
-  /// `name`: of the instance, for what has none itself.
+  /// `name`: name of the instance, for products without a name.
   void visit(const TDF_Label& label, const std::string& name, const TopLoc_Location& place,
              const std::vector<std::string>& parents, const std::optional<Rgba8>& colour) {
     if (++visited_ > reader_process::kInputLimits.instances)
@@ -103,8 +103,8 @@ class Walker {
     report_rest(name, product);
   }
 
-  /// Different products of one name ("Body" in "post" and "Body" in "lid") are called after the assemblies that they
-  /// are in, if that tells all of them apart. What then has the same name is numbered.
+  /// Different products with one name ("Body" in "post" and "Body" in "lid") get the name of their assembly as a
+  /// prefix, if this makes all of them distinct. Bodies that still share a name are numbered.
   void give_names() {
     for (const auto& [name, bearers] : bearers_) {
       std::set<const Product*> products;
@@ -123,7 +123,7 @@ class Walker {
     make_unique(names);
   }
 
-  /// Once for each name: a repeated part would repeat it.
+  /// Warns once for each name, not for each instance.
   void report_rest(const std::string& name, const Product& product) {
     std::string rest;
     const auto add = [&](std::size_t n, const char* one, const char* many) {
@@ -160,7 +160,7 @@ class Walker {
     product.members.push_back({kind, shape, {}, count(shape, TopAbs_FACE)});
   }
 
-  /// A body's own name tells bodies of one product apart only if each has one of its own.
+  /// Uses the names of the bodies of one product only if each body has a distinct name.
   void name_members(const TDF_Label& label, Product& product) {
     if (product.members.size() < 2) return;
     TDF_LabelSequence subshapes;
@@ -181,7 +181,7 @@ class Walker {
     std::size_t body;
     const Product* product;
   };
-  std::map<std::string, std::vector<Bearer>> bearers_;  // of a name
+  std::map<std::string, std::vector<Bearer>> bearers_;  // by name
   std::map<std::string, Product> products_;
   std::set<std::string> reported_;
   std::size_t visited_ = 0;

@@ -1,4 +1,4 @@
-/// Walks the product structure of a document and hands out every body in its place.
+/// Walks the product structure of a document and lists every body at each of its places.
 #pragma once
 
 #include <TopLoc_Location.hxx>
@@ -15,21 +15,21 @@ namespace dismantle::step_import {
 
 enum class BodyKind { solid, closed_shell, open_shell };
 
-/// One body in one place of the assembly.
+/// One body at one place of the assembly.
 struct PlacedBody {
   std::string name;                  ///< unique
-  std::vector<std::string> parents;  ///< names of the assemblies that it is in, outermost first
+  std::vector<std::string> parents;  ///< names of the assemblies that contain it, outermost first
   BodyKind kind = BodyKind::solid;
-  TopoDS_Shape shape;  ///< with its location in the product, without that of the instance
+  TopoDS_Shape shape;  ///< with its location in the product, without the location of the instance
   TopLoc_Location instance;
   std::shared_ptr<const ProductColours> colours;
-  std::optional<Rgba8> instance_colour;  ///< given to an instance: overrides those of the product
+  std::optional<Rgba8> instance_colour;  ///< colour of the instance: overrides the colours of the product
   std::size_t faces = 0;
 };
 
 struct ProductTree {
   std::vector<PlacedBody> bodies;
-  std::vector<std::string> warnings;  ///< what of the file is no body, by name
+  std::vector<std::string> warnings;  ///< content of the file that is not a body, by name
 };
 
 ProductTree walk_products(const Handle(XCAFDoc_ShapeTool) & shapes);

@@ -17,8 +17,8 @@
 namespace dismantle::step_import {
 namespace {
 
-/// Open CASCADE gives every face triangles with vertices of its own. The topology tells which are the same: the nodes
-/// of an edge on both its faces, the ends of the edges of a vertex, all nodes of an edge without length.
+/// Joins the vertices of faces, since Open CASCADE gives every face its own. By the topology these vertices are equal:
+/// the nodes of an edge on both its faces, the ends of the edges at a vertex, all nodes of an edge without length.
 class Welder {
  public:
   Surface weld(const TopoDS_Shape& shape) {
@@ -140,7 +140,7 @@ class Welder {
 
   Surface surface_;
   std::vector<std::array<double, 3>> points_;
-  std::vector<std::uint32_t> same_;  // union-find: the smallest index stands for all
+  std::vector<std::uint32_t> same_;  // union-find: the smallest index represents all
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   TopTools_DataMapOfShapeInteger edges_, vertices_;
   std::vector<std::vector<std::uint32_t>> polygons_;
@@ -150,10 +150,10 @@ class Welder {
 
 Surface tessellate(const TopoDS_Shape& shape, double linear, double angular) {
   const TopoDS_Shape local = shape.Located(TopLoc_Location());
-  // One thread: the result must not depend on how many there are.
+  // One thread, so that the result does not depend on the number of threads.
   BRepMesh_IncrementalMesh mesher(local, linear, Standard_False, angular, Standard_False);
   Surface surface = Welder().weld(local);
-  BRepTools::Clean(local);  // what Open CASCADE keeps is no longer needed
+  BRepTools::Clean(local);  // frees the triangulation that Open CASCADE keeps
   return surface;
 }
 

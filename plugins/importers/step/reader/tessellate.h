@@ -1,4 +1,4 @@
-/// The surface of one solid or shell as triangles that share their vertices along edges.
+/// Triangulates the surface of one solid or shell; faces share their vertices along edges.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -17,13 +17,13 @@ struct Surface {
   std::vector<std::array<double, 3>> vertices;  ///< in the frame of the shape without its location
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<FaceRange> faces;
-  std::size_t missing_faces = 0;     ///< could not be tessellated
-  std::size_t mismatched_edges = 0;  ///< their two faces divide them differently: the surface is open there
+  std::size_t missing_faces = 0;     ///< faces that could not be tessellated
+  std::size_t mismatched_edges = 0;  ///< edges that their two faces divide differently: the surface is open there
 };
 
 /// `linear`: largest distance from a chord to its curve and from a triangle to its surface, in the shape's unit.
 /// `angular`: largest turn of a curve or a surface normal from one vertex to the next, rad.
-/// Triangles are outward if the shape is closed.
+/// Triangles face outward if the shape is closed.
 Surface tessellate(const TopoDS_Shape& shape, double linear, double angular);
 
 }  // namespace dismantle::step_import

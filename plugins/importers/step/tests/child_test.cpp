@@ -1,4 +1,4 @@
-// What may happen to the reader program, with scripts in its place.
+// Failures of the reader program, which scripts replace.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -65,7 +65,7 @@ TEST_F(StepChild, AHangIsEndedByTheTimeLimitAndByWhoWaits) {
     const std::string error = error_with(script, params);
     EXPECT_NE(error.find("longer than 0.2 s: raise importers.step.time_limit"), std::string::npos) << script << error;
   }
-  // Cancelled from another thread: an Error that is no InputError.
+  // Cancelled from another thread: an Error, not an InputError.
   StepImporter importer({}, scratch_.program("reader", "sleep 1000\n"));
   RunContext context;
   std::jthread other([cancel = context.cancel] { cancel.cancel(); });
@@ -86,7 +86,7 @@ TEST_F(StepChild, NothingIsLeftRunning) {
   std::ifstream in(scratch_ / "grandchild");
   pid_t id = 0;
   ASSERT_TRUE(in >> id);
-  // A killed process that its new parent has not collected yet still has an id, but no command line.
+  // A killed process that its new parent has not reaped yet still has an id, but no command line.
   for (int i = 0; i < 1000; ++i) {
     std::ifstream command("/proc/" + std::to_string(id) + "/cmdline");
     std::string text;

@@ -1,5 +1,5 @@
-// $DISMANTLE_DATA/step, where it is: as many parts as the folders of meshes that were made of the same files, in the
-// same boxes.
+// Files of $DISMANTLE_DATA/step, if present: they give as many parts as the folders of meshes made from the same files,
+// with the same boxes.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -61,7 +61,7 @@ TEST(RealStepFiles, HaveThePartsOfTheirMeshesInTheSamePlaces) {
       all.extend(expected.back().hi);
     }
     ASSERT_EQ(parts.size(), expected.size());
-    // Each part has a mesh of its own whose box it has; chords of both are within a tenth of a percent of the assembly.
+    // Each part matches one mesh with the same box; both deviate from the surface by at most 0.1 % of the assembly.
     const double tolerance = 0.003 * all.size().norm();
     std::vector<bool> used(expected.size(), false);
     for (const auto& part : parts) {

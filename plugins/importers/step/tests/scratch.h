@@ -1,4 +1,4 @@
-/// A folder of its own for one test, and what errors say.
+/// A temporary folder for one test, and the texts of errors.
 #pragma once
 
 #include <unistd.h>
@@ -32,7 +32,7 @@ class Scratch {
     return path_ / name;
   }
 
-  /// An executable text that takes the place of step_reader.
+  /// An executable script that replaces step_reader.
   std::filesystem::path program(const std::string& name, const std::string& lines) const {
     const auto file = write(name, "#!/bin/sh\n" + lines);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
@@ -43,7 +43,7 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// What an InputError says, or "" when `f` throws none.
+/// The text of the InputError that `f` throws, or "".
 template <class F>
 std::string input_error(F f) {
   try {
@@ -54,7 +54,7 @@ std::string input_error(F f) {
   return {};
 }
 
-/// A file that passes for STEP until somebody reads it.
+/// A file with the head and tail of a STEP file, but no content.
 inline std::string empty_step() { return "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"; }
 
 }  // namespace dismantle::step_import::testing

@@ -67,7 +67,7 @@ void StepFile::name(const TDF_Label& product, const TopoDS_Shape& part, const st
 void StepFile::write(const std::filesystem::path& file, const char* unit) {
   XCAFDoc_DocumentTool::ShapeTool(document_->Main())->UpdateAssemblies();
   STEPCAFControl_Controller::Init();
-  Interface_Static::SetCVal("write.step.unit", unit);  // a writer takes it when it is made
+  Interface_Static::SetCVal("write.step.unit", unit);  // the writer reads it in its constructor
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   STEPCAFControl_Writer writer;
   if (!writer.Transfer(document_, STEPControl_AsIs) || writer.Write(file.c_str()) != IFSelect_RetDone)

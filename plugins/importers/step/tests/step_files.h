@@ -15,13 +15,13 @@ class StepFile {
  public:
   StepFile();
 
-  /// A product that is not placed yet: a root of the file until an assembly uses it.
+  /// A product without an instance: a root of the file until an assembly uses it.
   TDF_Label product(const TopoDS_Shape& shape, const std::string& name);
   TDF_Label assembly(const std::string& name);
   /// Returns the instance.
   TDF_Label place(const TDF_Label& assembly, const TDF_Label& what, const gp_Trsf& where, const std::string& name = {});
   void paint(const TDF_Label& label, const Rgba& colour);
-  /// A face or solid of a product.
+  /// Paints a face or solid of a product.
   void paint(const TDF_Label& product, const TopoDS_Shape& part, const Rgba& colour);
   void name(const TDF_Label& product, const TopoDS_Shape& part, const std::string& name);
 
@@ -35,7 +35,7 @@ class StepFile {
 TopoDS_Shape box(double x, double y, double z);
 TopoDS_Shape cylinder(double radius, double height);
 gp_Trsf moved(double x, double y, double z);
-/// About a random axis through the origin, then moved.
+/// Rotation about `axis` through the origin, followed by `shift`.
 gp_Trsf turned(const gp_Vec& axis, double angle, const gp_Vec& shift);
 
 }  // namespace dismantle::step_import::testing

@@ -1,4 +1,4 @@
-// STEP files that Open CASCADE wrote, through the reader program and back: laws on random boxes and cylinders.
+// Laws on STEP files of random boxes and cylinders, written by Open CASCADE and read by the reader program.
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -63,7 +63,7 @@ void expect_watertight(const RawPart& part) {
   for (const auto& [edge, balance] : uses) ASSERT_EQ(balance, 0) << part.name;
 }
 
-/// The project's own preparation has nothing to mend.
+/// Preparation finds nothing to repair.
 void expect_nothing_to_repair(const Read& in) {
   PrepareOptions options;
   options.drop_duplicates = false;
@@ -122,7 +122,7 @@ TEST(StepImporter, NestedAssembliesPlaceRepeatedPartsInTheFilesOwnUnit) {
         const double volume = signed_volume(part.mesh) * mm * mm * mm;
         if (i % 2 == 0)
           EXPECT_NEAR(volume, x * y * z, 1e-9 * x * y * z);
-        else  // inscribed: less, but not by more than the angle allows
+        else  // inscribed: smaller, by at most what the angle allows
           EXPECT_NEAR(volume / (std::numbers::pi * r * r * h), 0.985, 0.015);
         const gp_Trsf place = (i < 2 ? a : b) * (i % 2 == 0 ? inner : pin);
         if (i % 2 == 0) {
@@ -237,7 +237,7 @@ TEST(StepImporter, FinerDeflectionIsCloserAndStaysClosed) {
     const double missing = 1 - signed_volume(ball.mesh) / (4.0 / 3 * std::numbers::pi * 1000);
     EXPECT_LT(missing, before);
     EXPECT_GT(ball.mesh.triangles.size(), triangles);
-    // A chord further inside than the tolerance: share of the diagonal 20 * sqrt(3).
+    // No chord is deeper inside than the tolerance, a share of the diagonal 20 * sqrt(3).
     for (const auto& t : ball.mesh.triangles) {
       const Eigen::Vector3d middle =
           (ball.mesh.vertices[t[0]] + ball.mesh.vertices[t[1]] + ball.mesh.vertices[t[2]]) / 3;
@@ -298,7 +298,7 @@ TEST(StepImporter, DamageGivesPartsOrAnInputError) {
           if (const auto at = bytes.find('#', data + rng.below(bytes.size() - data)); at + 1 < bytes.size())
             bytes[at + 1] = static_cast<char>('0' + rng.below(10));
         break;
-      case 2: {  // a piece is missing, the end is there
+      case 2: {  // a piece is missing, but not the end
         const std::size_t from = data + rng.below(bytes.size() - data - 60);
         bytes.erase(from, std::min<std::size_t>(rng.below(2000), bytes.size() - 60 - from));
         break;
@@ -319,7 +319,7 @@ TEST(StepImporter, DamageGivesPartsOrAnInputError) {
     EXPECT_TRUE(std::none_of(error.begin(), error.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }))
         << error;
   }
-  EXPECT_GE(refused, 15);  // at least all that are cut off
+  EXPECT_GE(refused, 15);  // at least all truncated ones
 }
 
 TEST(StepImporter, TheMemoryLimitIsNamed) {

@@ -32,15 +32,15 @@ struct NoParams {
   static void describe(Schema<NoParams>&) {}
 };
 
-/// Facts about a type that can be read without making one.
+/// Facts about a type that can be read without creating an object.
 struct TypeTraits {
   std::string source{};        ///< paper section or reference
-  Capabilities needs = {};     ///< path and transfer planners: what the simulator must have
+  Capabilities needs = {};     ///< path and transfer planners: required of the simulator
   Capabilities provides = {};  ///< simulators
 };
 
-/// One registered type. `create` returns a pointer to the interface of `kind`, from a complete ParamSet; plugins that
-/// its parameters name are made by the PluginMaker, which stays callable as long as the object lives.
+/// One registered type. `create` takes a complete ParamSet and returns a pointer to the interface of `kind`. The
+/// PluginMaker creates the plugins that the parameters name and stays callable as long as the object lives.
 struct PluginType {
   PluginKind kind = PluginKind::simulator;
   std::string id;
@@ -50,7 +50,7 @@ struct PluginType {
   std::function<std::shared_ptr<void>(const ParamSet&, const PluginMaker&)> create;
 };
 
-/// Collects what a plugin offers. The host makes it; the plugin only fills it.
+/// Collects the types of a plugin. The host creates it; the plugin only fills it.
 class Registrar {
  public:
   template <class Interface, class Impl, class Params = NoParams>

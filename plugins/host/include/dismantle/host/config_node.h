@@ -1,4 +1,4 @@
-/// A YAML text as a tree that remembers where everything stands.
+/// A YAML text as a tree in which every key and value has its place in the file.
 #pragma once
 
 #include <memory>
@@ -24,9 +24,9 @@ struct ConfigMark {
 
 struct ConfigMember;
 
-/// Scalars are kept as text: what they mean is decided by the parameter that they are for.
+/// A node of the YAML tree. Scalars are kept as text: the parameter that reads one decides its type.
 struct DISMANTLE_API ConfigNode {
-  /// What a node of YAML is.
+  /// Kind of a YAML node.
   enum class Kind { null, scalar, sequence, map };
   Kind kind = Kind::null;
   std::string scalar;
@@ -34,7 +34,7 @@ struct DISMANTLE_API ConfigNode {
   ConfigMark mark;
   std::vector<ConfigNode> items;      ///< of a sequence
   std::vector<ConfigMember> members;  ///< of a map, in file order, no key twice
-  bool cut_off = false;  ///< of a root: the text is broken; what follows the place that was reported is not known
+  bool cut_off = false;               ///< root only: the text is broken, and nothing after the reported place was read
 
   bool is_map() const { return kind == Kind::map; }
   bool is_scalar() const { return kind == Kind::scalar; }
@@ -44,20 +44,20 @@ struct DISMANTLE_API ConfigNode {
   std::string_view kind_name() const;  ///< "a map", "a list", "a value", "nothing"
 };
 
-/// A key of a map with its value, and where each stands.
+/// A key of a map with its value, and the place of each.
 struct ConfigMember {
   std::string key;
   ConfigMark key_mark;
   ConfigNode value;
 };
 
-/// Reads one YAML document. What is wrong with it (syntax, a key twice, several documents, tags, more
-/// than 64 levels or 100 000 nodes) is appended to `problems`; the tree then holds what could be read.
+/// Reads one YAML document. Errors (syntax, a repeated key, several documents, tags, more than 64 levels
+/// or 100 000 nodes) are appended to `problems`; the tree then contains what could be read.
 /// An empty document is an empty map. Never throws because of the text.
 DISMANTLE_API ConfigNode parse_yaml(const std::string& text, const std::string& source,
                                     std::vector<Diagnostic>& problems);
 
-/// The same from a file of at most 1 MiB. Returns false, with a message that has no place, if it cannot be read.
+/// The same for a file of at most 1 MiB. If the file cannot be read, returns false and sets `unreadable`.
 DISMANTLE_API bool read_yaml(const std::string& file, ConfigNode& node, std::vector<Diagnostic>& problems,
                              std::string& unreadable);
 

@@ -1,4 +1,4 @@
-/// What a plugin type is and takes: for terminals, the reference and editors.
+/// Descriptions of plugin types and their parameters for terminals, the reference and editors.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace dismantle {
 
-/// For a terminal: id, summary, source, capabilities, parameters, file and version; of a preset also what it stands for.
-/// `registry` holds the type. Ends with a line break.
+/// For a terminal: id, summary, source, capabilities, parameters, file and version; for a preset also its expansion.
+/// `registry` contains the type. Ends with a line break.
 DISMANTLE_API std::string describe_text(const RegisteredType& type, const Registry& registry);
-/// A page of the reference. Holds no path and no hash: the same wherever it was built.
+/// A page of the reference. Contains no path and no hash, so it is the same on every machine.
 DISMANTLE_API std::string describe_markdown(const RegisteredType& type, const Registry& registry);
-/// One JSON object: {"id","kind","summary","source","needs","provides","parameters":[...],"plugin":{...}}, and of a
-/// preset {"preset": {"of", "file"}}.
+/// One JSON object: {"id","kind","summary","source","needs","provides","parameters":[...],"plugin":{...}}, and for a
+/// preset also {"preset": {"of", "file"}}.
 DISMANTLE_API std::string describe_json(const RegisteredType& type);
 
 /// The sections `assembly`, `run` and `verify` of a configuration, as a page of the reference.

@@ -1,4 +1,4 @@
-/// From a configuration to what the runner takes.
+/// Turns a configuration into the arguments of run().
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@
 
 namespace dismantle {
 
-/// The plugins that `config` chooses. `registry` must outlive what is returned. @throws PluginError.
+/// Creates the plugins that `config` chooses. `registry` must outlive the result. @throws PluginError.
 DISMANTLE_API PlanningSetup planning_setup_of(const RunConfig& config, const Registry& registry);
 
-/// `part`: plan just this one; empty: all.
+/// `part`: plan only this part; empty: all parts.
 DISMANTLE_API RunOptions run_options_of(const RunConfig& config, const std::string& part);
 
-/// All importers that are there, by id. `params`: those that are not the default.
-/// @throws PluginError when `params` names an importer that is not there, or a bad parameter.
+/// All available importers, by id. `params`: parameters that differ from the defaults.
+/// @throws PluginError when `params` names an unknown importer or a bad parameter.
 DISMANTLE_API std::vector<std::shared_ptr<Importer>> importers_of(const Registry& registry,
                                                                   const ImportParams& params = {});
 
-/// The immobility prover of a kind of certificates, with its defaults. `registry` must outlive what is returned.
+/// Returns the immobility prover of a certificate kind, with its defaults. `registry` must outlive the result.
 DISMANTLE_API ProverOfKind prover_of_kind(const Registry& registry);
 
-/// What of `config.importers` is not the default.
+/// The parameters in `config.importers` that differ from the defaults.
 DISMANTLE_API ImportParams import_params_of(const RunConfig& config, const Registry& registry);
 
 }  // namespace dismantle

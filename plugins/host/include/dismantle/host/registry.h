@@ -1,4 +1,4 @@
-/// Finds plugin files, refuses those that do not fit, and creates objects of their types.
+/// Finds plugin files, refuses incompatible ones, and creates objects of their types.
 #pragma once
 
 #include <deque>
@@ -28,27 +28,27 @@ struct PluginFile {
   std::vector<std::string> types;  ///< ids of its types, in the order of registration
 };
 
-/// A file or folder that could not be used. A warning in a list, an error when what it holds is asked for.
+/// A file or folder that could not be used. Lists show it as a warning; asking for one of its types is an error.
 struct PluginProblem {
   std::filesystem::path file;
   std::string plugin_id;           ///< empty when it could not be read
-  std::vector<std::string> types;  ///< ids that it would have offered, as far as known
+  std::vector<std::string> types;  ///< ids of its types, as far as known
   std::string message;             ///< which item is wrong, both values, what to do
 };
 
-/// A type and the file that it came from. A preset is one, too: another type under an id of its own, with other
-/// defaults (docs/configuration.md).
+/// A type and the file that it came from. A preset is also a registered type: an existing type under its own id, with
+/// other defaults (docs/configuration.md).
 struct RegisteredType {
   PluginType type;
   const PluginFile* file = nullptr;
   std::string preset_of{};              ///< id of the type that a preset stands for; empty: no preset
-  std::filesystem::path preset_file{};  ///< of a preset
+  std::filesystem::path preset_file{};  ///< empty: no preset
 };
 
 /// The folder that belongs to this copy of Dismantle: `<folder of libdismantle_plugins>/dismantle/plugins`.
 DISMANTLE_API std::filesystem::path built_in_plugin_folder();
-/// Where the presets are that belong to a folder of built-in plugins: `presets` in it (a link to `configs/presets` in a
-/// build tree), or `configs/presets` of the install's share folder. Empty when there are none.
+/// The folder of the presets that belong to a folder of built-in plugins: its subfolder `presets` (a link to
+/// `configs/presets` in a build tree), or `configs/presets` of the install's share folder. Empty when neither exists.
 DISMANTLE_API std::filesystem::path preset_folder(const std::filesystem::path& built_in_folder);
 
 struct PresetFile;
@@ -56,22 +56,22 @@ struct LoadedPlugin;
 struct OfferedPlugin;
 struct OfferedType;
 
-/// A type that the program brings itself, not a plugin file: what a language binding registers. Every Registry that the
-/// default constructor makes from now on has it; one of the same id replaces the earlier one. `file`: where its source
-/// is, and what is said of the plugin in descriptions. May be called from any thread.
-/// @throws PluginError with everything that is wrong with the type (its id must carry a dot).
+/// Adds a type that comes from the program and not from a plugin file, as language bindings do. Every Registry that is
+/// default-constructed afterwards contains it; a type with the same id replaces the earlier one. `file`: path of the
+/// source and the plugin facts that descriptions show. May be called from any thread.
+/// @throws PluginError that lists all problems of the type (its id must contain a dot).
 DISMANTLE_API void add_program_type(PluginFile file, PluginType type);
 
-/// What there is to choose from. A file that lists what it offers (OFFERS of dismantle_add_plugin) is loaded when one
-/// of its types is first asked for, since most runs use a third of the plugins and none of what the others are linked
-/// with. Libraries stay loaded to the end of the process. After the last scan() or load(), const functions may be
-/// called from several threads, but for problems(), which grows when a file turns out to be bad.
+/// All available plugin types. A file that lists its types (OFFERS of dismantle_add_plugin) is loaded when one of them
+/// is first requested, because most runs use a third of the plugins and none of the libraries that the others link.
+/// Libraries stay loaded until the process ends. After the last scan() or load(), const functions may be called from
+/// several threads, except problems(), which grows when a file cannot be loaded.
 class DISMANTLE_API Registry {
  public:
-  /// Has the types of add_program_type(); searches the built-in folder, then the folders of `$DISMANTLE_PLUGIN_PATH`
-  /// (colon separated).
+  /// Contains the types of add_program_type(). Searches the built-in folder, then the folders of
+  /// `$DISMANTLE_PLUGIN_PATH` (colon separated).
   Registry();
-  /// Searches `built_in_folder` alone (nothing when empty). Ids of types found elsewhere must carry a dot.
+  /// Searches only `built_in_folder` (nothing when empty). Ids of types found elsewhere must contain a dot.
   explicit Registry(const std::filesystem::path& built_in_folder);
   ~Registry();
   Registry(const Registry&) = delete;
@@ -79,22 +79,21 @@ class DISMANTLE_API Registry {
 
   /// Appends a folder (all its `*.so`, in name order) or one file. Adding a path twice changes nothing.
   void add_search_path(const std::filesystem::path& path);
-  /// Finds what the search paths hold and was not looked at before: plugin files, and presets, which are
-  /// `presets/<kind>/<id>.yaml` in a search path (of the built-in plugins: preset_folder()). Never throws because of a
-  /// bad file: see problems().
+  /// Scans all search paths not scanned before for plugin files and presets. Presets are `presets/<kind>/<id>.yaml` in
+  /// a search path (for built-in plugins: in preset_folder()). Bad files are added to problems() and never throw.
   void scan();
-  /// Loads all files that were found and not needed until now, so that problems() is complete.
+  /// Loads all files that were found but not loaded yet, so that problems() is complete.
   void load_all() const;
-  /// Loads one file. The same file again is no error. @throws PluginError saying why it is refused.
+  /// Loads one file. Loading it again is no error. @throws PluginError with the reason for a refusal.
   const PluginFile& load(const std::filesystem::path& file);
 
   /// All usable types of a kind, by id.
   std::vector<const RegisteredType*> types(PluginKind kind) const;
-  /// nullptr when there is none (or when two files claim the id).
+  /// nullptr when there is no such type, or when two files claim the id.
   const RegisteredType* lookup(PluginKind kind, const std::string& id) const;
-  /// Of any kind: ids are unique over all kinds.
+  /// Looks in all kinds: ids are unique across kinds.
   const RegisteredType* lookup(const std::string& id) const;
-  /// Why lookup() found nothing: a likely spelling, the kind that the id has, the file that was refused.
+  /// Explains why lookup() found nothing: a likely spelling, the actual kind of the id, or the refused file.
   std::string why_missing(PluginKind kind, const std::string& id) const;
   /// The same for `plugins describe ID`, where the kind does not matter.
   std::string why_missing(const std::string& id) const;
@@ -102,8 +101,8 @@ class DISMANTLE_API Registry {
   const RegisteredType& find(PluginKind kind, const std::string& id) const;
   const RegisteredType& find(const std::string& id) const;
 
-  /// Makes an object of type `id`; parameters that are not given have their defaults. Plugins that its parameters hold
-  /// are made by this registry, which has to outlive the object.
+  /// Creates an object of type `id`; parameters that are not given have their defaults. This registry also creates the
+  /// plugins that the parameters name, and must outlive the object.
   /// @throws PluginError: no such type, unknown or bad parameter, or the plugin threw.
   template <class Interface>
   std::shared_ptr<Interface> create(const std::string& id, const ParamSet& given = {}) const {
@@ -140,12 +139,12 @@ class DISMANTLE_API Registry {
   std::filesystem::path built_in_folder_;
   std::vector<std::filesystem::path> search_paths_;
   std::size_t scanned_paths_ = 0;
-  std::deque<PluginFile> files_;        // addresses stay
-  mutable std::recursive_mutex mutex_;  // of what grows when a file is loaded late
+  std::deque<PluginFile> files_;        // deque: addresses stay valid
+  mutable std::recursive_mutex mutex_;  // guards the members that grow when a file is loaded late
   mutable std::map<std::string, Claim> claims_;
   mutable std::map<const PluginFile*, std::unique_ptr<OfferedPlugin>> unloaded_;
   mutable std::vector<PluginProblem> problems_;
-  std::map<std::string, std::unique_ptr<PresetFile>> open_presets_;  // by id; not resolved until now
+  std::map<std::string, std::unique_ptr<PresetFile>> open_presets_;  // by id; not resolved yet
   std::map<std::string, std::unique_ptr<RegisteredType>> presets_;
 };
 

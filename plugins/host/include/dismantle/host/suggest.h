@@ -1,4 +1,4 @@
-/// "Did you mean ...?"
+/// Spelling suggestions: "did you mean ...?"
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace dismantle {
 
-/// Number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
+/// Least number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`
 /// (optimal string alignment; bytes).
 DISMANTLE_API std::size_t edit_distance(const std::string& a, const std::string& b);
 
-/// The candidate closest to `word`, if it is at most max(1, length of word / 3) edits away; the first of several.
+/// The candidate closest to `word`, if it is at most max(1, length of word / 3) edits away; ties go to the first.
 DISMANTLE_API std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace dismantle

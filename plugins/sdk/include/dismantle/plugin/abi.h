@@ -1,5 +1,5 @@
 /// The handshake between a plugin file and the host: one plain struct, readable from the bytes of the
-/// file before any code of the plugin runs. Policy of versions: docs/abi.md.
+/// file before any code of the plugin runs. Version policy: docs/abi.md.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,13 +31,13 @@ struct PluginHeader {
   char licence[64] = {};
   char url[160] = {};
   /// Fills the Registrar behind the pointer. 0 = done; otherwise `message` (of `size` bytes) says what
-  /// went wrong. Lets no exception out.
+  /// went wrong. Never throws.
   int (*register_types)(void* registrar, char* message, std::size_t size) noexcept = nullptr;
 };
 
 namespace abi {
 
-/// Text of fixed capacity that is put together at compile time.
+/// Text of fixed capacity, built at compile time.
 struct Text {
   char data[256] = {};
   std::size_t size = 0;
@@ -75,7 +75,7 @@ constexpr std::uint64_t layout_hash() {
   return hash;
 }
 
-/// How this translation unit was compiled, as far as binaries must agree on it.
+/// The compile settings of this translation unit that must agree between binaries.
 constexpr Text make_tag(std::uint64_t layout) {
   Text tag;
 #if defined(__GXX_ABI_VERSION) && __GXX_ABI_VERSION >= 1002

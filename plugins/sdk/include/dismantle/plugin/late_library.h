@@ -1,4 +1,4 @@
-/// Libraries that are loaded when they are first needed.
+/// Shared libraries that are loaded when first needed.
 #pragma once
 
 #include <dlfcn.h>
@@ -9,10 +9,9 @@
 
 namespace dismantle {
 
-/// The function `symbol` of the shared library `library`, which is searched where the libraries of the caller are and
-/// stays loaded. A library that few runs use, with all that it is linked with, takes longer to load than a small
-/// assembly to plan. `Function` must be the type that it was compiled with. @throws Error with the message of the
-/// dynamic linker.
+/// Loads `library`, searched for where the caller's libraries are, and returns its function `symbol`. The library stays
+/// loaded. Meant for libraries that few runs use: loading one with its dependencies takes longer than planning a small
+/// assembly. `Function` must be the compiled type of the function. @throws Error with the dynamic linker's message.
 template <class Function>
 Function* late_function(const char* library, const char* symbol) {
   void* loaded = ::dlopen(library, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);

@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kBoundaryLayout =
 /// The ABI tag of this translation unit.
 inline constexpr Text kTag = make_tag(kBoundaryLayout);
 
-/// Fills the struct that a plugin exports, at compile time.
+/// Builds the struct that a plugin exports, at compile time.
 constexpr PluginHeader make_header(const char* id, const char* version, const char* licence, const char* url,
                                    int (*register_types)(void*, char*, std::size_t) noexcept) {
   PluginHeader header;
@@ -41,7 +41,7 @@ constexpr PluginHeader make_header(const char* id, const char* version, const ch
   return header;
 }
 
-/// Runs the plugin's registration; what it throws becomes text.
+/// Runs the plugin's registration; writes the text of an exception to `message`. Returns 0 on success.
 inline int guarded(void (*fill)(Registrar&), void* registrar, char* message, std::size_t size) noexcept {
   const auto report = [&](const char* text) {
     if (size == 0) return;
@@ -61,7 +61,7 @@ inline int guarded(void (*fill)(Registrar&), void* registrar, char* message, std
 
 }  // namespace dismantle::abi
 
-/// Once per plugin file, at global scope, followed by the body that registers the types on `r`.
+/// Use once per plugin file, at global scope, followed by the body that registers the types on `r`.
 #define DISMANTLE_PLUGIN(plugin_id, plugin_version, plugin_licence, plugin_url)                              \
   static void dismantle_register_types(::dismantle::Registrar& r);                                           \
   static int dismantle_guarded_register(void* registrar, char* message, std::size_t size) noexcept {         \

@@ -1,11 +1,11 @@
-/// An assembly for tests, of boxes: one part is in the way of another and cannot leave itself.
+/// A test assembly of boxes: one part blocks another and cannot leave itself.
 #pragma once
 
 #include "dismantle/testing/fake_planning.h"
 
 namespace dismantle {
 
-/// A drawer in a shaft below a bar, which is captive in a guide with room to slide off the shaft by 2.
+/// A drawer in a shaft below a bar. The bar is captive in a guide, but can slide off the shaft by 2.
 inline Assembly barred_shaft() {
   return fake::assembly_of({{"frame",
                              {{{-3, -2, -1}, {6, 2, 0}},

@@ -22,7 +22,7 @@ inline const Registry& plugin_registry() {
   return *all;
 }
 
-/// With default parameters, in their default order; those that were not built are left out.
+/// The built provers with default parameters, in their default order.
 inline const std::vector<NamedProver>& built_in_provers() {
   static const std::vector<NamedProver> all = [] {
     std::vector<NamedProver> provers;

@@ -1,5 +1,5 @@
-/// An oracle without geometry, for tests of sequence planners: a part leaves when the parts before it are gone and the
-/// search goes deep enough.
+/// An oracle without geometry for tests of sequence planners: a part leaves when its blocking parts are gone and the
+/// search is deep enough.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace dismantle {
 
-/// Who has to leave before whom, and how many actions each removal takes.
+/// The precedence of parts, and the number of actions of each removal.
 struct FakeMachine {
   std::vector<std::vector<PartId>> before;  ///< by part: the parts that block it
   std::vector<unsigned> depth;              ///< by part, >= 1
@@ -27,7 +27,7 @@ struct FakeMachine {
   explicit FakeMachine(std::size_t parts) : before(parts), depth(parts, 1), volume(parts, 1.0) {}
   std::size_t size() const { return before.size(); }
 
-  /// Part order[k] can be blocked by earlier ones only, so that the order works.
+  /// Part order[k] is blocked only by earlier ones in a random order, which is therefore valid.
   static FakeMachine random(std::size_t parts, double density, unsigned max_depth, Rng& rng) {
     FakeMachine machine(parts);
     std::vector<PartId> order;
@@ -56,7 +56,7 @@ struct FakeMachine {
   }
 };
 
-/// An oracle that answers from a FakeMachine, remembers what it was asked and checks that the planner keeps the rules.
+/// An oracle that answers from a FakeMachine, records the questions and checks that the planner keeps the rules.
 class FakeOracle final : public PathOracle {
  public:
   explicit FakeOracle(FakeMachine machine) : machine_(std::move(machine)) {}
@@ -100,8 +100,8 @@ class FakeOracle final : public PathOracle {
   OracleCounts counts() const override { return counts_; }
 
   std::vector<std::pair<PartId, unsigned>> asked;
-  std::vector<Attempt> questions;             ///< the same, in full
-  std::vector<const AttemptResult*> answers;  ///< to each
+  std::vector<Attempt> questions;             ///< the same attempts in full
+  std::vector<const AttemptResult*> answers;  ///< by question
   std::size_t hinted = 0;
   std::function<void(std::size_t)> on_attempt;
 
@@ -111,7 +111,7 @@ class FakeOracle final : public PathOracle {
   OracleCounts counts_;
 };
 
-/// Notes what it is told and when.
+/// Records the reported removals and the numbers of parts left.
 class Notes final : public SequenceObserver {
  public:
   void removed(const Removal& removal, std::size_t parts_left) override {
@@ -122,7 +122,7 @@ class Notes final : public SequenceObserver {
   std::vector<std::size_t> left;
 };
 
-/// What a sequence planner did on a FakeOracle.
+/// The run of a sequence planner on a FakeOracle.
 struct FakeRun {
   SequenceResult result;
   Notes notes;
@@ -137,20 +137,20 @@ inline FakeRun run_on(SequencePlanner& planner, const FakeMachine& machine, RunC
   oracle.on_attempt = std::move(on_attempt);
   const Assembly assembly = machine.assembly();
   run.result = planner.plan(assembly, oracle, run.notes, context);
-  for (auto& removal : run.result.removals) removal.attempt = nullptr;  // they go with the oracle
+  for (auto& removal : run.result.removals) removal.attempt = nullptr;  // attempts end with the oracle
   run.asked = oracle.asked;
   return run;
 }
 
-/// A context with these random numbers.
+/// A context with this random seed.
 inline RunContext seeded(std::uint64_t seed) {
   RunContext context;
   context.rng = Rng(seed);
   return context;
 }
 
-/// Laws of every result: who left and who remains are all the parts, told as they happened, no part before those that
-/// block it, a reason for each part left.
+/// Laws of every result: removed and remaining parts are all parts, removals were reported in order, no part left
+/// before its blockers, and every remaining part has a reason.
 inline void expect_lawful(const FakeRun& run, const FakeMachine& machine) {
   std::vector<bool> gone(machine.size(), false);
   std::vector<PartId> order;

@@ -28,7 +28,7 @@ inline Mesh boxes(const std::vector<Box>& list) {
   return mesh;
 }
 
-/// An assembly of these parts, prepared as it is.
+/// An assembly of these parts, without preparation.
 inline Assembly assembly_of(const std::vector<std::pair<std::string, std::vector<Box>>>& parts) {
   Assembly a;
   a.source = "fake";
@@ -47,8 +47,8 @@ inline Assembly assembly_of(const std::vector<std::pair<std::string, std::vector
   return a;
 }
 
-/// A tube with a floor, open at the top (+z), and `n` blocks in it, one above the other: the only way out is up, the
-/// uppermost first. The tube is part 0, blocks are 1 (lowest) to n.
+/// A tube with a floor, open at the top (+z), and `n` stacked blocks in it, which leave only upwards, the highest
+/// first. The tube is part 0; the blocks are 1 (lowest) to n.
 inline Assembly tube_with_blocks(unsigned n) {
   const double height = 1.0 * n;
   std::vector<std::pair<std::string, std::vector<Box>>> parts{{"tube",
@@ -62,7 +62,7 @@ inline Assembly tube_with_blocks(unsigned n) {
   return assembly_of(parts);
 }
 
-/// A plate in a closed box: nothing ever comes out.
+/// A plate in a closed box: no part can be removed.
 inline Assembly closed_box() {
   return assembly_of({{"box",
                        {{{-2, -2, -2}, {2, 2, -1.9}},
@@ -74,7 +74,7 @@ inline Assembly closed_box() {
                       {"plate", {{{-1, -1, -0.1}, {1, 1, 0.1}}}}});
 }
 
-/// Blocks side by side with room between them: all can leave in any order.
+/// Blocks side by side with gaps: they can leave in any order.
 inline Assembly row(unsigned n) {
   std::vector<std::pair<std::string, std::vector<Box>>> parts;
   for (unsigned k = 0; k < n; ++k)
@@ -82,7 +82,7 @@ inline Assembly row(unsigned n) {
   return assembly_of(parts);
 }
 
-/// A simulator without physics: what a test sets is what it says.
+/// A simulator without physics, with the capabilities that a test sets.
 class Physics final : public Simulator {
  public:
   Capabilities capabilities() const noexcept override { return has; }
@@ -97,7 +97,7 @@ class Physics final : public Simulator {
   std::function<void(RunContext&)> on_prepare;
 };
 
-/// A path of two instants along `way`.
+/// A straight path of two instants with displacement `way`.
 inline Path straight(const Scene& scene, const Eigen::Vector3d& way) {
   Path path(2);
   for (const auto& p : scene.moving) {
@@ -107,7 +107,7 @@ inline Path straight(const Scene& scene, const Eigen::Vector3d& way) {
   return path;
 }
 
-/// Pushes along the axes in an order drawn from the context, two per unit of depth.
+/// Pushes along the axes in random order, in two directions per unit of depth.
 inline PathResult push(const PathQuery& query, RunContext& context) {
   std::vector<Eigen::Vector3d> ways;
   for (int axis = 0; axis < 3; ++axis)
@@ -133,7 +133,7 @@ inline PathResult push(const PathQuery& query, RunContext& context) {
   return result;
 }
 
-/// Solved if the path is accepted.
+/// Checks `path`; solved if it is accepted.
 inline PathResult shown(const PathQuery& query, const Path& path) {
   PathResult result;
   PathCheck check = query.checker.check(path);
@@ -144,14 +144,14 @@ inline PathResult shown(const PathQuery& query, const Path& path) {
   return result;
 }
 
-/// Claims that `path` was accepted; it was, by another checker than the query's.
+/// Claims that `path` was accepted, although by another checker than that of the query.
 inline PathResult forged(const Path& path) {
   PathResult result;
   result.solve(accept_all().verified(path), 1);
   return result;
 }
 
-/// What is done in place of a search.
+/// The function that replaces a search.
 using Script = std::function<PathResult(const PathQuery&, RunContext&)>;
 
 /// A path planner that is one function.
@@ -167,7 +167,7 @@ class Scripted final : public FunctionPathPlanner {
   Script script_;
 };
 
-/// A set-up of the fake simulator, a scripted path planner, and a sequence planner.
+/// A set-up of the fake simulator, a scripted path planner and a sequence planner.
 inline PlanningSetup setup(Script script, std::shared_ptr<SequencePlanner> sequence = nullptr) {
   PlanningSetup i;
   i.simulator = std::make_shared<Physics>();
@@ -177,7 +177,7 @@ inline PlanningSetup setup(Script script, std::shared_ptr<SequencePlanner> seque
   return i;
 }
 
-/// A failure, as a planner gives it.
+/// A result with this outcome, as a planner returns it.
 inline PathResult outcome(Outcome o, std::string message = {}) {
   if (o != Outcome::start_is_goal) return PathResult::failure(o, std::move(message));
   PathResult result;
@@ -185,7 +185,7 @@ inline PathResult outcome(Outcome o, std::string message = {}) {
   return result;
 }
 
-/// `part` leaves, all others stand.
+/// `part` leaves, all others are fixed.
 inline Attempt leave(const Assembly& assembly, PartId part, unsigned max_depth = 0) {
   Attempt a;
   a.max_depth = max_depth;

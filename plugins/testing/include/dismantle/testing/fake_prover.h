@@ -1,4 +1,4 @@
-/// An immobility prover that does what a test says.
+/// An immobility prover that follows a script.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace dismantle::fake {
 /// An immobility prover that is one function.
 class ScriptedProver final : public ImmobilityProver {
  public:
-  /// What is done in place of a search.
+  /// The function that replaces a proof.
   using Script = std::function<std::optional<Certificate>(const SeparationQuery&, const RunContext&)>;
   ScriptedProver(ProverTraits traits, Script script) : traits_(traits), script_(std::move(script)) {}
   ProverTraits traits() const noexcept override { return traits_; }
@@ -28,12 +28,12 @@ class ScriptedProver final : public ImmobilityProver {
   Script script_;
 };
 
-/// A prover under that id which follows the script.
+/// A prover with this id and script.
 inline NamedProver prover(std::string id, ProverTraits traits, ScriptedProver::Script script) {
   return {std::move(id), std::make_shared<ScriptedProver>(traits, std::move(script))};
 }
 
-/// What a prover claims of all parts of a query.
+/// A certificate about all parts of a query.
 inline Certificate claim(const SeparationQuery& query, std::string text = "claimed") {
   Certificate c;
   for (const auto* list : {&query.moving, &query.fixed})

@@ -1,4 +1,4 @@
-/// Pairs that hold each other without overlap, and some that only look so.
+/// Pairs that hold each other without overlap, and similar pairs that do not.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace dismantle::shapes {
 
-/// Solid of revolution about z of a closed outline of (radius > 0, height), counter-clockwise in the (r, z) half-plane;
-/// over `share` of a turn, with flat ends where that is less than 1.
+/// Solid of revolution about z of a closed outline (radius > 0, height), counter-clockwise in the (r, z) half-plane.
+/// Covers `share` of a turn, with flat ends if that is less than 1.
 inline Mesh lathe(const std::vector<std::pair<double, double>>& outline, int around, double share = 1,
                   const std::vector<Triangle>& end = {}) {
   Mesh m;
@@ -41,8 +41,8 @@ inline Mesh lathe(const std::vector<std::pair<double, double>>& outline, int aro
   return m;
 }
 
-/// A can about z with a cavity of that radius and height about the origin, walls 0.3 thick, and round openings below
-/// and above. Over a share of a turn: open at the side.
+/// A can about z: a cavity with radius `cavity` about the origin, walls 0.3 thick, round openings of radius `below` and
+/// `above`. With `share` < 1 its side is open.
 inline Mesh can(double cavity, double height, double below, double above, double share = 1) {
   const double h = 0.5 * height, r = cavity + 0.3;
   return lathe({{below, -h - 0.3},
@@ -56,20 +56,19 @@ inline Mesh can(double cavity, double height, double below, double above, double
                48, share, {{0, 1, 7}, {1, 6, 7}, {1, 2, 6}, {2, 5, 6}, {2, 3, 5}, {3, 4, 5}});
 }
 
-/// The same, closed above and below but for the openings, with a window in its side over `sectors` of 48, as high as
-/// the cavity.
+/// The same can over a full turn, with a window in its side over `sectors` of 48 sectors, as high as the cavity.
 inline Mesh can_with_window(double cavity, double height, double below, double above, std::uint32_t sectors) {
   Mesh m = can(cavity, height, below, above);
   const auto at = [](std::uint32_t sector, std::uint32_t corner) { return 8 * (sector % 48) + corner; };
   const auto wall =
-      [&](const Triangle& t) {  // of the outer wall (corners 1, 2) or the cavity's (5, 6), in those sectors
+      [&](const Triangle& t) {  // in the window: triangle of the outer (corners 1, 2) or inner wall (5, 6)
         const auto in = [&](std::uint32_t v) { return v / 8 <= sectors; };
         const auto of = [&](std::uint32_t a, std::uint32_t b) {
           return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return v % 8 == a || v % 8 == b; });
         };
         return (of(1, 2) || of(5, 6)) && std::all_of(t.begin(), t.end(), in);
       };
-  // The hole left by the first triangle of the outer wall says which way round the mesh is wound.
+  // The first triangle of the outer wall shows the orientation of the mesh.
   const auto first = std::find_if(m.triangles.begin(), m.triangles.end(), wall);
   const bool flipped = (*first)[1] != at(1, (*first)[0] % 8) && (*first)[2] == at(1, (*first)[0] % 8);
   std::erase_if(m.triangles, wall);
@@ -115,7 +114,7 @@ inline Mesh bent_bar(const std::vector<Vec3>& line, double half) {
   return m;
 }
 
-/// Through a hole in the plane z = 0: up from `below` to `above`, at either end bent aside by `bend` (rad; 0 = not).
+/// A line through a hole in the plane z = 0, from `below` up to `above`; either end is bent aside (rad; 0 = no bend).
 inline std::vector<Vec3> crank(double below, double above, double bend_below, double bend_above, double legs) {
   std::vector<Vec3> line;
   if (bend_below > 0) line.push_back(Vec3(0, 0, below) - legs * Vec3(std::sin(bend_below), 0, std::cos(bend_below)));
@@ -128,12 +127,12 @@ inline std::vector<Vec3> crank(double below, double above, double bend_below, do
 /// Round plate about the origin with a round hole.
 inline Mesh plate(double hole, double thickness) { return tube(hole, 2, -0.5 * thickness, 0.5 * thickness, 40); }
 
-/// A block and a case around it, open above but for a rim.
+/// A block in a case whose open top has a rim.
 struct Cased {
   Vec3 half;         ///< of the block, about the origin
-  double play = 0;   ///< on every side
-  double rim = 0;    ///< by how much the opening is narrower than the block, on every side; < 0: wider
-  double thick = 0;  ///< of the rim
+  double play = 0;   ///< clearance on every side
+  double rim = 0;    ///< overhang: opening narrower than the block by this on every side; < 0: wider
+  double thick = 0;  ///< thickness of the rim
 
   Mesh block() const { return box(-half, half); }
   Mesh around() const {
@@ -151,14 +150,14 @@ struct Cased {
   }
 };
 
-/// A tray, a slab in one half of it under a roof, and a block in the other half under the slab's tongue. Each of slab
-/// and block is only held as long as the other is there.
+/// A tray with a slab in one half, under a roof, and a block in the other half, under the slab's tongue. Slab and block
+/// each hold the other in place.
 struct Keyed {
-  double length = 0.6, width = 0.4, height = 0.4;  ///< of a half; the slab's and the block's
+  double length = 0.6, width = 0.4, height = 0.4;  ///< of one half: the size of the slab and of the block
   double tongue = 0.3;
-  double play = 0.01;   ///< everywhere
-  double roofed = 0.4;  ///< of the slab's length
-  double gap = 0;       ///< behind the block, beside the play
+  double play = 0.01;   ///< clearance everywhere
+  double roofed = 0.4;  ///< roofed part of the slab's length
+  double gap = 0;       ///< behind the block, in addition to the play
 
   Mesh slab() const {
     Mesh m = box({-length, 0, 0}, {0, width, height});
@@ -183,8 +182,8 @@ struct Keyed {
   }
 };
 
-/// A cube about the origin, in a block with a passage that is wider by `play` on every side: along x, then along y,
-/// each time by one cube; and there, perhaps, up and out. One solid, whose surface follows a grid.
+/// A cube about the origin in a block with a passage that is wider by `play` on every side. The passage leads along x,
+/// then along y, by one cube each, and optionally up and out. The block is one solid; its surface follows a grid.
 struct Passage {
   double half = 0.2, play = 0.01;
   bool open = false;
@@ -215,7 +214,7 @@ struct Passage {
               at[d] += 2 * side - 1;
               if (solid(at)) continue;
               at[d] += 1 - side;
-              // Seen from outside, the corners go round against the clock.
+              // Corners are counter-clockwise seen from outside.
               const std::size_t u = (d + (side ? 1 : 2)) % 3, v = (d + (side ? 2 : 1)) % 3;
               std::array<int, 3> b = at, c = at, e = at;
               ++b[u], ++c[u], ++c[v], ++e[v];

@@ -1,4 +1,4 @@
-/// Random closed meshes and ways to spoil them, for tests of repair and preparation.
+/// Random closed meshes and ways to damage them, for tests of repair and preparation.
 #pragma once
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 
 namespace dismantle::shapes {
 
-/// A bumpy ball, turned, stretched and moved: closed, outward, no two vertices at one place.
+/// A random bumpy ball or tube, stretched and moved: closed, outward, without coincident vertices.
 inline Mesh random_solid(Rng& rng) {
   Mesh m = rng.below(2) ? sphere(Vec3::Zero(), 1, 2) : refine(tube(0.4, 1, -1, 1, 9), 1);
   const Vec3 stretch = random_vector(rng, 0.3, 2);
@@ -27,7 +27,7 @@ inline Mesh random_solid(Rng& rng) {
   return moved(m, random_pose(rng, 5));
 }
 
-/// Every triangle with vertices of its own, as in an STL file.
+/// Gives every triangle its own vertices, as in an STL file.
 inline Mesh split_vertices(const Mesh& m) {
   Mesh out;
   for (std::size_t t = 0; t < m.triangles.size(); ++t) {
@@ -38,13 +38,13 @@ inline Mesh split_vertices(const Mesh& m) {
   return out;
 }
 
-/// Turns one triangle over.
+/// Reverses one triangle.
 inline void flip(Mesh& m, std::size_t t) { std::swap(m.triangles[t][1], m.triangles[t][2]); }
 
-/// A part as an importer gives it.
+/// A part as an importer returns it.
 inline RawPart raw(const std::string& name, Mesh mesh) { return {name, name + ".obj", std::move(mesh)}; }
 
-/// A folder that is removed with the object.
+/// A temporary folder, removed with the object.
 class TempFolder {
  public:
   TempFolder() {
@@ -69,7 +69,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-/// What an InputError says, or "" when `f` throws none.
+/// The text of the InputError that `f` throws, or "".
 inline std::string input_error(const std::function<void()>& f) {
   try {
     f();

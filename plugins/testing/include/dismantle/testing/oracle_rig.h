@@ -1,4 +1,4 @@
-/// An oracle with all that it refers to, over fake parts and planners.
+/// An oracle with all objects that it refers to, over fake parts and planners.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace dismantle::fake {
 
-/// An oracle of the engine on an assembly and a set-up of a test.
+/// The oracle of the engine on an assembly and a set-up of a test.
 struct Rig {
   Rig(Assembly a, PlanningSetup i, unsigned threads = 1, RunOptions o = {})
       : assembly(std::move(a)), parts(std::move(i)), options(o), verifier(assembly, options.verify) {

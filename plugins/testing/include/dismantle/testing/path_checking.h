@@ -1,4 +1,4 @@
-/// Path checkers for tests: the verifier's answer, or one that the test makes up.
+/// Path checkers for tests: answers of the verifier, or answers of a rule of the test.
 #pragma once
 
 #include <functional>
@@ -9,12 +9,12 @@
 
 namespace dismantle::fake {
 
-/// What a test says about a path. Where `accept` is false the other fields are the answer.
+/// Answer of a test about a path. If `accept` is false, the other fields are the answer.
 struct Ruling : PathCheck {
   bool accept = false;
 };
 
-/// The verifier's answer about a motion, without the end of the path: `instant` is where the segment at fault begins.
+/// The verifier's answer about a motion, without the check of its end. `instant` begins the first invalid segment.
 inline Ruling ruling_of(const MotionCheck& motion) {
   Ruling ruling;
   ruling.accept = motion.valid;
@@ -27,7 +27,7 @@ inline Ruling ruling_of(const MotionCheck& motion) {
   return ruling;
 }
 
-/// Accepts paths as they are shown, where the rule says so. The rule may be asked from several threads.
+/// Accepts paths by a rule, unchanged. Several threads may call the rule.
 class RuleChecker final : public PathChecker {
  public:
   explicit RuleChecker(std::function<Ruling(const Path&)> rule) : rule_(std::move(rule)) {}
@@ -37,7 +37,7 @@ class RuleChecker final : public PathChecker {
     if (ruling.accept) answer.verified = accept(path, 0);
     return answer;
   }
-  /// Whatever the rule says.
+  /// Accepts `path` independent of the rule.
   VerifiedPath verified(const Path& path) const { return accept(path, 0); }
 
  private:

@@ -1,4 +1,4 @@
-/// Sequence planners for tests of whole runs.
+/// Sequence planners and helpers for tests of whole runs.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace dismantle::fake {
 
-/// Tries all parts left in turn until none leaves; hints all it knows.
+/// Tries the remaining parts in turn until none leaves, and announces all its questions.
 class InTurn : public SequencePlanner {
  public:
   SequenceResult plan(const Assembly& assembly, PathOracle& oracle, SequenceObserver& observer,
@@ -54,12 +54,12 @@ class InTurn : public SequencePlanner {
   }
 };
 
-/// The tube could go first, downwards: here it stands on a table.
+/// Pushes blocks only: the tube, which could leave downwards, stands on a table.
 inline PathResult push_blocks(const PathQuery& query, RunContext& context) {
   return query.scene.moving[0].part == 0 ? outcome(Outcome::exhausted) : push(query, context);
 }
 
-/// What is done in place of a sequence planner.
+/// The function that replaces a sequence planner.
 using Steps = std::function<SequenceResult(const Assembly&, PathOracle&, SequenceObserver&, RunContext&)>;
 /// A sequence planner that is one function.
 class Custom final : public SequencePlanner {
@@ -73,12 +73,12 @@ class Custom final : public SequencePlanner {
   Steps steps_;
 };
 
-/// A run that takes the parts out in turn.
+/// A run that removes the parts in turn.
 inline RunResult run_in_turn(const Assembly& assembly, RunContext context = {}, const RunOptions& options = {}) {
   return run(assembly, setup(push, std::make_shared<InTurn>()), options, context);
 }
 
-/// The plan file's text with all times set to zero.
+/// The text of the plan file with all times set to zero.
 inline std::string text_without_times(Plan plan) {
   for (auto& step : plan.disassembly) step.seconds = 0;
   for (auto& part : plan.unsolved) part.seconds = 0;

@@ -1,4 +1,4 @@
-/// Closed meshes with known measures, for tests of geometry and verification.
+/// Closed meshes with known measures for tests of geometry and verification.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -31,7 +31,7 @@ inline Mesh box(const Vec3& lo, const Vec3& hi) {
   return m;
 }
 
-/// Adds the shells of `from`; `flip`: turned inside out.
+/// Appends the shells of `from`; `flip`: turned inside out.
 inline void append(Mesh& to, const Mesh& from, bool flip = false) {
   const auto base = static_cast<std::uint32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
@@ -40,7 +40,7 @@ inline void append(Mesh& to, const Mesh& from, bool flip = false) {
                                 : Triangle{base + t[0], base + t[1], base + t[2]});
 }
 
-/// Both meshes as one.
+/// Both meshes in one.
 inline Mesh joined(Mesh a, const Mesh& b) {
   append(a, b);
   return a;
@@ -59,14 +59,14 @@ inline Mesh boxes(const std::vector<Aabb>& list) {
   return m;
 }
 
-/// Box with a closed hollow: walls of `wall`.
+/// Box with a closed cavity and walls of thickness `wall`.
 inline Mesh closed_box(const Vec3& lo, const Vec3& hi, double wall) {
   Mesh m = box(lo, hi);
   append(m, box(lo + Vec3::Constant(wall), hi - Vec3::Constant(wall)), true);
   return m;
 }
 
-/// Each triangle into four, `times` times; vertices are shared.
+/// Divides each triangle into four, `times` times; vertices are shared.
 inline Mesh refine(const Mesh& in, int times) {
   Mesh m = in;
   for (int k = 0; k < times; ++k) {
@@ -90,7 +90,7 @@ inline Mesh refine(const Mesh& in, int times) {
   return m;
 }
 
-/// Octahedron refined onto the sphere.
+/// Octahedron, refined and projected onto the sphere.
 inline Mesh sphere(const Vec3& center, double radius, int times) {
   Mesh m;
   m.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -155,7 +155,7 @@ inline double volume(const Mesh& m) {
   return v;
 }
 
-/// An assembly of these parts, prepared as it is.
+/// An assembly of these parts, without preparation.
 inline Assembly assembly_of(const std::vector<Mesh>& meshes, std::vector<InitialOverlap> overlaps = {}) {
   Assembly a;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -180,7 +180,7 @@ inline Vec3 random_vector(Rng& rng, double lo, double hi) {
   return {rng.uniform(lo, hi), rng.uniform(lo, hi), rng.uniform(lo, hi)};
 }
 
-/// Any rotation; the translation uniform in a cube of half edge `reach`.
+/// Random rotation; translation uniform in a cube of half edge `reach`.
 inline Pose random_pose(Rng& rng, double reach) {
   Eigen::Quaterniond q(rng.normal(), rng.normal(), rng.normal(), rng.normal());
   return {random_vector(rng, -reach, reach), q.normalized()};

@@ -1,4 +1,4 @@
-/// Wires, coils and loops, triangulated in many ways.
+/// Wires, coils and loops in various triangulations.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 
 namespace dismantle::shapes {
 
-/// Corners of a section, counter-clockwise, about the line that it is swept along.
+/// Corners of a section, counter-clockwise, relative to the line that it is swept along.
 using Outline = std::vector<Eigen::Vector2d>;
 
 /// A regular polygon whose corners are at `radius`.
@@ -29,7 +29,7 @@ inline Outline polygon(double radius, int sides, double phase = 0) {
   return out;
 }
 
-/// A section swept along a line without twist. `closed`: a flat line whose last point leads to the first.
+/// A section swept along a line without twist. `closed`: a planar line whose last point is connected to the first.
 inline Mesh sweep(const std::vector<Vec3>& line, const Outline& section, bool closed) {
   Mesh m;
   const std::size_t n = line.size(), s = section.size();
@@ -61,7 +61,7 @@ inline Mesh sweep(const std::vector<Vec3>& line, const Outline& section, bool cl
   return m;
 }
 
-/// The same surface in other triangles: some edges get a corner somewhere on them, `rounds` times.
+/// The same surface with other triangles: splits some edges at random points, `rounds` times.
 inline Mesh retriangulated(Mesh m, Rng& rng, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> of;  // directed edge -> triangle
@@ -90,7 +90,7 @@ inline Mesh retriangulated(Mesh m, Rng& rng, int rounds) {
   return m;
 }
 
-/// Turned at random, shifted, larger or smaller by up to a thousand times.
+/// The mesh with a random rotation, translation and scale (up to a factor of 1000 either way).
 inline Mesh anywhere(Mesh m, Rng& rng) {
   const Eigen::Quaterniond q =
       Eigen::Quaterniond(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(0.1, 1)).normalized();
@@ -100,7 +100,7 @@ inline Mesh anywhere(Mesh m, Rng& rng) {
   return m;
 }
 
-/// The line of a coil about z, `per_turn` points to a turn; the radius goes from `radius` to `last`.
+/// The line of a coil about z, `per_turn` points to a turn; the radius changes from `radius` to `last`.
 inline std::vector<Vec3> coil_line(double radius, double last, double pitch, double turns, int per_turn) {
   std::vector<Vec3> line;
   const int pieces = static_cast<int>(std::ceil(turns * per_turn));
@@ -112,7 +112,7 @@ inline std::vector<Vec3> coil_line(double radius, double last, double pitch, dou
   return line;
 }
 
-/// The line around two pulleys, without its last point, which is the first; equal radii `r` and distance 0: a circle.
+/// The closed line around two pulleys, without repeating the first point. Equal radii and distance 0 give a circle.
 inline std::vector<Vec3> belt_line(double r, double other, double distance, int per_turn) {
   std::vector<Vec3> line;
   const double lean = distance > 0 ? std::asin((r - other) / distance) : 0, pi = std::numbers::pi;

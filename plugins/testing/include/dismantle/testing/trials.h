@@ -1,4 +1,4 @@
-/// How many random trials a test makes.
+/// Numbers of random trials in tests.
 #pragma once
 
 #include <cstdlib>
@@ -6,13 +6,13 @@
 
 namespace dismantle::testing_support {
 
-/// Is this the long form of the tests (DISMANTLE_TESTS=nightly)?
+/// True in the long form of the tests (DISMANTLE_TESTS=nightly).
 inline bool nightly() {
   const char* mode = std::getenv("DISMANTLE_TESTS");
   return mode != nullptr && std::string_view(mode) == "nightly";
 }
 
-/// The same law on more cases at night.
+/// Number of random cases: more in the nightly tests.
 inline int trials(int daily, int at_night) { return nightly() ? at_night : daily; }
 
 }  // namespace dismantle::testing_support
