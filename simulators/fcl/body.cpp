@@ -29,8 +29,8 @@ std::vector<std::uint32_t> shell_roots(const Mesh& mesh) {
   return root;
 }
 
-/// Unit vector w with the largest least product with the given unit normals, found by pulling it towards the worst
-/// of them again and again (Badoiu and Clarkson's scheme for smallest balls, on the sphere).
+/// Unit vector w that maximises the minimum dot product with the given unit normals, by moving it repeatedly towards
+/// the worst of them (Badoiu and Clarkson's scheme for smallest balls, on the sphere).
 Eigen::Vector3d into_all(const std::vector<Eigen::Vector3d>& inward, double& least) {
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   for (const auto& n : inward) w += n;
@@ -122,7 +122,7 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
     double least = 0;
     const Eigen::Vector3d w = into_all(inward[v], least);
     if (!(least > 0.05)) continue;
-    // A wall must not be turned inside out: its copy would let thin things pass.
+    // The copy of a wall must not turn inside out, since it would let thin parts pass.
     const auto inside = [&](double length) { return signed_distance(solids, mesh.vertices[v] + length * w) < 0; };
     double length = depth;
     for (int halving = 0; halving < 12 && !(inside(length) && inside(2 * length) && inside(4 * length)); ++halving)
@@ -134,10 +134,10 @@ std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::ve
 }
 
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths) {
-  // Coordinates of files are in single precision.
+  // Coordinates in files have single precision.
   const double flat = std::numeric_limits<float>::epsilon() * part.mesh->box().size().norm();
   Mesh mesh = merge_flat_faces(*part.mesh, flat);
-  // Fans and slivers come with merging: it has to remove 30 % of the triangles.
+  // Merging creates fans and slivers, so it must remove at least 30 % of the triangles.
   if (10 * mesh.triangles.size() > 7 * part.mesh->triangles.size()) mesh = *part.mesh;
   std::vector<SolidPart> solids;
   for (const sdf::Solid& solid : sdf::split_solids(mesh))

@@ -1,4 +1,4 @@
-/// What the fcl simulator keeps of a part, computed once per distinct shape.
+/// Data of a part for the fcl simulator, computed once per distinct shape.
 #pragma once
 
 #include <array>
@@ -32,16 +32,16 @@ struct SolidPart {
   std::unique_ptr<const sdf::SurfaceQuery> surface;
 };
 
-/// A copy of a surface every point of which lies at most `depth` from the original, as far inside as that allows.
+/// A copy of a surface, displaced inwards as far as possible with every point at most `depth` from the original.
 struct Inset {
   double depth = 0;
   CollisionMesh surface;
   std::vector<Eigen::Vector3d> shell_points;  ///< one point of each connected shell
 };
 
-/// In the frame in which the first part of this shape stands when assembled.
+/// In the assembled frame of the first part with this shape.
 struct Body {
-  Mesh mesh;  ///< flat faces merged (flat_faces.h) where that is worth while
+  Mesh mesh;  ///< flat faces merged (flat_faces.h) if that saves enough
   Aabb box;
   std::vector<SolidPart> solids;
   EdgeGraph graph;
@@ -52,20 +52,20 @@ struct Body {
   std::map<double, Inset> insets;                    ///< by depth, assembly units
 };
 
-/// Shape and where it stands when assembled: `rest` takes shape frame to assembled frame.
+/// A shape and its assembled pose: `rest` maps the shape frame to the assembled frame.
 struct PlacedBody {
   std::shared_ptr<const Body> body;
   Pose rest;
 };
 
-/// `depths`: of the insets wanted. @throws InputError (naming `part`) when it encloses no volume.
+/// `depths`: of the insets to build. @throws InputError (naming `part`) if the part encloses no volume.
 std::shared_ptr<const Body> make_body(const Part& part, const std::vector<double>& depths);
 
-/// Displacement of each vertex into the mesh, at most `depth` long: into all faces around it together, and no longer
-/// than a quarter of the material there is in that direction. Zero where no direction leads into all faces.
+/// Displacement of each vertex into the mesh, at most `depth` long: into all faces around it, and at most a quarter of
+/// the material in that direction. Zero if no direction leads into all faces.
 std::vector<Eigen::Vector3d> inset_displacements(const Mesh& mesh, const std::vector<SolidPart>& solids, double depth);
 
-/// Signed distance to the union of the solids, cut off at `limit` (shape frame, < 0 inside).
+/// Signed distance to the union of the solids, clamped at `limit` (shape frame, < 0 inside).
 double signed_distance(const std::vector<SolidPart>& solids, const Eigen::Vector3d& p,
                        double limit = std::numeric_limits<double>::infinity());
 

@@ -1,4 +1,4 @@
-/// FCL behind a wall: this header's source is the only unit of the project that includes it.
+/// Wrapper of FCL: the source of this header is the only unit that includes FCL.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,8 +32,8 @@ struct TrianglePair {
   std::uint32_t a = 0, b = 0;  ///< triangle indices
 };
 
-/// Queries; keeps FCL's buffers, so that repeated calls allocate nothing. One per thread.
-/// Only surfaces are looked at: a mesh wholly inside another one does not meet it. Touching counts as meeting.
+/// Queries; keeps FCL's buffers, so that repeated calls allocate nothing. One per thread. Only surfaces count: a mesh
+/// wholly inside another one does not meet it. Touching counts as meeting.
 class Collider {
  public:
   Collider();

@@ -26,8 +26,8 @@ double distance_to(const SolidPart& solid, std::uint32_t triangle, const Eigen::
   return (p - closest_on_triangle(p, m.vertex(triangle, 0), m.vertex(triangle, 1), m.vertex(triangle, 2))).norm();
 }
 
-/// No point between u and v is deeper. Depth changes no faster than the point moves; and the distance to any one
-/// triangle, which is convex, is largest at an end.
+/// Upper bound of the depth between u and v. Depth is 1-Lipschitz, and the distance to a single triangle is convex, so
+/// its maximum is at an end.
 double bound(const SolidPart& solid, const End& u, const End& v) {
   const double lipschitz = 0.5 * (u.depth + v.depth + (v.point - u.point).norm());
   double convex = std::max(std::abs(u.depth), distance_to(solid, u.triangle, v.point));
@@ -38,7 +38,7 @@ double bound(const SolidPart& solid, const End& u, const End& v) {
 
 double bisect(const SolidPart& solid, const End& first, const End& last, double best,
               const DepthGauge::Effort& effort) {
-  std::array<std::pair<End, End>, 64> stack;  // depth first: never more than one entry per halving
+  std::array<std::pair<End, End>, 64> stack;  // depth first: at most one entry per halving
   std::size_t top = 0;
   stack[top++] = {first, last};
   while (top > 0 && best < effort.enough) {
@@ -46,7 +46,7 @@ double bisect(const SolidPart& solid, const End& first, const End& last, double 
     if (bound(solid, u, v) <= best + effort.resolution) continue;
     const End middle = at(solid, 0.5 * (u.point + v.point));
     best = std::max(best, middle.depth);
-    if (top + 2 > stack.size()) continue;  // halved beyond rounding
+    if (top + 2 > stack.size()) continue;  // interval below rounding
     stack[top++] = {u, middle};
     stack[top++] = {middle, v};
   }
@@ -71,7 +71,7 @@ void DepthGauge::open_corner(const Body& a, std::uint32_t vertex) {
   }
 }
 
-/// Where the edges of one triangle of a go through one of b. Grazing ones count: a place too many does no harm.
+/// Crossings of the edges of a triangle of a with one of b. Grazing ones count: extra crossings do no harm.
 void DepthGauge::cross(const Body& a, const Body& b, const Pose& a_to_b, std::uint32_t of_a, std::uint32_t of_b) {
   const Eigen::Vector3d& o = b.mesh.vertex(of_b, 0);
   const Eigen::Vector3d u = b.mesh.vertex(of_b, 1) - o, v = b.mesh.vertex(of_b, 2) - o, n = u.cross(v);
@@ -86,7 +86,7 @@ void DepthGauge::cross(const Body& a, const Body& b, const Pose& a_to_b, std::ui
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t m = (k + 1) % 3;
     const double rise = height[k] - height[m];
-    if (rise == 0) continue;  // parallel: it goes in and out elsewhere
+    if (rise == 0) continue;  // parallel: the edge crosses elsewhere
     const double place = height[k] / rise;
     if (!(place >= -geometry::kRounding && place <= 1 + geometry::kRounding)) continue;
     const Eigen::Vector3d x = corner[k] + place * (corner[m] - corner[k]) - o;
@@ -129,7 +129,7 @@ double DepthGauge::follow(const Body& a, const Body& b, const Pose& a_to_b, cons
     const auto [first, last] = std::equal_range(crossings_.begin(), crossings_.end(), Crossing{open_[i], 0},
                                                 [](const auto& x, const auto& y) { return x.edge < y.edge; });
     double from = 0;
-    for (auto c = first;; ++c) {  // the stretches between crossings
+    for (auto c = first;; ++c) {  // the intervals between crossings
       const double to = c == last ? 1.0 : c->place;
       const Eigen::Vector3d middle = p + 0.5 * (from + to) * (q - p);
       const bool stretch = to > from;

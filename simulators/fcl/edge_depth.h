@@ -1,5 +1,5 @@
-/// How deep two surfaces that meet reach into each other. FCL's own depth for meshes is a guess from single pairs of
-/// triangles; here it is a distance.
+/// Penetration depth of two surfaces that meet, as a distance. FCL's own depth for meshes is an estimate from single
+/// triangle pairs.
 #pragma once
 
 #include <span>
@@ -12,23 +12,23 @@ namespace dismantle::mesh_collision {
 /// Measures depth; keeps its buffers. One per thread.
 class DepthGauge {
  public:
-  /// What to do besides looking at the middles of what is inside.
+  /// Accuracy and stopping criteria of a measurement.
   struct Effort {
-    double resolution = 5e-4;  ///< exact to this much, from below; assembly units
+    double resolution = 5e-4;  ///< largest underestimate; assembly units
     double enough = 1;         ///< ends early at this depth
-    bool thorough = true;      ///< false: no more than a few points per edge, for a quick lower bound
+    bool thorough = true;      ///< false: only a few points per edge, for a quick lower bound
   };
 
-  /// Largest depth, in assembly units, that a point on an edge (or corner) of `a` has in `b`: the distance to the
-  /// surface of the solid of b that it is inside of; 0 when none is inside. `a_to_b`: shape frame to shape frame.
+  /// Largest depth, in assembly units, that a point on an edge (or corner) of `a` has in `b`: its distance to the
+  /// surface of the solid of b that contains it; 0 if no point is inside. `a_to_b`: shape frame to shape frame.
   ///
-  /// `pairs`: triangles that meet, `of_second`: a is the second of each pair. Where the edges of the first
-  /// go through the second is computed from them; between two such places an edge is inside or outside as a whole. From
-  /// corners that are inside the search goes on along all edges there. Along the part of an edge that is inside, the
-  /// deepest point is found by bisection with bounds.
+  /// `pairs`: triangles that meet, `of_second`: a is the second of each pair. They give the crossings of the edges of a
+  /// with the surface of b; between two crossings an edge is entirely inside or outside. From corners inside, the
+  /// search continues along all their edges. On an inside piece of an edge, bisection with bounds finds the deepest
+  /// point.
   double deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const TrianglePair> pairs, bool of_second,
                  const Effort& effort);
-  /// The same when no triangles meet, from the corners given: shells that may be inside as a whole.
+  /// The same if no triangles meet, starting from `corners` of shells that may be entirely inside.
   double deepest(const Body& a, const Body& b, const Pose& a_to_b, std::span<const std::uint32_t> corners,
                  const Effort& effort);
 

@@ -64,7 +64,7 @@ class Collapser {
     return longest > 0 ? cross(t).norm() / longest : 0;
   }
 
-  /// Flood fill from the largest triangles, which know their plane best.
+  /// Flood fill from the largest triangles, whose planes are the most accurate.
   void find_faces() {
     std::map<std::pair<Id, Id>, std::vector<Id>> edges;
     for (Id t = 0; t < triangles_.size(); ++t)
@@ -110,7 +110,7 @@ class Collapser {
     return all;
   }
 
-  std::vector<Id> faces_along(Id v, Id w) const {  // of the triangles at the edge
+  std::vector<Id> faces_along(Id v, Id w) const {  // faces of the triangles at the edge
     std::vector<Id> all;
     for (const Id t : around_[v])
       if (std::find(triangles_[t].begin(), triangles_[t].end(), w) != triangles_[t].end()) all.push_back(face_[t]);
@@ -124,7 +124,7 @@ class Collapser {
       if (std::find(faces.begin(), faces.end(), face_[t]) == faces.end()) faces.push_back(face_[t]);
     if (faces.size() > 2) return false;
     std::vector<Id> onto = neighbors(v);
-    if (faces.size() == 2) {  // only along the edge between the two, and only if that is straight here
+    if (faces.size() == 2) {  // only along the edge between both faces, and only if it is straight here
       std::erase_if(onto, [&](Id w) {
         const auto f = faces_along(v, w);
         return f.size() != 2 || f[0] == f[1];
@@ -142,7 +142,7 @@ class Collapser {
     return true;
   }
 
-  /// Quality of the worst triangle after collapsing v onto u; nothing when that would fold or pinch the surface.
+  /// Quality of the worst triangle after collapsing v onto u; nothing if that would fold or pinch the surface.
   std::optional<double> worst_after(Id v, Id u) const {
     const auto nv = neighbors(v), nu = neighbors(u);
     std::vector<Id> common;

@@ -6,10 +6,10 @@
 namespace dismantle::mesh_collision {
 
 /// Removes vertices that lie inside flat faces or on straight edges between two of them, by collapsing edges. Finely
-/// cut flat faces cost collision checks dearly: where two of them lie close, every triangle is looked at.
+/// meshed flat faces make collision checks slow: where two lie close, every triangle is tested.
 ///
-/// A face is a set of connected triangles whose vertices lie within `tolerance` (the mesh's units) of one plane; what
-/// remains are vertices of the mesh as they were, so no point of the surface moves by more than about that. Stays
+/// A face is a set of connected triangles whose vertices lie within `tolerance` (the mesh's units) of one plane; the
+/// remaining vertices do not move, so no point of the surface moves by more than about `tolerance`. The mesh stays
 /// closed and keeps its shells. Deterministic.
 Mesh merge_flat_faces(const Mesh& mesh, double tolerance);
 

@@ -10,7 +10,7 @@ Aabb moved_box(const Aabb& box, const Pose& pose) {
   return {center - half, center + half};
 }
 
-/// Their surfaces do not meet: shells of one inside the material of the other? Leaves a corner of each in corners_.
+/// For surfaces that do not meet: is a shell of `a` inside the material of `b`? Stores a corner of each in corners_.
 bool PairCheck::contained(const Body& a, const Pose& a_to_b, const Body& b) {
   corners_.clear();
   for (const auto v : a.graph.shell_vertex) {
@@ -23,7 +23,7 @@ bool PairCheck::contained(const Body& a, const Pose& a_to_b, const Body& b) {
 bool PairCheck::collide(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b) {
   if (collider_.meet(a.surface, pose_a, b.surface, pose_b)) return true;
   const Pose a_to_b = pose_b.inverse() * pose_a;
-  // Only a body whose box fits into the other's can be inside it; in the other's frame that is a cheap test.
+  // A body can be inside another one only if their boxes overlap, which is a cheap test in the other's frame.
   const Aabb a_in_b = moved_box(a.box, a_to_b);
   if (a_in_b.overlaps(b.box) && contained(a, a_to_b, b)) return true;
   const Pose b_to_a = a_to_b.inverse();
@@ -33,8 +33,8 @@ bool PairCheck::collide(const Body& a, const Pose& pose_a, const Body& b, const 
 double PairCheck::measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough) {
   const Pose a_to_b = pose_b.inverse() * pose_a, b_to_a = a_to_b.inverse();
   double deepest = 0;
-  // The first pairs of triangles are mostly enough to see that a state is too deep. No two parts in a state worth
-  // measuring have as many as the second limit.
+  // The first triangle pairs usually suffice to find that a state is too deep. States that need a measurement have
+  // fewer pairs than the second limit.
   for (const std::size_t limit : {std::size_t{16}, std::size_t{1} << 20}) {
     collider_.pairs(a.surface, pose_a, b.surface, pose_b, limit, pairs_);
     if (pairs_.empty()) break;
@@ -43,7 +43,7 @@ double PairCheck::measure(const Body& a, const Pose& pose_a, const Body& b, cons
     const double of_b = of_a < enough ? gauge_.deepest(b, a, b_to_a, pairs_, true, effort) : 0.0;
     deepest = std::max(of_a, of_b);
     if (deepest >= enough) return deepest;
-    // One shell against one shell: what meets cannot be inside as well.
+    // Single shells that meet cannot contain each other.
     if (effort.thorough && a.graph.shell_vertex.size() == 1 && b.graph.shell_vertex.size() == 1) return deepest;
     if (effort.thorough) break;
   }
@@ -53,8 +53,8 @@ double PairCheck::measure(const Body& a, const Pose& pose_a, const Body& b, cons
   return deepest;
 }
 
-/// The shrunken copy of a does not meet the surface of b, so each of its shells is inside or outside of b as a
-/// whole; outside, each point of a is within `depth` of a point outside b, hence no deeper.
+/// If the shrunken copy of a does not meet the surface of b, each of its shells is entirely inside or outside b. If all
+/// are outside, each surface point of a is within `depth` of a point outside b, so it is no deeper.
 bool PairCheck::inset_is_clear(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth) {
   const auto found = a.insets.find(depth);
   if (found == a.insets.end()) return false;
@@ -75,8 +75,8 @@ double PairCheck::depth(const Body& a, const Pose& pose_a, const Body& b, const 
   const double certified = parameters_.certified_depth;
   if (certified > 0 && certify(a, pose_a, b, pose_b, allowed + certified)) return certified;
   const double measured = measure(a, pose_a, b, pose_b, allowed + parameters_.depth_limit) - allowed;
-  // The search has stopped: say what cannot be exceeded. A ball inside a part is no larger than half its box's
-  // diagonal.
+  // The search has stopped, so return an upper bound: a ball inside a part has at most half its box's diagonal as
+  // radius.
   if (measured >= parameters_.depth_limit)
     return std::max(measured, 0.5 * std::min(a.box.size().norm(), b.box.size().norm()) - allowed);
   return std::max(0.0, measured);

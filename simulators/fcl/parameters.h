@@ -15,15 +15,15 @@ struct Parameters {
           {.unit = "unit",
            .min = 0,
            .max = 0.1,
-           .doc = "States in which copies of the parts that are shrunken by this much stay clear are reported with "
-                  "this depth, which is proved not to be exceeded; 0: measure always. README.md says how."});
+           .doc = "A state is reported with this depth, a proved upper bound, if copies of the parts shrunken by this "
+                  "much do not collide; 0: always measure. README.md has the details."});
     s.add("resolution", &Parameters::resolution,
-          {.unit = "unit", .min = 1e-6, .max = 0.1, .doc = "Measured depths are exact to this much."});
+          {.unit = "unit", .min = 1e-6, .max = 0.1, .doc = "Accuracy of measured depths."});
     s.add("depth_limit", &Parameters::depth_limit,
           {.unit = "unit",
            .min = 1e-3,
            .doc = "States deeper than this are reported with an upper bound of their depth, half the smaller part's "
-                  "diagonal: searching on for the deepest point costs time and changes no decision."});
+                  "diagonal: finding the deepest point costs time and changes no decision."});
   }
 };
 

@@ -19,7 +19,7 @@ std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& as
   std::vector<std::size_t> model(n), distinct;
   for (std::size_t i = 0; i < n; ++i) {
     model[i] = i;
-    // Parts that agree to the single precision of their files are one shape.
+    // Parts that agree within single precision share a shape.
     const double same = std::numeric_limits<float>::epsilon() * assembly.parts[i].mesh->box().size().norm();
     for (const std::size_t d : distinct)
       if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, same)) {
@@ -29,7 +29,7 @@ std::shared_ptr<const PreparedAssembly> FclSimulator::prepare(const Assembly& as
       }
     if (model[i] == i) distinct.push_back(i);
   }
-  // What overlaps when assembled needs copies that are shrunken by that much more.
+  // Parts that overlap when assembled need copies shrunken by that much more.
   std::vector<std::set<double>> depths(n);
   for (std::size_t i = 0; i < n && parameters_.certified_depth > 0; ++i)
     depths[model[i]].insert(parameters_.certified_depth);

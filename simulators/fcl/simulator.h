@@ -1,4 +1,4 @@
-/// Geometry only: who collides, and how deep.
+/// Geometric simulator: collision and penetration depth.
 #pragma once
 
 #include <memory>

@@ -64,7 +64,7 @@ double MeshWorld::penetration(const State& state) {
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const Member& m = moving_[i];
     const auto against = [&](const Member& other, std::size_t column) {
-      if (deepest >= depth_limit_ || !m.box.overlaps(other.box)) return;  // beyond it, one pair says enough
+      if (deepest >= depth_limit_ || !m.box.overlaps(other.box)) return;  // beyond the limit one pair suffices
       deepest = std::max(deepest, check_.depth(*m.placed->body, m.pose, *other.placed->body, other.pose,
                                                allowed_[i * others + column]));
     };
@@ -80,7 +80,7 @@ bool MeshWorld::separated(const State& state) {
   place(state);
   Aabb box;
   for (const auto& m : moving_) box.extend(m.box);
-  // Far out, boxes say it already.
+  // Far apart, the boxes already prove it.
   const Eigen::Vector3d gap = (box.lo - rest_box_.hi).cwiseMax(rest_box_.lo - box.hi);
   if (gap.maxCoeff() > separation_gap_) return true;
   moving_hull_.clear();

@@ -1,4 +1,4 @@
-/// The scene of one attempt: who meets whom, and how deep.
+/// The scene of one attempt: collisions and depths.
 #pragma once
 
 #include <map>
@@ -15,27 +15,26 @@ namespace dismantle::mesh_collision {
 class PreparedBodies final : public PreparedAssembly {
  public:
   std::vector<PlacedBody> placed;                        ///< by part
-  std::map<std::pair<PartId, PartId>, double> overlaps;  ///< a < b: depth when assembled, as measured here or by the
-                                                         ///< preparation, whichever is more; assembly units
+  std::map<std::pair<PartId, PartId>, double> overlaps;  ///< a < b: InitialOverlap::allowed(); assembly units
   double overlap(PartId a, PartId b) const {
     const auto found = overlaps.find(std::minmax(a, b));
     return found == overlaps.end() ? 0.0 : found->second;
   }
 };
 
-/// Collision and depth between placed bodies, with the buffers for both. One per thread.
+/// Collision and depth between placed bodies, with buffers. One per thread.
 class PairCheck {
  public:
   explicit PairCheck(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// Do the parts share a point? Exact for the triangles given (touching counts), containment included.
+  /// True if the parts share a point. Exact for the given triangles; includes touching and containment.
   bool collide(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b);
-  /// Depth beyond `allowed`, >= 0. At most Parameters::certified_depth where that could be proved, else measured.
+  /// Depth beyond `allowed`, >= 0. Parameters::certified_depth if that bound was proved, else measured.
   double depth(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double allowed);
-  /// Measured only: the deepest point of the edges of one in the other, both ways. Ends early at `enough`.
+  /// Measures the deepest edge point of one part in the other, both ways. Stops at the depth `enough`.
   double measure(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double enough);
-  /// True proves that no surface point of one is deeper in the other than `depth`. Bodies without an inset of that
-  /// depth prove nothing.
+  /// True proves that no surface point of one is deeper than `depth` in the other. False for bodies without an inset of
+  /// that depth.
   bool certify(const Body& a, const Pose& pose_a, const Body& b, const Pose& pose_b, double depth);
 
  private:
@@ -66,14 +65,13 @@ class MeshWorld final : public World {
   [[noreturn]] void contacts(const State& state, std::vector<Contact>& out) override;
   bool separated(const State& state) override;
   bool body_separated(const State& state, std::size_t body) override;
-  void add_contact_sample(PartId, PartId, const Eigen::Vector3d&) override {
-  }  // nothing is sampled that could be added to
+  void add_contact_sample(PartId, PartId, const Eigen::Vector3d&) override {}  // this simulator uses no samples
 
  private:
   struct Member {
     PartId part = 0;
     const PlacedBody* placed = nullptr;
-    Pose pose;  ///< shape frame to world: now (moving) or for good (fixed)
+    Pose pose;  ///< shape frame to world: current (moving) or constant (fixed)
     Aabb box;   ///< world, at the same time as `pose`
   };
   void place(const State& state);
@@ -81,10 +79,10 @@ class MeshWorld final : public World {
   Scene scene_;
   MotionSpace space_;
   double depth_limit_ = 0;
-  double separation_gap_;  // of hulls that are apart; assembly units
+  double separation_gap_;  // of separated hulls; assembly units
   PairCheck check_;
   std::vector<Member> moving_, fixed_;
-  std::vector<double> allowed_;  ///< [moving * (still + moving) + other]
+  std::vector<double> allowed_;  ///< [moving * (fixed + moving) + other]
   std::vector<Eigen::Vector3d> rest_hull_;
   Aabb rest_box_;
   std::vector<Eigen::Vector3d> moving_hull_;  // scratch

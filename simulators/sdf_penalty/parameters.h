@@ -10,7 +10,7 @@
 namespace dismantle::sdf_penalty {
 
 enum class Dynamics {
-  quasi_static,  ///< no inertia, viscous drag: a part goes where it is pushed and stops when the push stops
+  quasi_static,  ///< no inertia, viscous drag: a part moves along the force and stops when the force ends
   unit_mass,     ///< second order, every part has mass 1
   density,       ///< second order, mass = density * volume: the paper's text
   acceleration,  ///< second order, a wrench is an acceleration: the same for every part
@@ -21,7 +21,7 @@ struct Parameters : sdf::ContactParameters {
   double contact_stiffness = 1e6;
   double contact_damping = 0;
   double time_step = 1e-3;
-  // Table 6; the paper lets every contact give way by 0.01 before it resists.
+  // Table 6; in the paper every contact yields by 0.01 before it resists.
   double contact_threshold = 0;
   Dynamics dynamics = Dynamics::quasi_static;
   double density = 1;
@@ -45,13 +45,12 @@ struct Parameters : sdf::ContactParameters {
     s.add(
         "time_step", &Parameters::time_step,
         {.unit = "s", .min = 1e-6, .max = 0.1, .doc = "Simulation time step (table 5) of the second-order dynamics."});
-    s.add(
-        "contact_threshold", &Parameters::contact_threshold,
-        {.unit = "unit",
-         .min = 0,
-         .max = 0.1,
-         .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap (table 6 has 0.01; what "
-                "it allows, the verifier has to allow too)."});
+    s.add("contact_threshold", &Parameters::contact_threshold,
+          {.unit = "unit",
+           .min = 0,
+           .max = 0.1,
+           .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap (0.01 in table 6; the "
+                  "verifier must allow the same depth)."});
     s.add_choice<Dynamics>("dynamics", &Parameters::dynamics,
                            {{"quasi_static", Dynamics::quasi_static,
                              "no inertia, viscous drag: speed does not depend on the part's mass or history"},
@@ -72,15 +71,16 @@ struct Parameters : sdf::ContactParameters {
           {.unit = "unit",
            .min = 1e-4,
            .max = 0.1,
-           .doc = "Largest way of any point of a part in one implicit step; bounds speed and keeps thin walls tight."});
+           .doc = "Largest motion of any point of a part in one implicit step; bounds speed and keeps parts from "
+                  "passing thin walls."});
     s.add("adaptive", &Parameters::adaptive,
-          {.doc = "Second order: as many time steps in one as lead no point further than `max_travel`."});
+          {.doc = "Second order: combines time steps into one as long as no point moves further than `max_travel`."});
     s.add("rest_share", &Parameters::rest_share,
           {.unit = "1",
            .min = 0,
            .max = 0.1,
-           .doc = "Second order: an advance ends when the rest of it cannot lead further than this share of the way of "
-                  "a free part. 0: every time step is made."});
+           .doc = "Second order: an advance ends when its rest cannot move the part further than this share of the "
+                  "motion of a free part. 0: all time steps are simulated."});
     s.add_choice<sdf::DistanceModel>(
         "distance", &Parameters::distance,
         {{"exact", sdf::DistanceModel::exact,

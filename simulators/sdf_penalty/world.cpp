@@ -11,7 +11,7 @@ namespace {
 
 sdf::ContactOptions contact_options(const Parameters& p) {
   return {.distance = p.distance,
-          .margin = 1.25 * p.max_travel,  // contacts a little beyond one step are known before it, so none is jumped
+          .margin = 1.25 * p.max_travel,  // detects contacts slightly beyond one step, so none is skipped
           .threshold = p.contact_threshold,
           .stiffness = p.contact_stiffness,
           .damping = p.contact_damping,
@@ -50,7 +50,7 @@ double PenaltyWorld::quasi_static_step(const Action& action) const {
   return speed > 0 ? parameters_.max_travel / speed : 0;
 }
 
-/// Second order: how far the action alone carries a body that is at rest.
+/// Second order: motion of a body from rest under the action alone.
 double PenaltyWorld::way_from_rest(const Action& action, double duration) const {
   double way = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
@@ -63,8 +63,8 @@ double PenaltyWorld::way_from_rest(const Action& action, double duration) const 
   return std::min(way, steps * parameters_.max_travel);
 }
 
-/// How far a small turn (axis and angle, the body's axes) about its centre moves any point of it. A long screw that
-/// turns about its axis moves no point far.
+/// Largest motion of any point of a body in a small turn (rotation vector, body axes) about its centre. A long screw
+/// that turns about its axis hardly moves.
 double PenaltyWorld::reach(std::size_t body, const Eigen::Vector3d& turn) const {
   if (turn.isZero()) return 0;
   double most = 0;
@@ -72,8 +72,8 @@ double PenaltyWorld::reach(std::size_t body, const Eigen::Vector3d& turn) const 
   return std::sqrt(most);
 }
 
-/// Second order: how far a body that came from `before` in the last step gets in `rest` seconds, if its acceleration
-/// stays what it was.
+/// Second order: motion in the next `rest` seconds at the speed and acceleration of the last step, which began at
+/// `before`.
 double PenaltyWorld::way_ahead(const State& before, const State& now, double dt, double rest) const {
   double way = 0;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
@@ -91,7 +91,7 @@ Eigen::Matrix3d PenaltyWorld::inertia_at(std::size_t body, const BodyState& stat
   return r * inertia_[body].about_center * r.transpose();
 }
 
-/// Second order: of the body alone.
+/// Second order: acceleration of the body without contact.
 PenaltyWorld::Acceleration PenaltyWorld::acceleration(std::size_t body, const BodyState& state,
                                                       const Action& action) const {
   Wrench wrench = action.wrenches[body];
@@ -106,7 +106,7 @@ PenaltyWorld::Acceleration PenaltyWorld::acceleration(std::size_t body, const Bo
   return a;
 }
 
-/// As many as keep every point within `max_travel`; one where even that leads further.
+/// Number of time steps that move no point further than `max_travel`, at least one.
 int PenaltyWorld::steps_at_once(const State& state, const Action& action, double dt, int most) const {
   double time = most * dt;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
@@ -124,7 +124,7 @@ int PenaltyWorld::steps_at_once(const State& state, const Action& action, double
   return std::clamp(static_cast<int>(time / dt + 1e-9), 1, most);
 }
 
-/// One implicit step from the contacts of the last update; leaves them updated.
+/// One implicit step from the contacts of the last update, which it updates.
 template <int Dof>
 PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, double dt, int n_steps, double* travel) {
   using Solver = sdf::StepSolver<Dof>;
@@ -133,7 +133,7 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
   typename Solver::Matrix weight = Solver::Matrix::Zero(n, n);
   typename Solver::Vector target = Solver::Vector::Zero(n);
   double free_travel = 0, largest_force = 0;
-  // Where nothing is near, the sum of the single steps is known.
+  // Without contacts, the sum of the single steps has a closed form.
   const bool flies = !fixed_water && n_steps > 1 && touching().empty();
   const double gain = flies ? dt * dt * (n_steps + 1) / (2.0 * n_steps) : dt * dt;
   for (std::size_t i = 0; i < bodies().size(); ++i) {
@@ -180,13 +180,13 @@ PenaltyWorld::Moved PenaltyWorld::step(State& state, const Action& action, doubl
       const auto at = static_cast<Eigen::Index>(i) * per_body();
       BodyState& s = state.bodies[i];
       const Acceleration a = acceleration(i, s, action);
-      const double late = flies ? (n_steps - 1) * dt / (2.0 * n_steps) : 0;  // the last speed is more than the mean
+      const double late = flies ? (n_steps - 1) * dt / (2.0 * n_steps) : 0;  // the final speed exceeds the mean
       s.velocity = x.template segment<3>(at) / dt + late * a.linear;
       if (per_body() == 6) s.angular_velocity = x.template segment<3>(at + 3) / dt + late * a.angular;
     }
   *travel = displace<Dof>(state, x);
   follow_contacts<Dof>(state, x, *travel);
-  // Without inertia the next step would be the same.
+  // Without inertia the next step would be equal.
   if (fixed_water && *travel < contact_depth()) return Moved::not_at_all;
   if (fixed_water) settle<Dof>(state, contact_depth() + largest_force / parameters_.contact_stiffness);
   return *travel < parameters_.stall_share * free_travel ? Moved::stalled : Moved::freely;
@@ -204,12 +204,12 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
   const std::size_t begin_trace = trace != nullptr ? trace->size() : 0;
   const bool quasi_static = parameters_.dynamics == Dynamics::quasi_static;
   const double natural = quasi_static ? quasi_static_step(action) : parameters_.time_step;
-  if (!(natural > 0)) {  // no force, no inertia: nothing happens
+  if (!(natural > 0)) {  // no force, no inertia: no motion
     report.stalled = true;
     return report;
   }
   const double wanted = std::ceil(duration / natural - 1e-9);
-  if (!(wanted <= std::numeric_limits<int>::max())) return not_finite();  // a force beyond all measure
+  if (!(wanted <= std::numeric_limits<int>::max())) return not_finite();  // force too large
   const int steps = std::max(1, static_cast<int>(wanted));
   const double dt = duration / steps;
   const double free = quasi_static ? parameters_.max_travel * duration / natural : way_from_rest(action, duration);
@@ -239,7 +239,7 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
       for (const auto& b : state.bodies) instant.push_back(b.pose);
       trace->push_back(std::move(instant));
     }
-    idle = moved == Moved::freely ? 0 : idle + 1;  // contacts may change once or twice before the body moves on
+    idle = moved == Moved::freely ? 0 : idle + 1;  // contacts may change once or twice before the body moves again
     if (quasi_static && (idle >= 3 || moved == Moved::not_at_all)) {
       report.stalled = true;
       break;
@@ -251,7 +251,7 @@ StepReport PenaltyWorld::advance(State& state, const Action& action, double dura
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // A part that moves to and fro has stalled, too.
+  // A part that only oscillates has stalled, too.
   if (report.travel < parameters_.stall_share * free) report.stalled = true;
   return report;
 }

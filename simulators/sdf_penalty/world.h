@@ -1,4 +1,4 @@
-/// The scene of one attempt under penalty contact (section 4.1).
+/// The scene of one attempt with penalty contact (section 4.1).
 #pragma once
 
 #include <vector>
@@ -26,7 +26,7 @@ class PenaltyWorld final : public sdf::BodyWorld {
     Eigen::Vector3d linear, angular;  ///< unit/s^2, rad/s^2; world axes
   };
 
-  /// `n` time steps in one.
+  /// Combines `n` time steps into one.
   template <int Dof>
   Moved step(State& state, const Action& action, double dt, int n, double* travel);
   Eigen::Matrix3d inertia_at(std::size_t body, const BodyState& state) const;

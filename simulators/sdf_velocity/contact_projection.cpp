@@ -6,7 +6,7 @@
 #include "dismantle/geometry/numerics.h"
 
 namespace dismantle::sdf_velocity {
-/// For each contact the face that `x` enters least.
+/// Chooses for each contact the face that `x` enters least.
 void ContactProjection::choose(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x) {
   for (Group& g : groups_) {
     bool any = false;
@@ -22,8 +22,8 @@ void ContactProjection::choose(const std::vector<sdf::ContactRow>& rows, int per
   }
 }
 
-/// Each contact that holds the solution x takes the face `turn` places further on, of those that x lies on or outside
-/// of: x remains possible. False when no contact has another one.
+/// Each contact that constrains the solution x switches to the face `turn` places further on if x lies on or outside
+/// it, so x stays feasible. False if no contact can switch.
 bool ContactProjection::exchange(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x,
                                  std::size_t turn) {
   bool any = false;
@@ -56,7 +56,7 @@ bool ContactProjection::solve(const std::vector<sdf::ContactRow>& rows, int per_
   }
   target_ = wanted.cwiseProduct(scale_);
   if (nearest_.solve(target_, y_) != NearestPoint::Outcome::solved) return false;
-  // A lift that leads away from the wanted motion by more than four times the depth is a squeeze.
+  // A lift that deviates from the wanted motion by more than four times the depth means that the body is blocked.
   if (below == Below::lift && (y_ - target_).norm() > target_.norm() + 4 * deepest_ + geometry::kRounding) return false;
   x = y_.cwiseQuotient(scale_);
   return true;
@@ -94,7 +94,7 @@ void ContactProjection::project(const std::vector<sdf::ContactRow>& rows, int pe
   Vector better(wanted.size());
   std::size_t turn = 1;
   holding_ = nearest_.active();
-  for (int round = 0; turn < most && round < 24; ++round) {  // a few are usual; this bounds cycles of exchanges
+  for (int round = 0; turn < most && round < 24; ++round) {  // a few rounds are usual; the limit stops cycles
     const std::vector<Group> before = groups_;
     if (exchange(rows, per_body, x, turn) && solve(rows, per_body, Below::lift, wanted, better) &&
         cost(better) < cost(x) * (1 - geometry::kRounding)) {

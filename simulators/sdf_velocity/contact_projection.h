@@ -1,4 +1,4 @@
-/// What is left of a wanted displacement when nothing may be entered.
+/// Projection of a wanted displacement on the displacements without penetration.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,20 +9,20 @@
 
 namespace dismantle::sdf_velocity {
 
-/// Of all displacements x of the bodies (see sdf::BodyWorld) the one nearest to `wanted`, in the norm that weighs
-/// shifts with 1 and rotation vectors with the body's radius, under which each contact ends with
+/// Finds the displacement x of the bodies (see sdf::BodyWorld) nearest to `wanted`, in the norm with weight 1 for
+/// shifts and the body's radius for rotation vectors, subject to, for each contact,
 ///   gap + J x >= 0.
-/// Contacts that are below the surface already are to be lifted out of it, by `most_lift` at most; where that cannot be
-/// done, for being squeezed from several sides, nothing gets deeper. So x = 0 is always possible at worst.
+/// Contacts already below the surface are lifted out of it, by at most `most_lift`. If that is impossible because a
+/// body is blocked from several sides, no contact gets deeper. So x = 0 is always feasible.
 ///
-/// At a convex edge it is enough to be outside of one of the faces: each contact takes that which the wanted
-/// displacement enters least, of those that it is outside of now, and takes others as long as that brings x nearer to
-/// what is wanted. That ends in a local minimum of a problem that is not convex.
+/// At a convex edge a point must be outside only one of the faces. Each contact starts with the face that the wanted
+/// displacement enters least, of those that it is outside of now, and exchanges it as long as x gets nearer to
+/// `wanted`. The result is a local minimum of a nonconvex problem.
 class ContactProjection {
  public:
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, sdf::kMaxDof, 1>;
 
-  /// A face that a point is behind of by more than `behind` is not where it can pass an edge. `most_lift`: in one step.
+  /// A point that is behind a face by more than `behind` cannot pass the edge at that face. `most_lift`: per step.
   /// Assembly units.
   ContactProjection(double behind, double most_lift) : behind_(behind), most_lift_(most_lift) {}
 
@@ -31,10 +31,10 @@ class ContactProjection {
                const Vector& wanted, Vector& x);
 
  private:
-  enum class Below { lift, hold };  ///< what to do with contacts that are below the surface
+  enum class Below { lift, hold };  ///< treatment of contacts below the surface
   struct Group {
     std::size_t first = 0, count = 0, chosen = 0;
-    double least = 0;  ///< faces with a smaller gap are not where the point can pass
+    double least = 0;  ///< the point cannot pass at faces with a smaller gap
   };
 
   void choose(const std::vector<sdf::ContactRow>& rows, int per_body, const Vector& x);
@@ -45,7 +45,7 @@ class ContactProjection {
   NearestPoint nearest_;
   Vector scale_;  ///< per coordinate of x
   std::vector<Group> groups_;
-  std::vector<Eigen::Index> holding_;  ///< groups that hold x
+  std::vector<Eigen::Index> holding_;  ///< groups that constrain x
   double deepest_ = 0;
   Eigen::VectorXd target_, y_;
 };

@@ -26,7 +26,7 @@ Eigen::Index NearestPoint::add() {
   return count_++;
 }
 
-/// The next active normal is basis * along + rest.
+/// Splits the next active normal into basis * along + rest.
 void NearestPoint::append(const Eigen::VectorXd& along, const Eigen::VectorXd& rest, double length) {
   const auto q = along.size();
   basis_.col(q) = rest / length;
@@ -38,14 +38,14 @@ void NearestPoint::drop(std::size_t k) {
   const auto at = static_cast<std::ptrdiff_t>(k);
   active_.erase(active_.begin() + at);
   forces_.erase(forces_.begin() + at);
-  // A few columns of a few coordinates: computed anew, they gather no errors.
+  // The matrices are small: recomputing them avoids accumulated errors.
   Eigen::VectorXd along, rest;
   for (auto q = static_cast<Eigen::Index>(k); q < static_cast<Eigen::Index>(active_.size()); ++q) {
     const auto a = normals_.col(active_[static_cast<std::size_t>(q)]);
     const auto known = basis_.leftCols(q);
     along = known.transpose() * a;
     rest = a - known * along;
-    const Eigen::VectorXd again = known.transpose() * rest;  // once more: the first left a rounding error
+    const Eigen::VectorXd again = known.transpose() * rest;  // second orthogonalisation, against rounding
     rest -= known * again;
     along += again;
     append(along, rest, rest.norm());
@@ -74,7 +74,7 @@ NearestPoint::Outcome NearestPoint::solve(const Eigen::VectorXd& target, Eigen::
       along_ += change_;
       change_ = triangle_.topLeftCorner(q, q).template triangularView<Eigen::Upper>().solve(along_);
       const double length = rest_.norm();
-      // How far until the violation is gone, and until an active constraint no longer pushes.
+      // Step lengths until the violation is zero, and until an active constraint's multiplier is zero.
       const double full = length > geometry::kRounding ? (offsets_[worst] - a.dot(y)) / (length * length)
                                                        : std::numeric_limits<double>::infinity();
       double partial = std::numeric_limits<double>::infinity();

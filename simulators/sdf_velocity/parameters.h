@@ -20,21 +20,19 @@ struct Parameters : sdf::ContactParameters {
           {.unit = "unit",
            .min = 1e-3,
            .max = 0.1,
-           .doc = "Largest way of any point of a part in one step; contacts are seen as far ahead."});
-    s.add(
-        "contact_threshold", &Parameters::contact_threshold,
-        {.unit = "unit",
-         .min = 0,
-         .max = 0.1,
-         .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap: for fits that have to "
-                "give. What it allows, the verifier has to allow too."});
-    s.add(
-        "blind_travel", &Parameters::blind_travel,
-        {.unit = "max_penetration",
-         .min = 0.1,
-         .max = 100,
-         .doc = "Advanced. Largest way of a point in one step where it is not known what it may meet, as a multiple of "
-                "verify.max_penetration: less than half the thickness of a wall that is to hold."});
+           .doc = "Largest motion of any point of a part in one step; contacts are detected up to this distance."});
+    s.add("contact_threshold", &Parameters::contact_threshold,
+          {.unit = "unit",
+           .min = 0,
+           .max = 0.1,
+           .doc = "Depth at which contact begins to resist, on top of the pair's initial overlap: for fits that must "
+                  "yield. The verifier must allow the same depth."});
+    s.add("blind_travel", &Parameters::blind_travel,
+          {.unit = "max_penetration",
+           .min = 0.1,
+           .max = 100,
+           .doc = "Advanced. Largest motion of a point in one step beyond the distance known to be free, as a multiple "
+                  "of verify.max_penetration. To block parts, a wall must be thicker than twice this."});
     s.add("stall_share", &Parameters::stall_share,
           {.unit = "1",
            .min = 0,

@@ -40,7 +40,7 @@ VelocityWorld::Vector VelocityWorld::free_motion(const State& state, const Actio
   return motion;
 }
 
-/// The largest share of x that leads no point further than it is certain what it may meet, and blind_travel_.
+/// Largest share of x that moves each point by at most its known free distance plus blind_travel_.
 double VelocityWorld::certain_share(const State& state, const Vector& x) const {
   double share = 1;
   for (const auto& c : touching()) {
@@ -53,8 +53,8 @@ double VelocityWorld::certain_share(const State& state, const Vector& x) const {
   return share;
 }
 
-/// One step from the contacts of the last update; leaves them updated. No point goes further than `limit`, and the
-/// action alone no further than `free_way`.
+/// One step from the contacts of the last update, which it updates. No point moves by more than `limit`, and the free
+/// motion is at most `free_way`.
 VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, double free_way, double limit) {
   const Vector motion = free_motion(state, action);
   const double speed = travel_of<Eigen::Dynamic>(motion);
@@ -64,7 +64,7 @@ VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, doub
     return travel_of<Eigen::Dynamic>(x);
   };
   build_rows(state, 0);
-  // Contact may leave so little of the motion that all of it fits into one step.
+  // Contact may reduce the motion so much that all of it fits into one step.
   Step done;
   done.free = free_way;
   done.way = try_way(done.free);
@@ -73,7 +73,7 @@ VelocityWorld::Step VelocityWorld::step(State& state, const Action& action, doub
     done.free = std::max(limit, done.free * limit / done.way);
     done.way = try_way(done.free);
   }
-  // What is nearer than x along a straight line enters no more than x does.
+  // A shorter step along x penetrates no more than x does.
   const double share = std::min(done.way > limit ? limit / done.way : 1.0, certain_share(state, x));
   x *= share;
   done.free *= share;
@@ -93,8 +93,8 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
   const State begin_state = state;
   const std::size_t begin_trace = trace != nullptr ? trace->size() : 0;
   const double free = duration * travel_of<Eigen::Dynamic>(free_motion(state, action));
-  if (!std::isfinite(free)) return not_finite();  // a force beyond all measure
-  if (!(free > 0)) {                              // no force: nothing happens
+  if (!std::isfinite(free)) return not_finite();  // force too large
+  if (!(free > 0)) {                              // no force: no motion
     report.stalled = true;
     return report;
   }
@@ -112,7 +112,7 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     report.stalled = done.way == 0;
     if (report.stalled) break;
     settle<Eigen::Dynamic>(state, contact_depth());
-    // A step that enters a surface, and cannot be corrected in place, is taken back and halved.
+    // A step that penetrates and cannot be corrected in place is undone and halved.
     if (deepest() > allowed) {
       state = before;
       update_contacts(state);
@@ -133,7 +133,7 @@ StepReport VelocityWorld::advance(State& state, const Action& action, double dur
     report.travel =
         std::max(report.travel, screw_travel(begin_state.bodies[i].pose, state.bodies[i].pose, bodies()[i].center,
                                              per_body() == 3 ? 0.0 : bodies()[i].radius));
-  // A part that moves to and fro has stalled, too.
+  // A part that only oscillates has stalled, too.
   if (report.travel < parameters_.stall_share * free) report.stalled = true;
   return report;
 }

@@ -1,4 +1,4 @@
-/// The scene of one attempt under contact at velocity level.
+/// The scene of one attempt with contact at velocity level.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,7 @@
 
 namespace dismantle::sdf_velocity {
 
-/// No inertia: a free body moves at force / drag. In contact it makes, of all motions that enter nothing, the one
-/// nearest to that.
+/// No inertia: a free body moves at force / drag. In contact it makes the motion nearest to that without penetration.
 class VelocityWorld final : public sdf::BodyWorld {
  public:
   VelocityWorld(const sdf::PreparedShapes& prepared, const Scene& scene, MotionSpace space,
@@ -21,8 +20,8 @@ class VelocityWorld final : public sdf::BodyWorld {
  private:
   using Vector = ContactProjection::Vector;
   struct Step {
-    double free = 0;  ///< way that the action alone would have led
-    double way = 0;   ///< bound of the way of any point
+    double free = 0;  ///< motion under the action alone
+    double way = 0;   ///< bound of the motion of any point
   };
 
   Vector free_motion(const State& state, const Action& action) const;
@@ -31,7 +30,7 @@ class VelocityWorld final : public sdf::BodyWorld {
 
   Parameters parameters_;
   std::vector<double> radii_;
-  double blind_travel_;  // of a point where it is not certain what it may meet
+  double blind_travel_;  // largest motion of a point beyond its known free distance
   ContactProjection projection_;
 };
 

@@ -1,4 +1,4 @@
-/// A set of points as the search for a separating plane sees it: which of them is farthest in a direction.
+/// A set of points for the search of a separating plane, given by its support function.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@ namespace dismantle::geometry {
 
 struct ConvexSet {
   Eigen::Vector3d any;  ///< one of the points
-  double extent = 0;    ///< no coordinate of a point is larger
+  double extent = 0;    ///< bound of absolute coordinates
   std::function<Eigen::Vector3d(const Eigen::Vector3d& direction)> farthest;
 };
 
-/// As separate() of two lists of points.
+/// separate() for two convex sets.
 std::optional<Separation> separate(const ConvexSet& a, const ConvexSet& b, double min_gap);
 
 }  // namespace dismantle::geometry

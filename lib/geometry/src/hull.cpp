@@ -29,7 +29,7 @@ Points without_duplicates(std::span<const Eigen::Vector3d> points) {
   return result;
 }
 
-/// Swallows what qhull prints: a degenerate set is a normal answer here, not an error to show.
+/// Discards the output of qhull: a degenerate set is a valid input here, not an error.
 class MemoryStream {
  public:
   MemoryStream() : file_(open_memstream(&text_, &size_)) {}
@@ -49,7 +49,7 @@ class MemoryStream {
 
 class Qhull {
  public:
-  /// Runs qhull on `coordinates` (x y z ...), which it does not keep.
+  /// Runs qhull on `coordinates` (x y z ...); keeps no reference to them.
   Qhull(std::vector<double>& coordinates, FILE* sink) {
     qh_zero(&qh_, sink);
     char command[] = "qhull Pp";
@@ -91,7 +91,7 @@ std::vector<Eigen::Vector3d> hull_corners(std::span<const Eigen::Vector3d> point
   const MemoryStream sink;
   if (!sink.file()) return distinct;
   Qhull qhull(coordinates, sink.file());
-  if (qhull.failed()) return distinct;  // flat: all points, a superset of the corners
+  if (qhull.failed()) return distinct;  // flat: return all points, a superset of the corners
   const std::vector<bool> flags = qhull.corner_flags(distinct.size());
   Points result;
   for (std::size_t i = 0; i < distinct.size(); ++i)

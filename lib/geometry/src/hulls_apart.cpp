@@ -13,7 +13,7 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// As top_of(), of a box that is not turned.
+/// geometry::top_of() for an axis-aligned box.
 double top_of(const Aabb& box, const Vec3& normal) {
   const Vec3 middle = box.center(), half = 0.5 * box.size();
   return normal.dot(middle) + (1 + kRounding) * normal.cwiseAbs().dot(half) + kRounding * middle.norm();
@@ -45,8 +45,8 @@ void HullsApart::Side::set_boxes() {
   }
 }
 
-/// Calls visit(i) for the parts that could reach as far as `least`, which visits raise. Those that could reach farthest
-/// come first, so that few others are left.
+/// Calls visit(i) for the parts that may reach as far as `least`, which visits raise. The run with the largest bound
+/// comes first, so that few others remain.
 template <class Visit>
 void HullsApart::Side::visit_farthest(const Vec3& normal, const double& least, const Visit& visit) {
   for (std::size_t r = 0; r < runs.size(); ++r) most[r] = top_of(runs[r], normal);
@@ -60,7 +60,7 @@ void HullsApart::Side::visit_farthest(const Vec3& normal, const double& least, c
     if (r != first && most[r] >= least) visit_run(r);
 }
 
-/// The corner that is farthest along `normal`; of several the first one, whatever the order of visits.
+/// The corner farthest along `normal`; among equals the first one, whatever the order of visits.
 Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) {
   double top = -std::numeric_limits<double>::infinity();
   std::size_t part = 0;
@@ -77,19 +77,19 @@ Eigen::Vector3d HullsApart::Side::farthest(const Vec3& normal) {
   return corner;
 }
 
-/// Of all vertices: qhull leaves out those that are within rounding of a face.
+/// Largest extent of all vertices along `normal`: qhull omits vertices within rounding of a face.
 double HullsApart::Side::top(const Vec3& normal) {
   double top = -std::numeric_limits<double>::infinity();
   visit_farthest(normal, top, [&](std::size_t i) {
     const PlacedHull& p = parts[i];
     for (const Vec3& c : *p.corners) top = std::max(top, normal.dot(p.pose * c));
-    if (geometry::top_of(*p.box, p.pose, normal) < top) return;  // most parts have none that could be
+    if (geometry::top_of(*p.box, p.pose, normal) < top) return;  // no vertex of most parts can exceed it
     for (const Vec3& v : p.mesh->vertices) top = std::max(top, normal.dot(p.pose * v));
   });
   return top;
 }
 
-/// The same along axis `k` or against it. Rounding keeps the order, so of what is not turned the box tells it, too.
+/// The same along axis `k` or against it. For unrotated parts the box gives the same value: rounding is monotonic.
 double HullsApart::Side::top_along(Eigen::Index k, double sign) const {
   double top = -std::numeric_limits<double>::infinity();
   for (const PlacedHull& p : parts) {
@@ -115,7 +115,7 @@ bool HullsApart::after(const Vec3& shift) {
   if (group_.parts.empty() || rest_.parts.empty()) return true;
   group_.move_to(shift);
   const Aabb ours = group_.box(), theirs = rest_.box();
-  for (Eigen::Index k = 0; k < 3; ++k)  // most leave along an axis
+  for (Eigen::Index k = 0; k < 3; ++k)  // most parts leave along an axis
     for (const double sign : {1.0, -1.0})
       if ((sign > 0 ? ours.hi[k] < theirs.lo[k] : ours.lo[k] > theirs.hi[k]) &&
           -rest_.top_along(k, -sign) > group_.top_along(k, sign))

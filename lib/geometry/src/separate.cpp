@@ -1,5 +1,5 @@
-// Gilbert-Johnson-Keerthi search for the shortest vector between two hulls; each support query on the way
-// is a candidate plane with its exact gap, so the answer is certified by construction.
+// Gilbert-Johnson-Keerthi search for the shortest vector between two hulls; each support query yields a candidate plane
+// with its exact gap, so the answer is certified by construction.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
@@ -44,7 +44,7 @@ bool nearest_on_subset(const Simplex& s, unsigned mask, Eigen::Vector3d& nearest
     nearest = o;
     return true;
   }
-  if (n == 4) {  // the origin inside the tetrahedron
+  if (n == 4) {  // origin inside the tetrahedron
     Eigen::Matrix3d m;
     for (int i = 1; i < 4; ++i) m.col(i - 1) = s.p[static_cast<std::size_t>(id[static_cast<std::size_t>(i)])] - o;
     const double det = m.determinant();
@@ -73,7 +73,7 @@ bool nearest_on_subset(const Simplex& s, unsigned mask, Eigen::Vector3d& nearest
   return true;
 }
 
-/// Reduces the simplex to the corners that carry the shortest vector, which is returned.
+/// Reduces the simplex to the corners that support the shortest vector, and returns that vector.
 Eigen::Vector3d reduce(Simplex& s) {
   double best = std::numeric_limits<double>::infinity();
   unsigned best_mask = 1;
@@ -106,7 +106,7 @@ std::optional<Separation> geometry::separate(const ConvexSet& a, const ConvexSet
   simplex.p[0] = b.any - a.any;
   simplex.size = 1;
   Eigen::Vector3d v = simplex.p[0];
-  for (int i = 0; i < 256; ++i) {  // GJK converges in a few dozen rounds; this bounds cycles by rounding
+  for (int i = 0; i < 256; ++i) {  // GJK converges in a few dozen rounds; the limit stops cycles due to rounding
     const double length = v.norm();
     if (!(length > 1e-15 * extent)) break;  // the hulls share a point
     const Eigen::Vector3d n = v / length;

@@ -13,7 +13,7 @@
 namespace dismantle {
 namespace {
 
-constexpr int kBins = 16;  // of the surface area heuristic: more make the trees no better
+constexpr int kBins = 16;  // of the surface area heuristic: more bins do not improve the trees
 // Each side of a split keeps at least an eighth of the triangles, so 2^32 of them make less than 180 levels.
 constexpr std::size_t kStackSize = 192;
 using geometry::kNoIndex;
@@ -28,7 +28,7 @@ double half_area(const Aabb& b) {
 
 int bin_of(double x, double lo, double scale) { return std::clamp(static_cast<int>((x - lo) * scale), 0, kBins - 1); }
 
-/// Directions without relation to the axes of any part: degenerate hits are rare, and another one settles them.
+/// Directions unrelated to the axes of parts: degenerate hits are rare, and another direction resolves them.
 const std::array<Vec3, 6>& ray_directions() {
   static const std::array<Vec3, 6> directions = {Vec3(0.3716542397, 0.8410289143, 0.3930517461).normalized(),
                                                  Vec3(-0.7593180147, 0.2416790533, 0.6041392275).normalized(),
@@ -39,7 +39,7 @@ const std::array<Vec3, 6>& ray_directions() {
   return directions;
 }
 
-/// Towards the nearest face of the box, aslant for the same reason: a ray that is soon outside meets few triangles.
+/// Towards the nearest face of the box, so that the ray meets few triangles; oblique for the same reason.
 Vec3 direction_out(const Aabb& box, const Vec3& p) {
   Eigen::Index high = 0, low = 0;
   const double up = (box.hi - p).minCoeff(&high), down = (p - box.lo).minCoeff(&low);
@@ -51,7 +51,7 @@ Vec3 direction_out(const Aabb& box, const Vec3& p) {
   return direction.normalized();
 }
 
-/// A ray with two directions across it, in which triangles are seen from the origin.
+/// A ray and two directions across it, onto which triangles are projected.
 struct RayFrame {
   Vec3 origin, along, across, up;
 };
@@ -86,7 +86,7 @@ void count_triangle(const std::array<Vec3, 3>& c, const RayFrame& ray, Crossings
     const std::size_t j = (i + 1) % 3;
     const double p = x[i] * y[j], q = y[i] * x[j];
     e[i] = p - q;
-    // x and y carry the rounding of their own dot products besides that of the products here.
+    // x and y have the rounding of their dot products in addition to that of the products here.
     const double size = std::max(std::abs(x[i]), std::abs(y[i])) + std::max(std::abs(x[j]), std::abs(y[j]));
     const double error = 1e-14 * (size + std::abs(z[i]) + std::abs(z[j])) * size;
     if (std::abs(e[i]) <= error)
@@ -179,7 +179,7 @@ void TriangleBvh::build(std::uint32_t first, std::uint32_t count, std::vector<Aa
     centers.extend(boxes[order_[i]].center());
   }
   nodes_[self].box = box;
-  if (count <= 4) {  // a leaf: so few triangles are tested as quickly as two more boxes
+  if (count <= 4) {  // a leaf: testing so few triangles costs no more than two boxes
     nodes_[self].first = first;
     nodes_[self].count = count;
     return;

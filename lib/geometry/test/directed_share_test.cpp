@@ -1,4 +1,4 @@
-// The check of one solid against another with idle threads, which do not change its answer.
+// Directed check with idle threads, which do not change its answer.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,8 +42,8 @@ Outcome check(const Solid& a, const Solid& b, const std::vector<Pose>& way, cons
   return o;
 }
 
-/// A rough peg in a sleeve of its size, moved straight, turned, or wound, with all the budget or a part of what it
-/// takes: what is found, where, and at what expense.
+/// A rough peg in a sleeve of its size, moved straight, turned, or wound, with a full or a partial budget: the finding,
+/// its place, and the budget spent.
 TEST(DirectedShare, NobodyCanTellHowManyThreadsThereWere) {
   Rng rng(31);
   std::map<Answer, int> seen;

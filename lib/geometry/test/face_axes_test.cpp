@@ -1,4 +1,4 @@
-// Axes of faces: every face is counted once, with the axis that is nearest to it, however the mesh lies.
+// Face axes: every face counts once, for the nearest axis, at any orientation of the mesh.
 #include "dismantle/geometry/face_axes.h"
 
 #include <gtest/gtest.h>

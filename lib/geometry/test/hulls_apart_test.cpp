@@ -15,7 +15,7 @@ using shapes::random_pose;
 using shapes::random_vector;
 using shapes::Vec3;
 
-/// Many small parts, more than are kept under one box, and where they stand.
+/// Many small parts, more than one run holds, and their poses.
 struct Heap {
   std::vector<Mesh> meshes;
   std::vector<Aabb> boxes;

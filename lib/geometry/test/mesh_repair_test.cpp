@@ -65,7 +65,7 @@ TEST(Weld, DropsDegenerateTrianglesAndUnusedVertices) {
   EXPECT_EQ(m.vertices.size(), 8u);
 }
 
-/// Vertices are one exactly where they are equal, and 0 equals -0.
+/// Exactly the equal vertices are merged, and 0 equals -0.
 TEST(Weld, WithoutAToleranceEqualPositionsAreOne) {
   Rng rng(3);
   const std::vector<double> coordinates{0.0, -0.0, 1.0, 1.0 + 1e-15, 1e-300, -1e-300};

@@ -1,4 +1,4 @@
-// Samples that show that a motion cuts in.
+// Samples that prove penetration of a motion.
 #include "dismantle/geometry/motion_samples.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 using shapes::Vec3;
 
-/// A peg that is moved some way in its sleeve, and about as deep into its wall as is allowed: what a look that stops at
-/// the first finds says the same as one at all samples, and never disagrees with the proof.
+/// A peg that moves in its sleeve, about as deep into the wall as allowed: stopping at the first bad sample gives the
+/// same answer as taking all samples, and never contradicts the proof.
 TEST(Sampling, StopsAtWhatTheProofWouldFindToo) {
   Rng rng(17);
   int beyond = 0, within = 0;

@@ -1,4 +1,4 @@
-// Long constructions can be given up at any of their polls.
+// Long constructions can be aborted at any of their polls.
 #include "dismantle/geometry/poll.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ struct GivenUp : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The polls while the mesh is made ready for checks; the one of that number throws.
+/// Counts the polls while the mesh is prepared for checks; poll number `last` throws.
 std::size_t polls_of(const Mesh& mesh, std::size_t last) {
   std::size_t polls = 0;
   const Poll poll = [&] {

@@ -13,7 +13,7 @@ namespace {
 
 using shapes::Vec3;
 
-/// Distance to the triangle along the ray; infinity when it is missed.
+/// Distance to the triangle along the ray; infinity if the ray misses it.
 double hit(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& from, const Vec3& along) {
   const Vec3 normal = (b - a).cross(c - a);
   const double d = normal.dot(a - from) / normal.dot(along);

@@ -1,4 +1,4 @@
-// Boxes along a path hold the part at all times, and what they tell apart is apart.
+// Boxes along a path contain the part at all times, and a reported separation is true.
 #include "dismantle/geometry/swept_boxes.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Pose at(const std::vector<Pose>& poses, std::size_t segment, double u) {
   return poses.size() == 1 ? poses[0] : screw_interpolate(poses[segment], poses[segment + 1], u);
 }
 
-/// Is the second further from the first than `distance`, along some axis?
+/// True if the second is further from the first than `distance` along an axis.
 bool apart_by(const Aabb& a, const Aabb& b, double distance) {
   Aabb around = a;
   around.inflate(distance);
@@ -53,8 +53,8 @@ TEST(SweptBoxes, HoldTheBoxAtAllTimes) {
   }
 }
 
-/// Both moving, or one of them not: what is told to be apart is so at all times, and what is near at the end of a
-/// segment is never told to be apart.
+/// Both parts move, or one is fixed: parts reported apart are apart at all times, and parts near at the end of a
+/// segment are never reported apart.
 TEST(SweptBoxes, MeetExactlyWhereBoxesOfTheSameTimeDo) {
   Rng rng(12);
   int met = 0, missed = 0;
@@ -76,7 +76,7 @@ TEST(SweptBoxes, MeetExactlyWhereBoxesOfTheSameTimeDo) {
   EXPECT_GT(missed, 40) << "the test would be empty";
 }
 
-/// A detour around a part: the box of the whole path holds it, those of the segments do not.
+/// A detour around a part: the box of the whole path contains the part, those of the segments do not.
 TEST(SweptBoxes, APathAroundAPartDoesNotMeetIt) {
   Aabb unit;
   unit.extend(Vector3d::Constant(-0.5));

@@ -78,7 +78,7 @@ TEST(TriangleBvh, ShellsCountAsTheirUnionAndVoidsAsOutside) {
 }
 
 TEST(TriangleBvh, RaysThroughEdgesAndCornersAreCountedRight) {
-  // Spheres are full of vertices; shoot from the very directions that the rays use, mirrored.
+  // Spheres have many vertices and edges that rays may hit.
   const TriangleBvh bvh(shapes::sphere(Vec3::Zero(), 1, 3));
   Rng rng(4);
   for (int i = 0; i < 5000; ++i) {

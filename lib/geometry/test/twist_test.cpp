@@ -1,4 +1,4 @@
-// A body follows the flow of a twist, and the twist that fits velocities is the one that made them.
+// A body follows the flow of a twist, and fitting its velocities gives the same twist.
 #include "dismantle/geometry/twist.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(MovedAlong, IsTheFlowOfTheTwist) {
     Twist t{normal_vector(rng), normal_vector(rng)};
     if (i % 4 == 0) t.angular.setZero();
     const Vector3d center = start * local;
-    // Twice half of the motion is all of it: in the axes of the part the screw stays the same.
+    // Two half motions equal the whole motion: the screw is constant in the axes of the part.
     const double duration = rng.uniform(-1, 1);
     const Pose half = moved_along(start, t, center, duration / 2);
     const Eigen::Quaterniond turn = half.q * start.q.conjugate();

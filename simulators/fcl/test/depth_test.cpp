@@ -31,7 +31,7 @@ struct Pair {
   PairCheck check{p};
 };
 
-/// A small box sunk into a large plate by d is d deep, wherever both stand.
+/// A small box sunk into a large plate by d is d deep, at any pose of both.
 TEST(FclDepth, BoxInPlate) {
   Rng rng(1);
   const Mesh box = shapes::box({-0.5, -0.4, 0}, {0.5, 0.4, 1}), plate = shapes::box({-5, -5, -1}, {5, 5, 0});
@@ -70,7 +70,7 @@ TEST(FclDepth, SphereInPlate) {
   }
 }
 
-/// Wholly inside is a collision although no surfaces meet; inside a void is none.
+/// A part wholly inside another collides although no surfaces meet; a part inside a void does not.
 TEST(FclDepth, Containment) {
   const Mesh outer = shapes::box({-2, -2, -2}, {2, 2, 2}), inner = shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
   Pair pair(inner, outer), swapped(outer, inner);
@@ -85,7 +85,7 @@ TEST(FclDepth, Containment) {
   EXPECT_EQ(hollow.depth(off, {}), 0);
 }
 
-/// Faces that touch, or sink in by rounding, are no obstacle; nor is what overlapped when assembled, for its own pair.
+/// Faces that touch, or sink in by rounding, are no obstacle; nor is the assembled overlap of a pair, for that pair.
 TEST(FclDepth, FlushAndOverlap) {
   Rng rng(3);
   const Mesh block = shapes::box({-2, -2, 0}, {2, 2, 1}), base = shapes::box({-3, -3, -1}, {3, 3, 0});
@@ -109,8 +109,8 @@ Mesh part_of(const char* sample, const char* name) {
   throw std::runtime_error(name);
 }
 
-/// Against the verifier's own measure, on real shapes a little off their places: what is measured is never more than
-/// the truth, what is reported never less.
+/// Against the verifier's own measure, on slightly displaced real shapes: a measured depth never exceeds the true
+/// depth, and a reported depth is never below it.
 TEST(FclDepth, SoundAgainstTheJudge) {
   constexpr double kTolerance = 2e-4;
   Rng rng(4);
@@ -142,7 +142,7 @@ TEST(FclDepth, SoundAgainstTheJudge) {
   EXPECT_GT(certified, 0);
 }
 
-/// A shrunken copy lies within its depth of the original, and inside of it.
+/// A shrunken copy lies inside the original and within its depth of it.
 TEST(FclDepth, Insets) {
   for (const Mesh& mesh : {part_of("peg_in_hole", "block"), part_of("bolt_and_nut", "bolt"),
                            part_of("l_slot", "housing"), shapes::closed_box({-2, -2, -2}, {2, 2, 2}, 0.004)}) {
@@ -161,7 +161,7 @@ TEST(FclDepth, Insets) {
   }
 }
 
-/// A wall that is thinner than the step in depth stops a shrunken copy, too.
+/// A wall thinner than the depth step also stops a shrunken copy.
 TEST(FclDepth, ThinWallIsNoHole) {
   Pair pair(shapes::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}), shapes::box({-3, -3, 0}, {3, 3, 0.003}));
   for (double z = -0.49; z < 0.49; z += 0.01) EXPECT_GT(pair.depth(shapes::shift({0.1, 0.2, z}), {}), 0.0007) << z;
@@ -224,7 +224,7 @@ TEST_F(FclWorld, AnswersDependOnTheStateAlone) {
   for (std::size_t i = states.size(); i-- > 0;) EXPECT_EQ(w->penetration(states[i]), first[i]);
 }
 
-/// Equal parts share one hierarchy, wherever they stand.
+/// Equal parts share one hierarchy, at any pose.
 TEST_F(FclWorld, EqualPartsShare) {
   prepared = simulator.prepare(assembly, 0.01, context);
   const auto& bodies = dynamic_cast<const PreparedBodies&>(*prepared);

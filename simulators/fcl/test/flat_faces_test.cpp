@@ -44,7 +44,7 @@ TEST(FlatFaces, CurvedSurfacesStay) {
   EXPECT_EQ(merge_flat_faces(ball, kTolerance).triangles.size(), ball.triangles.size());
 }
 
-/// All samples, cut finely: what comes back has no more triangles than the sample has and is the same surface.
+/// All samples, finely subdivided: the result has no more triangles than the sample and is the same surface.
 TEST(FlatFaces, SamplesKeepTheirShape) {
   for (const auto& sample : samples::list())
     for (const RawPart& part : samples::make(sample.name)) {

@@ -126,7 +126,7 @@ Eigen::Vector3d BodyWorld::shift_of(int body, const Eigen::Vector3d& point, cons
 
 template <int Dof>
 void BodyWorld::follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel) {
-  // The error of the linear model of the contacts is of second order in the way.
+  // The error of the linear contact model is of second order in the motion.
   since_update_ += travel;
   if (since_update_ > contact_depth_) {
     touching_at_.clear();
@@ -246,7 +246,7 @@ template <int Dof>
 void BodyWorld::settle(State& state, double depth) {
   using Solver = StepSolver<Dof>;
   const auto n = dof();
-  for (int round = 0; round < 3; ++round) {  // of Newton; what is left then is corrected after the next step
+  for (int round = 0; round < 3; ++round) {  // Newton rounds; the next step corrects the rest
     if (deepest() <= depth) return;
     build_rows(state, 0);
     const auto weight = stay_put<Dof>(1e-3 * options_.stiffness);
@@ -255,7 +255,7 @@ void BodyWorld::settle(State& state, double depth) {
     if (!x.allFinite()) return;
     // A correction larger than a step would be a jump, not a correction.
     const double travel = travel_of<Dof>(x);
-    if (travel < geometry::kRounding * bodies_.front().radius) return;  // squeezed from both sides
+    if (travel < geometry::kRounding * bodies_.front().radius) return;  // blocked from both sides
     if (travel > options_.max_travel) x *= options_.max_travel / travel;
     follow_contacts<Dof>(state, x, displace<Dof>(state, x));
   }
@@ -265,7 +265,7 @@ template <int Dof>
 void BodyWorld::keep_off(State& state, double clearance) {
   using Solver = StepSolver<Dof>;
   const auto n = dof();
-  for (int round = 0; round < 6; ++round) {  // contacts that the first rounds bring near need rounds of their own
+  for (int round = 0; round < 6; ++round) {  // early rounds bring other contacts near
     update_contacts(state);
     build_rows(state, 0);
     for (auto& row : rows_) row.gap -= clearance;
@@ -287,8 +287,8 @@ double BodyWorld::room(const State& state, double most) {
   return least;
 }
 
-/// Squeezed from all sides, many contacts would push the body into the few on the other side: clearance is wanted of
-/// all alike only as far as all can have it. What is still deep inside something is left there.
+/// In a tight place, many contacts would push the body into the few on the other side. So the wanted clearance is
+/// halved until all contacts can have it. A body deep inside another one stays there.
 void BodyWorld::project_to_clearance(State& state, double clearance) {
   double most = room(state, clearance);
   for (double wanted = clearance; most < wanted && wanted > contact_depth_; wanted /= 2) {
@@ -324,7 +324,7 @@ void BodyWorld::contacts(const State& state, std::vector<Contact>& out) {
     Contact contact;
     Eigen::Vector3d normal = c.normal;
     double gap = c.gap;
-    for (int k = 0; k < c.plane_count; ++k)  // as the solver sees it
+    for (int k = 0; k < c.plane_count; ++k)  // as in the solver
       if (c.planes[k].gap > gap) gap = c.planes[k].gap, normal = c.planes[k].normal;
     contact.on_edge = c.plane_count > 0;
     contact.point = c.point;

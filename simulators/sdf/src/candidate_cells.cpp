@@ -9,7 +9,7 @@
 namespace dismantle::sdf {
 namespace {
 
-constexpr std::align_val_t kAligned{64};  // to the lines of the cache
+constexpr std::align_val_t kAligned{64};  // cache lines
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// How deep the parts of a pair may be in each other.
+// Allowed depth of the parts of a pair in each other.
 #include <algorithm>
 
 #include "dismantle/sdf/contact_scene.h"
@@ -35,7 +35,7 @@ void ContactScene::allow_overlap_everywhere() {
   rest_ = nullptr;
   for (auto& pair : pairs_) {
     pair.everywhere = pair.allowed;
-    // What was remembered kept away from edges by less.
+    // Cached linear regions kept a smaller distance from edges.
     for (DirectedContacts* set : {&pair.ab, &pair.ba}) {
       std::fill(set->linear.begin(), set->linear.end(), 0U);
       set->known.clear();

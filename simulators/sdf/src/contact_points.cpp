@@ -19,7 +19,7 @@ struct Edge {
 
 struct Creases {
   std::vector<Edge> convex;
-  std::vector<bool> sheltered;                   ///< per vertex: in a sharp fold, and at no sharp edge
+  std::vector<bool> sheltered;                   ///< per vertex: at a sharp concave edge and at no sharp convex one
   std::vector<std::vector<std::uint32_t>> ends;  ///< per vertex: other ends of its bent edges, convex or not
 };
 
@@ -48,7 +48,7 @@ Creases find_creases(const Mesh& mesh, double sharp_angle) {
       open.erase(other);
       const Eigen::Vector3d nt = normal(t), nu = normal(u.triangle);
       const double bend = std::atan2(nt.cross(nu).norm(), nt.dot(nu));
-      if (std::cos(bend) > geometry::kSameDirection) continue;  // tessellation of a flat face
+      if (std::cos(bend) > geometry::kSameDirection) continue;  // inside a flat face
       result.ends[from].push_back(to);
       result.ends[to].push_back(from);
       // Convex: the neighbour's apex lies below this triangle's plane.
@@ -62,7 +62,7 @@ Creases find_creases(const Mesh& mesh, double sharp_angle) {
   return result;
 }
 
-/// False inside flat faces and where a crease runs straight through.
+/// False inside flat faces and on straight creases.
 bool is_corner(const Mesh& mesh, const std::vector<std::uint32_t>& ends, std::uint32_t v) {
   if (ends.empty()) return false;
   if (ends.size() != 2) return true;
@@ -70,7 +70,7 @@ bool is_corner(const Mesh& mesh, const std::vector<std::uint32_t>& ends, std::ui
   return !((mesh.vertices[v] - a).normalized().dot((b - mesh.vertices[v]).normalized()) > geometry::kSameDirection);
 }
 
-/// Keeps points that are at least `distance` from those kept before.
+/// Keeps points at a distance of at least `distance` from all points kept before.
 class Thinning {
  public:
   explicit Thinning(double distance) : distance_(distance) {}
@@ -144,7 +144,7 @@ ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions&
   const double room = std::max(1000.0, static_cast<double>(options.max_points) - static_cast<double>(points.size()));
   const double spacing = std::max(options.spacing, sharp_length / room);
 
-  // Sharp edges first; the smooth ones then fill what is left per area.
+  // Sharp edges first; smooth edges then fill the remaining area.
   Thinning sharp(0.6 * spacing), smooth(0.8 * spacing);
   for (const bool want_sharp : {true, false})
     for (const Edge& e : creases.convex) {

@@ -8,12 +8,12 @@
 namespace dismantle::sdf {
 namespace {
 
-/// A bound on the distance is as good as the distance beyond this many margins.
+/// Beyond this many margins a bound of the distance is sufficient.
 constexpr double kFarEnough = 2;
-/// Odometer reading at which a block wakes that has a point within the margin: immediately.
+/// Wake value of a block with a point within the margin: wakes immediately.
 const double held_block = -std::numeric_limits<double>::infinity();
 
-/// What a way from an anchor and its distance may be off: both are kept in single precision.
+/// Error of the motion from an anchor and of its distance, both stored in single precision.
 double rounding_of(const Anchor& anchor) {
   return std::numeric_limits<float>::epsilon() * (anchor.point.lpNorm<1>() + std::abs(anchor.distance));
 }
@@ -24,7 +24,7 @@ Aabb world_box(const Aabb& local, const Pose& pose) {
   return {center - half, center + half};
 }
 
-/// Is p where the distance is known to be linear?
+/// True if p is in a region where the distance is known to be linear.
 bool is_linear_at(const DirectedContacts& set, std::uint32_t place, const Eigen::Vector3d& p) {
   if (place == 0) return false;
   const LinearDistance& known = set.known[place - 1];
@@ -100,7 +100,7 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
     rough.value = field.grid->value(p, rough.normal);
     return rough;
   }
-  // Clearly too far to matter: a bound will do, of the grid or of finer cells. Else the grid tells how far to search.
+  // If the point is clearly far, a bound from the grid or from finer cells suffices. Else the grid limits the search.
   const double enough = kFarEnough * margin_;
   double bound = field.grid->lower_bound(p);
   if (bound <= enough) bound = std::max(bound, field.surface->lower_bound(p, hint, near.list));
@@ -114,19 +114,18 @@ Sample ContactScene::signed_distance(const SolidField& field, const Eigen::Vecto
     hint = s.triangle;
     return s;
   }
-  // Nothing within the limit: far outside, or deep inside, which only the grid can tell.
+  // Nothing within the limit: far outside or deep inside, which only the grid can distinguish.
   rough.value = limit;
   if (field.box.contains(p)) {
     const double inside = field.grid->value(p, rough.normal);
-    // Where the grid cannot tell inside from outside the triangles have to.
+    // Where the grid cannot decide inside or outside, query the triangles.
     if (std::abs(inside) <= 2 * field.grid->error_near()) return field.surface->sample(p);
     if (inside < 0) rough.value = std::min(inside, -limit);
   }
   return rough;
 }
 
-/// Brings what the points' distances are measured with into the cache, for all of them at a time. Where the distance is
-/// linear nothing is read.
+/// Prefetches the data for the distances of all points together. Points with linear distance need none.
 void ContactScene::find_lists(const SurfaceQuery& surface, const DirectedContacts& set, std::span<AwakePoint> points) {
   std::array<Eigen::Vector3d, SurfaceQuery::kMostPrefetched> at;
   std::array<std::uint32_t, SurfaceQuery::kMostPrefetched> asked, hints;
@@ -157,7 +156,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     set.ready = true;
   }
   const bool local = pair.everywhere < pair.allowed, single = model_ == DistanceModel::exact && solids == 1;
-  // What a bound on the distance has to exceed to be as good; below it distances were measured on triangles.
+  // A bound above this replaces the distance; below it, distances were measured on triangles.
   const double near_enough = kFarEnough * margin;
   const Pose to_target = world_[surface].inverse() * world_[owner];
   const Eigen::Matrix3d rotation = to_target.q.toRotationMatrix();
@@ -212,7 +211,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     Touch best;
     best.distance = reach_;
     for (std::size_t s = 0; s < solids; ++s) {
-      // Box distance bounds the signed distance from below outside: most solids drop out here.
+      // Outside, the box distance is a lower bound of the signed distance: it excludes most solids.
       const Aabb& box = target.solids[s].box;
       if (best.distance <= 0 ? !box.contains(p) : box.squared_distance(p) >= best.distance * best.distance) continue;
       Sample sample;
@@ -225,13 +224,13 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
     return best;
   };
 
-  // First the points that may be near, of all blocks; then their distances, so that many wait for memory at a time.
+  // Collect the points that may be near, then measure their distances together, so that memory accesses overlap.
   awake_.clear();
   for (std::uint32_t k = 0; k < points.points.blocks.size(); ++k) {
     if (set.wake[k] > odometer) continue;
     const PointBlock& block = points.points.blocks[k];
     const Eigen::Vector3d center = rotation * block.center + shift;
-    // Where a point was listed a bound for the whole block tells nothing yet.
+    // If a point was listed, a bound for the whole block is of no use yet.
     const bool held = set.wake[k] == held_block;
     double lower = held ? 0.0 : std::sqrt(target.box.squared_distance(center)) - block.radius;
     if (!held && lower + pair.everywhere < margin) {
@@ -242,7 +241,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
       }
       lower = std::max(lower, free - block.radius);
     }
-    // A bound of zero may be inside, at any depth.
+    // With a bound of zero the block may be inside, at any depth.
     double slack = lower > 0 ? lower + pair.everywhere - margin : -1.0;
     if (slack > 0) {
       set.wake[k] = odometer + slack;
@@ -255,7 +254,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         continue;
       }
       AwakePoint point{i, k, false, rotation * points.points.points[i] + shift, {}};
-      // The odometer counts the way of the point that went furthest; this one may have stayed far enough away.
+      // The odometer bounds the motion of all points; this point may have moved less and still be far enough away.
       if (const Anchor& anchor = set.anchor[i]; anchor.is_known()) {
         const double way = (point.at - anchor.point.cast<double>()).norm() + rounding_of(anchor);
         const double beyond = anchor.distance - way + pair.everywhere - margin;
@@ -265,13 +264,13 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
           continue;
         }
         point.near.surely = single && std::abs(anchor.distance) + way < near_enough;
-        // A point that goes on as far as it has come leaves a smaller radius. Who sees surroundings asks for all.
+        // If a point keeps moving as far as before, it leaves any smaller radius. Surroundings need all radii.
         if (!surroundings_) point.near.way = way;
       }
       point.linear = is_linear_at(set, set.linear[i * solids], point.at);
       awake_.push_back(point);
     }
-    set.wake[k] = odometer + slack;  // of points that are awake: below
+    set.wake[k] = odometer + slack;  // for awake points: set below
   }
   for (std::size_t begin = 0; begin < awake_.size(); begin += SurfaceQuery::kMostPrefetched) {
     const std::span chunk =
@@ -286,7 +285,7 @@ void ContactScene::scan(ContactPair& pair, DirectedContacts& set, std::uint32_t 
         const double allowed = local ? std::max<double>(pair.everywhere, set.own[i]) : pair.everywhere;
         const Touch touch = nearest(p, &set.hint[i * solids], &set.linear[i * solids], allowed, near);
         beyond = touch.distance + allowed - margin;
-        // Interpolated distances may change faster than the way.
+        // Interpolated distances may change faster than the point moves.
         if (model_ == DistanceModel::exact && (touch.distance > 0 || touch.sample.triangle != geometry::kNoIndex))
           set.anchor[i] = {p.cast<float>(), static_cast<float>(touch.distance)};
         if (beyond < 0) emit(p, touch, allowed);
@@ -312,7 +311,7 @@ void ContactScene::update_pair(ContactPair& pair, std::vector<ContactPoint>& out
   const double odometer = odometer_[pair.a] + (pair.b < moving_ ? odometer_[pair.b] : 0.0);
   if (pair.wake > odometer) return;
   const double gap = box_gap(boxes_[pair.a], boxes_[pair.b]), slack = gap + pair.everywhere - margin_;
-  if (gap > 0 && slack > 0) {  // boxes that overlap tell nothing
+  if (gap > 0 && slack > 0) {  // overlapping boxes give no bound
     pair.wake = odometer + slack;
     return;
   }
@@ -321,7 +320,7 @@ void ContactScene::update_pair(ContactPair& pair, std::vector<ContactPoint>& out
   scan(pair, pair.ba, pair.b, pair.a, margin_, odometer, out);
 }
 
-/// The first update, with every part where it was when assembled: pairs are as another scene has found them.
+/// The first update with every part in assembled position: copies the pairs measured by another scene.
 void ContactScene::begin_at_rest(std::vector<ContactPoint>& out) {
   for (auto& pair : pairs_) {
     const Member &a = members_[pair.a], &b = members_[pair.b];

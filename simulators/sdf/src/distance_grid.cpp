@@ -6,7 +6,7 @@
 
 namespace dismantle::sdf {
 namespace {
-constexpr float kFar = 1e30f;  // not computed yet; larger than any distance, and sums of it are finite
+constexpr float kFar = 1e30f;  // not computed yet; above any distance, with finite sums
 }  // namespace
 
 DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options)
@@ -47,7 +47,7 @@ DistanceGrid::DistanceGrid(const Solid& solid, const SurfaceQuery& surface, cons
   exact_ = {};
 }
 
-/// Each node looks no further than its neighbour's distance and the way from there.
+/// The neighbour's distance plus the step between them limits the search at each node.
 void DistanceGrid::fill(const SurfaceQuery& surface) {
   for (int k = 0; k < nodes_[2]; ++k)
     for (int j = 0; j < nodes_[1]; ++j) {
@@ -62,8 +62,8 @@ void DistanceGrid::fill(const SurfaceQuery& surface) {
     }
 }
 
-/// Every node within one cell of a triangle's plane region gets its exact signed distance. Candidates are
-/// found by walking the box of each triangle, plane distance first; one exact query each.
+/// Sets the exact signed distance at all nodes within about one cell of a triangle. Candidates are the nodes in the box
+/// of each triangle and near its plane, with one exact query each.
 void DistanceGrid::fill_band(const Solid& solid, const SurfaceQuery& surface) {
   const double reach = 1.01 * cell_.maxCoeff();
   for (std::uint32_t t = 0; t < solid.mesh.triangles.size(); ++t) {
@@ -79,7 +79,7 @@ void DistanceGrid::fill_band(const Solid& solid, const SurfaceQuery& surface) {
     const double offset = n.dot(solid.mesh.vertex(t, 0));
     for (int k = lo[2]; k <= hi[2]; ++k)
       for (int j = lo[1]; j <= hi[1]; ++j) {
-        // On this row of nodes the plane distance is linear in i: only a run of it is near the plane.
+        // The plane distance is linear in i along this row: only a range of nodes is near the plane.
         const double y = origin_[1] + j * cell_[1], z = origin_[2] + k * cell_[2];
         const double base = n.x() * origin_[0] + n.y() * y + n.z() * z - offset, slope = n.x() * cell_[0];
         int from = lo[0], to = hi[0];
@@ -103,7 +103,7 @@ void DistanceGrid::fill_band(const Solid& solid, const SurfaceQuery& surface) {
   }
 }
 
-/// Along each row the sign can only change where exact nodes lie: the band is wider than a cell.
+/// Along a row the sign changes only at exact nodes, since the band is wider than a cell.
 void DistanceGrid::propagate_signs() {
   for (int k = 0; k < nodes_[2]; ++k)
     for (int j = 0; j < nodes_[1]; ++j) {
@@ -164,15 +164,15 @@ void DistanceGrid::sweep() {
   }
 }
 
-/// The cell of p, which lies in the grid, and where p is in it.
+/// The cell that contains p (clamped to the grid), and the position of p in it.
 inline DistanceGrid::Place DistanceGrid::locate(const Eigen::Vector3d& p) const {
   const Eigen::Array3d g = ((p - origin_).array() * inverse_cell_.array()).max(0.0).min(last_);
   const Eigen::Array3i base = g.cast<int>().min(nodes_ - 2);
   return {index(base.x(), base.y(), base.z()), g - base.cast<double>()};
 }
 
-/// Trilinear. Pairs of values lie side by side, so that each operation does two of them: along x for the two rows of a
-/// slice, then along z for both, then along y.
+/// Trilinear, on pairs of values so that each operation handles two: along x for both rows of a slice, then along z,
+/// then along y.
 inline double DistanceGrid::interpolate(const Place& place, Eigen::Vector3d* gradient) const {
   const float* v = values_.data() + place.first;
   const std::size_t sy = static_cast<std::size_t>(nodes_[0]), sz = sy * static_cast<std::size_t>(nodes_[1]);
@@ -201,12 +201,12 @@ double DistanceGrid::value(const Eigen::Vector3d& p) const {
 double DistanceGrid::value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const {
   double value = interpolate(locate(p), &gradient);
   if (!box_.contains(p)) {
-    // Beyond the grid: straight on from where the grid ends.
+    // Beyond the grid: extended from the nearest point of the grid.
     const Eigen::Vector3d beyond = p - p.cwiseMax(box_.lo).cwiseMin(box_.hi);
     gradient = gradient * std::max(value, 0.0) + beyond;
     value += beyond.norm();
   }
-  // Slopes of distances are at most some units, so nothing overflows.
+  // Gradients of distances are of order 1, so nothing overflows.
   if (const double squared = gradient.squaredNorm(); squared > std::numeric_limits<float>::min())
     gradient *= 1 / std::sqrt(squared);
   return value;
@@ -217,13 +217,13 @@ double DistanceGrid::lower_bound(const Eigen::Vector3d& p) const {
   if (!box_.contains(p)) return std::sqrt(box_.squared_distance(p));
   const Place place = locate(p);
   const double value = interpolate(place, nullptr);
-  // The distance grows no faster than the way: interpolated, the ways from the nodes are at most the root of their
-  // interpolated squares.
+  // Distance is 1-Lipschitz; the interpolated distances to the nodes are at most the root of their interpolated
+  // squares.
   if (exact_everywhere_) {
     const double squared = (place.share * (1 - place.share) * cell_.array().square()).sum();
     return std::max(0.0, value - std::sqrt(squared) - rounding_);
   }
-  // First-order sweeping overestimates; what it adds stays below a tenth of the way plus a cell's diagonal.
+  // First-order sweeping overestimates by less than a tenth of the distance plus a cell's diagonal.
   return std::max(0.0, 0.9 * value - 1.5 * cell_.norm());
 }
 

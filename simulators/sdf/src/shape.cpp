@@ -16,7 +16,7 @@
 namespace dismantle::sdf {
 namespace {
 
-/// Axes of the smallest box among those along pairs of the largest face directions, and the mesh's own axes.
+/// Axes of the smallest box along pairs of the largest face directions or along the mesh's own axes.
 Eigen::Quaterniond box_frame(const Mesh& mesh) {
   std::vector<geometry::FaceAxis> directions;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -94,7 +94,7 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
   std::vector<std::size_t> distinct;
   for (std::size_t i = 0; i < n; ++i) {
     model[i] = i;
-    // Coordinates of files are in single precision.
+    // Coordinates in files have single precision.
     const double same = std::numeric_limits<float>::epsilon() * assembly.parts[i].mesh->box().size().norm();
     for (std::size_t d : distinct)
       if (const auto pose = geometry::congruence(*assembly.parts[d].mesh, *assembly.parts[i].mesh, same)) {
@@ -105,7 +105,7 @@ std::vector<Placed> build_shapes(const Assembly& assembly, const ShapeOptions& o
     if (model[i] == i) distinct.push_back(i);
   }
 
-  // Contact points lie as dense as the thinnest part asks for: nothing may slip between two of them.
+  // The thinnest part determines the density of contact points: no part may slip between two of them.
   std::vector<Pose> to_shape(distinct.size());
   double thinnest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < distinct.size(); ++k) {

@@ -42,7 +42,7 @@ void SurfaceQuery::find_faces(const Solid& solid) {
 }
 
 void SurfaceQuery::find_convex_features(const Solid& solid) {
-  const double flat = std::numeric_limits<float>::epsilon();  // sine of a bend that rounding makes
+  const double flat = std::numeric_limits<float>::epsilon();  // sine of a bend due to rounding
   const Mesh& mesh = solid.mesh;
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::size_t>> open;
@@ -59,7 +59,7 @@ void SurfaceQuery::find_convex_features(const Solid& solid) {
       const auto [u, j] = other->second;
       open.erase(other);
       const Eigen::Vector3d along = (mesh.vertices[to] - mesh.vertices[from]).stableNormalized();
-      // Positive where the surface bends away from the viewer outside.
+      // Positive if the edge is convex seen from outside.
       const double bend = face_[t].cross(face_[u]).dot(along);
       if (bend > flat || (std::abs(bend) <= flat && face_[t].dot(face_[u]) < 0)) {
         neighbor_[t][k] = u;
@@ -125,7 +125,7 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
     const Plane& plane = planes_[face_of_[triangle_[slot]]];
     const double gap = plane.normal.dot(p) - plane.offset;
     if (gap < -behind || gap >= certain) return;
-    // What lies behind all fronts is out of reach.
+    // A triangle behind all fronts is out of reach.
     const Corner& k = corners_[slot];
     bool in_reach = false;
     for (int i = 0; i < front_count && !in_reach; ++i) {
@@ -142,7 +142,7 @@ double SurfaceQuery::surroundings(const Eigen::Vector3d& p, const FacePlane* fro
     const Closest c = closest(p, k.a, k.ab, k.ac);
     if (c.squared >= certain * certain) return;
     const double distance = std::sqrt(c.squared);
-    // Where the surface goes on, only a little bent.
+    // The surface continues with only a small bend.
     if (plane.normal.dot(fronts[0].normal) > smooth && gap < smooth * distance) return;
     if (count < kMaxPlanes && (c.feature == Feature::face || plane.normal.dot(c.offset) > smooth * distance))
       out[count++] = {plane.normal, std::max(gap, 0.0)};

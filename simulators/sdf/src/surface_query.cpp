@@ -45,13 +45,13 @@ SurfaceQuery::SurfaceQuery(const Solid& solid, double near, const geometry::Poll
   poll.before(n);
   find_convex_features(solid);
   if (n == 0) return;
-  // 24 cells along the longest edge of the part, or along what surrounds one that is smaller: more cells use more
-  // memory than they save time.
+  // 24 cells along the longest edge of the part, or of the region around a small part: more cells cost memory and save
+  // little time.
   const double cell = std::clamp(solid.mesh.box().size().maxCoeff() / 24, 2 * near_ / 24, 0.5 * near_);
   cells_ = std::make_unique<CandidateCells>(reach, cell);
 }
 
-/// Of triangles that are as near the first one counts, so that the answer does not depend on where the search began.
+/// Ties go to the first triangle, so that the answer does not depend on where the search began.
 inline void SurfaceQuery::update_nearest(const Eigen::Vector3d& p, std::uint32_t slot, Nearest& nearest) const {
   const Corner& k = corners_[slot];
   const Closest c = closest(p, k.a, k.ab, k.ac);
@@ -60,8 +60,8 @@ inline void SurfaceQuery::update_nearest(const Eigen::Vector3d& p, std::uint32_t
     nearest = {c.squared, slot, c};
 }
 
-/// The triangle closest to a point of the cell is no further from the centre than the centre's own closest triangle
-/// and twice the half diagonal.
+/// The triangle closest to a point of the cell is at most the centre's own distance plus a full diagonal from the
+/// centre.
 CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::uint32_t near_slot) const {
   CandidateDraft list;
   list.center = center;
@@ -76,7 +76,7 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
   if (!list.usable) return list;
   const PointLanes at(center);
   const float filter = TriangleSlabs::filter(reach * reach);
-  std::array<std::uint32_t, 64> pending;  // the tree is balanced: no deeper than the bits of a number
+  std::array<std::uint32_t, 64> pending;  // the tree is balanced: its depth is at most the bits of an index
   std::size_t left = 0;
   pending[left++] = 0;
   while (left > 0) {
@@ -96,7 +96,7 @@ CandidateDraft SurfaceQuery::candidates_of(const Eigen::Vector3d& center, std::u
     for (std::uint32_t s = n.first; s < n.first + n.count; ++s) {
       const float squared = slabs_[s].squared_distance(at);
       if (squared > filter) continue;
-      if (list.candidates.size() == 256) {  // with more the tree is faster, although few of a sorted list are examined
+      if (list.candidates.size() == 256) {  // above that the tree is faster, although few of a sorted list are examined
         list.candidates.clear();
         list.candidates.shrink_to_fit();
         list.usable = false;
@@ -125,7 +125,7 @@ void SurfaceQuery::build(std::uint32_t first, std::uint32_t count, std::vector<s
     nodes_[self].lo[k] = below(box.lo[k]);
     nodes_[self].hi[k] = above(box.hi[k]);
   }
-  if (count <= 4) {  // a leaf: so few triangles are tested as quickly as two more boxes
+  if (count <= 4) {  // a leaf: testing so few triangles costs no more than two boxes
     nodes_[self].first = first;
     nodes_[self].count = count;
     return;
@@ -151,7 +151,7 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& near
   s.triangle = t;
   s.offset = c.offset;
   s.feature = c.feature;
-  // On a face the normal is known better than p - q tells; on the surface itself p - q says nothing.
+  // On a face the plane normal is more accurate than p - q, which is undefined on the surface itself.
   if (c.feature == Feature::face) {
     const Plane& plane = planes_[face_of_[t]];
     s.normal = plane.normal;
@@ -170,8 +170,8 @@ Sample SurfaceQuery::signed_sample(const Eigen::Vector3d& p, const Nearest& near
   return s;
 }
 
-/// Where the closest point lies inside a face, it stays in the plane of that face until another one comes as near: not
-/// before the point has gone half of the difference between the two distances.
+/// A closest point inside a face stays in the plane of that face until another face is as near, which takes a motion of
+/// at least half the difference of the two distances.
 double SurfaceQuery::flat_radius(const Eigen::Vector3d& p, const Sample& sample, const CandidateList& list,
                                  const FlatnessWanted& wanted) const {
   if (sample.feature != Feature::face) return 0;

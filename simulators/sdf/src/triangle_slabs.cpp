@@ -15,14 +15,14 @@ TriangleSlabs::TriangleSlabs(const Eigen::Vector3d& a, const Eigen::Vector3d& ab
     const double length = v.stableNorm();
     return length > std::numeric_limits<double>::min() ? Eigen::Vector3d(v / length) : otherwise;
   };
-  // Triangles without area have no plane of their own: any axes bound them.
+  // Triangles without area have no plane: any axes bound them.
   const Eigen::Vector3d along = unit_or(edges[0], Eigen::Vector3d::UnitX());
   const Eigen::Vector3d beside = edges[1] - along.dot(edges[1]) * along;
   const Eigen::Vector3d across = unit_or(beside - along.dot(beside) * along, along.unitOrthogonal());
   const Eigen::Vector3d normal = along.cross(across).normalized();
   const Eigen::Vector3d axes[4] = {normal, along, across, unit_or(normal.cross(edges[1]), across)};
-  // A dot product in single precision errs by a rounding of each factor, each product and each sum, all of them below
-  // the distances of point and corner from the origin: 16 roundings of half an epsilon.
+  // A dot product in single precision rounds each factor, product and sum, all bounded by the distances of point and
+  // corner from the origin: 16 roundings of half an epsilon.
   const double rounding = 8.0 * std::numeric_limits<float>::epsilon() * reach;
   for (int k = 0; k < 4; ++k) {
     double lo = std::numeric_limits<double>::infinity(), hi = -lo;

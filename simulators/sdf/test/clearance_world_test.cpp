@@ -1,4 +1,4 @@
-// Keeping off what is near, by as much as there is room for.
+// Projection to clearance, as far as there is room.
 #include "world_scene.h"
 
 namespace dismantle::sdf {
@@ -8,7 +8,7 @@ using namespace test;
 
 class Retreat : public testing::TestWithParam<std::string> {};
 
-/// Least distance to anything in sight, negative inside of it.
+/// Least distance to any contact in range, negative inside.
 double room(World& world, const State& state) {
   std::vector<Contact> contacts;
   world.contacts(state, contacts);
@@ -21,7 +21,7 @@ TEST_P(Retreat, ManyContactsDoNotPushIntoTheFewOnTheOtherSide) {
   Rng rng(11);
   for (int i = 0; i < 12; ++i) {
     SCOPED_TRACE(i);
-    // A plate between a table and the point of a nail, with less room than is asked for.
+    // A plate between a table and the tip of a nail, with less room than requested.
     const double gap = rng.uniform(0.006, 0.03), below = rng.uniform(0.1, 0.9) * gap;
     const double x = rng.uniform(0.3, 0.7), y = rng.uniform(0.3, 0.7), top = 0.2 + gap - below;
     const TestScene scene(

@@ -1,5 +1,5 @@
-/// What contact remembers saves work and changes nothing: a scene that has followed a motion lists what one that has
-/// just been made lists, to the last bit.
+/// The contact cache saves work and changes nothing: after a motion, a scene lists bitwise the same contacts as a new
+/// one.
 #include <gtest/gtest.h>
 
 #include "dismantle/assembly.h"
@@ -65,7 +65,7 @@ TEST(ContactCache, AWarmSceneListsWhatAFreshOneListsToTheLastBit) {
     std::vector<ContactPoint> remembered, measured;
     std::size_t listed = 0;
     for (int step = 0; step < 150; ++step) {
-      // To and fro near the start, by steps that are small, long, or none in some direction.
+      // Back and forth near the start, by steps that are small, long, or zero in some direction.
       const double way = step % 10 == 0 ? 0.2 : step % 3 == 0 ? 0.02 : 0.002;
       for (int k = 0; k < 3; ++k) poses[0].t[k] = 0.8 * poses[0].t[k] + way * rng.uniform(-1, 1);
       const Vector3d turn = way * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
@@ -77,7 +77,7 @@ TEST(ContactCache, AWarmSceneListsWhatAFreshOneListsToTheLastBit) {
       listed += measured.size();
     }
     EXPECT_GT(listed, 100U);
-    // It did save work.
+    // The cache saved work.
     ContactScene again = blank;
     again.update(poses, measured);
     EXPECT_LT(warm.distance_queries(), 150 * again.distance_queries());

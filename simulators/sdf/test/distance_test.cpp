@@ -62,7 +62,7 @@ TEST(SurfaceQuery, WithinTheFlatRadiusDistanceIsLinearAndNoConvexEdgeNear) {
     Rng rng(10);
     std::size_t flat = 0;
     for (int i = 0; i < 600; ++i) {
-      // Near the surface, on either side; a hint is what brings the lists into play.
+      // Near the surface, on both sides; a hint enables the lists.
       const std::size_t t = rng.below(c.mesh.triangles.size());
       const double u = rng.uniform(0, 1), v = rng.uniform(0, 1 - u);
       Eigen::Vector3d p = c.mesh.vertex(t, 0) + u * (c.mesh.vertex(t, 1) - c.mesh.vertex(t, 0)) +
@@ -240,7 +240,7 @@ TEST(SplitSolids, OverlappingShellsAreSeparateSolidsAndVoidsStayWithTheirs) {
   const Mesh two = test::joined(hollow, test::box(Vector3d(0.8, -0.2, -0.2), Vector3d(1.5, 0.2, 0.2)));
   const auto solids = split_solids(two);
   ASSERT_EQ(solids.size(), 2u);
-  // Their union has the winding number's inside, also where the shells overlap.
+  // The inside of their union is that of the winding number, also where the shells overlap.
   std::vector<SurfaceQuery> queries;
   for (const auto& s : solids) queries.emplace_back(s);
   Rng rng(5);

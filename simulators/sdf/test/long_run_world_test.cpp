@@ -1,4 +1,4 @@
-// What holds after very many steps.
+// Laws that hold after very many steps.
 #include <cmath>
 
 #include "dismantle/testing/trials.h"
@@ -21,7 +21,7 @@ bool same_bits(const State& a, const State& b) {
 
 class LongRun : public testing::TestWithParam<std::string> {};
 
-/// A cube in a closed room with play is pushed about: it never gets out, nor deeper into a wall than at first.
+/// A cube is pushed around in a closed room with clearance: it never gets out, nor deeper into a wall than at first.
 TEST_P(LongRun, StuckPartsStayPut) {
   const double play = 0.02;
   const TestScene scene(GetParam(), {box(Vector3d::Constant(-0.5 + play), Vector3d::Constant(0.5 - play)),
@@ -50,8 +50,8 @@ TEST_P(LongRun, StuckPartsStayPut) {
   }
 }
 
-/// A long path is what its actions lead to: begun anew, from any state on the way, on a world that did other things
-/// before, they lead to the same states to the last bit; and the trace is the states.
+/// A long path is reproducible: repeating its actions from any of its states, in a world with another history, gives
+/// bitwise the same states; and the trace equals the states.
 TEST_P(LongRun, APathIsWhatItsActionsLeadTo) {
   const Mesh rail = box(Vector3d(-60, -0.5, -1), Vector3d(60, 0.5, 0));
   const TestScene scene(GetParam(), {box(Vector3d(-0.5, -0.5, 0), Vector3d(0.5, 0.5, 1)), rail}, {});
@@ -83,9 +83,9 @@ TEST_P(LongRun, APathIsWhatItsActionsLeadTo) {
 
 INSTANTIATE_TEST_SUITE_P(Simulators, LongRun, testing::Values("sdf_penalty", "sdf_velocity"));
 
-/// Without a push a cube thrown about in a room loses energy at the walls and gains none: backward Euler damps, however
-/// stiff the contact and however long the step. A body that turns while it touches may gain a little in one step, since
-/// contact is taken for linear; it does not add up.
+/// Without forces, a cube thrown around in a room loses energy at the walls and gains none: backward Euler damps for
+/// any stiffness and step length. A body that rotates in contact may gain a little in one step, since contact is
+/// linearised; the gains do not add up.
 TEST(PenaltyEnergy, OfMotionIsBounded) {
   Rng rng(23);
   const int trials = testing_support::trials(12, 200);
@@ -103,12 +103,12 @@ TEST(PenaltyEnergy, OfMotionIsBounded) {
                              {"max_travel", 0.05}});
       const auto world = scene.world({0}, trial % 3 == 0 ? MotionSpace::translation : MotionSpace::rigid);
       State s = world->initial_state();
-      // In the room nothing goes further than max_travel in a step.
+      // In the room nothing moves further than max_travel in a step.
       const double fast = 0.3 * 0.05 / step;
       s.bodies[0].velocity = fast * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
       if (world->space() == MotionSpace::rigid)
         s.bodies[0].angular_velocity = fast * Vector3d(rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1));
-      // Of motion, for a unit of mass. A cube's inertia is a multiple of the identity: m a^2 / 6.
+      // Kinetic energy per unit of mass. A cube's inertia is a multiple of the identity: m a^2 / 6.
       const double arm = 0.6 * 0.6 / 6;
       const auto energy = [&] {
         return 0.5 * (s.bodies[0].velocity.squaredNorm() + arm * s.bodies[0].angular_velocity.squaredNorm());

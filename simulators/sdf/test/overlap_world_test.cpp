@@ -1,4 +1,4 @@
-// What parts may overlap: what they did when assembled; never a way through anything.
+// Parts may keep their assembled overlap, but never pass through anything.
 #include "world_scene.h"
 
 namespace dismantle::sdf {
@@ -6,7 +6,7 @@ namespace {
 
 using namespace test;
 
-/// Part 0 stands `overlap` deep in part 1 and flush on part 2.
+/// Part 0 is `overlap` deep in part 1 and flush on part 2.
 TestScene overlapping(const std::string& simulator, double overlap, ParamSet given = {}) {
   return TestScene(simulator,
                    {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1 - overlap, -1, -0.5), Vector3d(2, 2, 1)),
@@ -56,7 +56,7 @@ TEST_P(Overlap, HoldsNothingBackOnceRelaxed) {
 }
 
 TEST_P(Overlap, IsNoWayThroughAWall) {
-  // The part overlaps the foot of a wall by more than the wall is thick, and the wall stays a wall.
+  // The part overlaps the foot of a wall by more than the wall is thick, and the wall still blocks.
   const TestScene scene(
       GetParam(),
       {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),

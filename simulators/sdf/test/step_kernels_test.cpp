@@ -1,4 +1,4 @@
-/// What a step computes for many at a time says what one at a time says.
+/// Batched computations of a step agree with single ones.
 #include <gtest/gtest.h>
 
 #include "dismantle/sdf/closest_on_triangle.h"
@@ -20,7 +20,7 @@ TEST(TriangleSlabs, BoundTheDistanceOfAnyTriangleAndMissLittleOfIt) {
   Rng rng(5);
   double missed = 0, measured = 0;
   for (int i = 0; i < 20'000; ++i) {
-    // From 1e-4 to 10 long; every third one a sliver, every seventh without area, every 31st a point.
+    // Lengths from 1e-4 to 10; every third one a sliver, every seventh without area, every 31st a point.
     const double size = std::pow(10.0, rng.uniform(-4, 1));
     const Vector3d a = random_vector(rng, 1), ab = random_vector(rng, size / 2);
     Vector3d ac = random_vector(rng, size / 2);

@@ -1,4 +1,4 @@
-// What a point can run into: on combs of thin fins, in rooms, around tori.
+// Surroundings of points: on combs of thin fins, in rooms, around tori.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A bar along x on which columns of `unit` width stand, each of random height: fins, slots and steps.
+/// A bar along x with columns of `unit` width and random height: fins, slots and steps.
 Mesh comb(Rng& rng, int columns, double unit) {
   std::vector<int> height;
   for (int i = 0; i < columns; ++i) height.push_back(1 + static_cast<int>(rng.below(4)));
@@ -60,15 +60,15 @@ struct Surroundings {
     certain = query.surroundings(p, fronts.data(), static_cast<int>(fronts.size()), reach, 2e-4, more, count);
     walls.assign(more, more + count);
   }
-  /// Is it in front of one of the faces that the point was at, and of all others that were told?
+  /// True if it is in front of one of the point's own faces, and of all other reported faces.
   bool allows(const Vector3d& way) const {
     const auto clear = [&](const FacePlane& f) { return f.gap + f.normal.dot(way) >= 0; };
     return std::any_of(fronts.begin(), fronts.end(), clear) && std::all_of(walls.begin(), walls.end(), clear);
   }
 };
 
-/// Points near the surface take ways that their surroundings allow; `deepest`: how far in that may lead. Returns how
-/// many ways were tried.
+/// Moves points near the surface as their surroundings allow. `deepest`: largest allowed depth. Returns the number of
+/// motions.
 int try_ways(const Mesh& mesh, std::uint64_t seed, double deepest) {
   const auto solids = split_solids(mesh);
   const SurfaceQuery query(solids[0]);
@@ -107,7 +107,7 @@ TEST(Surroundings, WhatTheyAllowEntersNothing) {
 }
 
 TEST(Surroundings, OnRoundSurfacesTheErrorIsThatOfTheBend) {
-  // Way 0.05, least radius 0.2: 0.05^2 / (2 * 0.2), and as much again for the facets.
+  // Motion 0.05, least radius 0.2: 0.05^2 / (2 * 0.2), and the same again for the facets.
   EXPECT_GT(try_ways(test::torus(0.8, 0.2, 96, 48), 81, 0.0125), 500);
 }
 

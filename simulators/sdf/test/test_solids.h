@@ -64,7 +64,7 @@ inline Mesh threaded_rod(double radius, double depth, double length, int turns, 
   return m;
 }
 
-/// Solid angle of the surface seen from p over 4 pi: the winding number, by no means of the library's.
+/// Solid angle of the surface seen from p over 4 pi: the winding number, independent of the library.
 inline double winding(const Mesh& m, const Eigen::Vector3d& p) {
   double total = 0;
   for (std::size_t t = 0; t < m.triangles.size(); ++t) {

@@ -1,4 +1,4 @@
-/// Small assemblies of boxes under a simulator that is made through the registry, as users get it.
+/// Small assemblies of boxes in a simulator created through the registry, as for users.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ struct TestScene {
     prepared = simulator->prepare(assembly, 0.01, context);
   }
 
-  /// Parts that `moving` does not name stay fixed where they are assembled.
+  /// Parts not in `moving` are fixed in assembled position.
   std::unique_ptr<World> world(const std::vector<PartId>& moving, MotionSpace space = MotionSpace::translation) const {
     Scene scene;
     for (const PartId id : moving) scene.moving.push_back({id, Pose{}});
@@ -57,7 +57,7 @@ struct TestScene {
   }
 };
 
-/// The same push for every moving part.
+/// The same wrench for every moving part.
 inline Action push(const Vector3d& force, const Vector3d& torque = Vector3d::Zero(), std::size_t bodies = 1) {
   return {std::vector<Wrench>(bodies, {force, torque})};
 }
@@ -70,7 +70,7 @@ inline State at(const World& world, const Pose& pose) {
 
 inline Pose shift(double x, double y, double z) { return {Vector3d(x, y, z), Eigen::Quaterniond::Identity()}; }
 
-/// Where the body's centre is now, less where it was assembled.
+/// Displacement of the body's centre from its assembled position.
 inline Vector3d way(const World& world, const State& state, std::size_t body = 0) {
   return state.bodies[body].pose * world.center(body) - world.center(body);
 }

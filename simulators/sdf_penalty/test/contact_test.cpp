@@ -1,4 +1,4 @@
-// Penalty contact of a box on a plate, in closed form (equation 1), and walls that hold.
+// Penalty contact of a box on a plate, in closed form (equation 1), and walls that block.
 #include <cmath>
 
 #include "scene.h"
@@ -35,7 +35,7 @@ TEST(Contact, DepthAndNormalInClosedForm) {
 }
 
 TEST(Contact, FromTheOtherSideTooWithTheNormalOnTheMovingPart) {
-  // The plate moves and the cube stands: the points are the cube's, the normal pushes the plate down.
+  // The plate moves and the cube is fixed: the points are the cube's, the normal pushes the plate down.
   const TestScene scene(cube_on_plate(), with({}));
   auto world = scene.world({1});
   std::vector<Contact> contacts;
@@ -75,7 +75,8 @@ TEST(Contact, AtRestTheSinkIsForceOverStiffnessAndPoints) {
         State s = world->initial_state();
         world->advance(s, push(Vector3d(0, 0, -force)), 0.5, nullptr);
         const double sink = force / (4 * stiffness);
-        // Where a step no longer moves it ends: up to (drag / dt) / (drag / dt + k n) of the sink may be missing.
+        // The advance ends when a step no longer moves: up to (drag / dt) / (drag / dt + k n) of the sink may be
+        // missing.
         const double left = 6e-3 * sink;
         EXPECT_NEAR(-way(*world, s).z(), sink, left) << name << " " << stiffness << " " << force;
         EXPECT_NEAR(world->penetration(s), sink, left);
@@ -163,7 +164,7 @@ TEST(Contact, SlidingAlongAWallKeepsFullSpeed) {
 }
 
 TEST(Contact, AFlushBlockInASlotLeavesAlongIt) {
-  // No clearance at all: floor and both walls touch; along the slot nothing may hold.
+  // No clearance: floor and both walls touch, and nothing may block along the slot.
   const Mesh floor = box(Vector3d(-3, -2, -1), Vector3d(3, 2, 0));
   const Mesh left = box(Vector3d(-3, -2, 0), Vector3d(3, -0.5, 2)),
              right = box(Vector3d(-3, 0.5, 0), Vector3d(3, 2, 2));
@@ -180,7 +181,7 @@ TEST(Contact, AFlushBlockInASlotLeavesAlongIt) {
   EXPECT_LT(way(*world, s).norm(), 1e-3);
 }
 
-/// A plate in a closed room whose walls are thinner than a field cell; it has 0.1 of room on every side.
+/// A plate in a closed room whose walls are thinner than a field cell; its clearance is 0.1 on every side.
 TEST(Contact, AThinClosedWallIsNeverPassed) {
   const Vector3d room(0.9, 0.7, 0.25);
   std::vector<Mesh> parts{box(-(room - Vector3d::Constant(0.1)), room - Vector3d::Constant(0.1)),
@@ -194,7 +195,7 @@ TEST(Contact, AThinClosedWallIsNeverPassed) {
           State s = world->initial_state();
           const Vector3d along = (direction % 2 == 0 ? 1.0 : -1.0) * Vector3d::Unit(direction / 2);
           double furthest = 0;
-          // A hundred steps: free, the part would go a unit and more.
+          // A hundred steps: a free part would move more than a unit.
           const double duration = std::string(name) == "quasi_static" ? 0.8 / force : 0.01;
           for (int k = 0; k < 10; ++k) {
             world->advance(s, push(force * along), duration, nullptr);

@@ -126,7 +126,7 @@ TEST(Reuse, AdvancingDoesNotDependOnWhatTheWorldDidBefore) {
       fresh->advance(b, action, 0.1, &trace_b);
       ASSERT_EQ(apart(a, b), 0.0) << "state " << i;
       ASSERT_EQ(trace_a.size(), trace_b.size());
-      // What a state is said to be like does not depend on how one got there.
+      // Answers about a state do not depend on the history.
       auto witness = scene.world({0}, space);
       EXPECT_NEAR(warm->penetration(a), witness->penetration(a), 1e-6) << "state " << i;
       const auto touching = [&](World& world) {
@@ -159,7 +159,7 @@ TEST(Reuse, SameCallsSameBits) {
   }
 }
 
-/// Two cubes 0.1 apart along x, a still one far away.
+/// Two cubes 0.1 apart along x, a fixed one far away.
 std::vector<Mesh> two_cubes() {
   return {box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)), box(Vector3d(1.1, -0.2, -0.2), Vector3d(2.1, 1.2, 1.2)),
           box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))};

@@ -1,4 +1,4 @@
-/// Small assemblies of boxes under the sdf_penalty simulator.
+/// Small assemblies of boxes in the sdf_penalty simulator.
 #pragma once
 
 #include <utility>
@@ -15,7 +15,7 @@ struct TestScene : sdf::test::TestScene {
       : sdf::test::TestScene("sdf_penalty", std::move(meshes), given, std::move(overlaps)) {}
 };
 
-/// With it, boxes up to 5 units long have contact points at their corners only.
+/// With this spacing, boxes up to 5 units long have contact points only at their corners.
 inline ParamSet with(ParamSet given) {
   given.try_emplace("contact_spacing", 10.0);
   return given;

@@ -1,4 +1,4 @@
-// The depth that every contact may have before it resists.
+// Depth of every contact before it resists.
 #include "scene.h"
 
 namespace dismantle::sdf_penalty {

@@ -59,7 +59,7 @@ TEST(TimeStep, FreeFlightInFewStepsEndsWhereTheFixedStepEnds) {
   }
 }
 
-/// A block on a floor, under a push down and along it.
+/// A block on a floor, with a force down and along the floor.
 TEST(TimeStep, SlidingLeadsAsFarAsTheFixedStepToWithinASixth) {
   const std::vector<Mesh> parts{box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),
                                 box(Vector3d(-5, -5, -1), Vector3d(5, 5, 0))};
@@ -84,7 +84,7 @@ TEST(TimeStep, SlidingLeadsAsFarAsTheFixedStepToWithinASixth) {
   }
 }
 
-/// A cube with play in a closed room goes to the wall and stays there.
+/// A cube in a closed room with clearance moves to the wall and stays there.
 TEST(TimeStep, StuckPartsStayPutAndTheAdvanceEnds) {
   const double play = 0.02;
   const std::vector<Mesh> parts{box(Vector3d::Constant(-0.5 + play), Vector3d::Constant(0.5 - play)),
@@ -103,10 +103,10 @@ TEST(TimeStep, StuckPartsStayPutAndTheAdvanceEnds) {
     EXPECT_TRUE(ended.stalled);
     EXPECT_TRUE(few.stalled);
     EXPECT_LE(few.steps, ended.steps);
-    // What is left of the way is at most `rest_share` of 0.5.
+    // The rest of the motion is at most `rest_share` of 0.5.
     EXPECT_LT(apart(x, y), 0.006);
     EXPECT_LT(apart(x, z), 0.006);
-    // What slides slowly along a wall goes on to do so.
+    // A part that slides slowly along a wall continues to slide.
     a->advance(x, push(force), 0.1, nullptr);
     c->advance(z, push(force), 0.1, nullptr);
     EXPECT_LT(apart(x, z), 0.012);

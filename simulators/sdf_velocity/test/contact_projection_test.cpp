@@ -16,7 +16,7 @@ using Vector = ContactProjection::Vector;
 
 constexpr double kMostLift = 0.01;
 
-/// Contacts of `bodies` bodies with each other and with what stay fixed; `below`: some are below the surface.
+/// Contacts of `bodies` bodies with each other and with fixed parts; `below`: some are below the surface.
 Rows random_rows(Rng& rng, int bodies, int per_body, double below) {
   Rows rows;
   const auto contacts = rng.below(40);
@@ -109,7 +109,8 @@ sdf::ContactRow face(const Eigen::Vector3d& normal, double gap, int alternatives
 }
 
 TEST(ContactProjection, AtAnEdgeOneFaceIsEnough) {
-  // The point is on an edge between a floor and a wall that drops from it: sideways or up, and around neither.
+  // The point is on an edge between a floor and a wall that drops from it: it may move outside either face, but not
+  // inside both.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), out = Eigen::Vector3d::UnitX();
   const Rows rows{face((up + out).normalized(), 0, 2), face(up, 0), face(out, 0)};
   ContactProjection projection(2e-4, kMostLift);
@@ -125,7 +126,7 @@ TEST(ContactProjection, AtAnEdgeOneFaceIsEnough) {
 }
 
 TEST(ContactProjection, AnExchangeOfFacesGetsPastAnEdge) {
-  // A second contact closes the way over the floor: what is left leads down the wall.
+  // A second contact blocks motion over the floor, so only motion down the wall remains.
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), out = Eigen::Vector3d::UnitX();
   const Rows rows{face((up + out).normalized(), 0, 2), face(up, 0), face(out, 0), face(out, 0)};
   ContactProjection projection(2e-4, kMostLift);

@@ -1,4 +1,4 @@
-// Motion in contact, in closed form: what is left of a push when nothing may be entered.
+// Motion in contact, in closed form: a force projected on motions without penetration.
 #include <cmath>
 
 #include "world_scene.h"
@@ -58,7 +58,7 @@ TEST(Motion, OnAnInclineOnlyThePartAlongItIsLeft) {
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       auto world = scene.world({0}, space);
       State s = world->initial_state();
-      // Steep enough that the cube slides, and not so that it would tip: the push goes through its base.
+      // Steep enough for the cube to slide, but not to tip: the force passes through its base.
       const Vector3d along(rng.normal(), rng.normal(), 0);
       const Vector3d force = 100 * (along.normalized() - rng.uniform(1.1, 3) * Vector3d::UnitZ());
       const StepReport report = world->advance(s, push(q * force), 0.3, nullptr);
@@ -87,7 +87,7 @@ TEST(Motion, WhatRestsDoesNotDrift) {
     for (int k = 0; k < 500; ++k) EXPECT_TRUE(world->advance(s, push(Vector3d(0, 0, -100)), 0.1, nullptr).stalled);
     EXPECT_LT(way(*world, s).norm(), 1e-9);
     EXPECT_LT(angle_between(s.bodies[0].pose.q, Eigen::Quaterniond::Identity()), 1e-9);
-    // ... nor while it slides to and fro.
+    // Nor while it slides back and forth.
     for (int k = 0; k < 200; ++k)
       world->advance(s, push(Vector3d(k % 4 < 2 ? 60 : -60, k % 2 == 0 ? 30 : -30, -150)), 0.1, nullptr);
     EXPECT_LT(std::abs(way(*world, s).z()), 1e-6);
@@ -141,7 +141,7 @@ TEST(Motion, AFlushBlockLeavesItsSlotBothWays) {
 }
 
 TEST(Motion, SeveralBodiesShareAPush) {
-  // Two cubes 0.1 apart; a third one far away stay fixed.
+  // Two cubes 0.1 apart; a third one far away is fixed.
   const VelocityScene scene({box(Vector3d(0, 0, 0), Vector3d(1, 1, 1)),
                              box(Vector3d(1.1, -0.2, -0.2), Vector3d(2.1, 1.2, 1.2)),
                              box(Vector3d(-20, 0, 0), Vector3d(-19, 1, 1))});
@@ -174,12 +174,12 @@ TEST(Motion, ATurnedSceneGivesTheTurnedMotion) {
     for (const MotionSpace space : {MotionSpace::translation, MotionSpace::rigid}) {
       auto a = straight.world({0}, space), b = askew.world({0}, space);
       State s = a->initial_state(), t = b->initial_state();
-      // Long enough to meet walls and edges, not so long that rounding decides which of two comes first.
+      // Long enough to reach walls and edges, but not so long that rounding decides the order of contacts.
       for (int k = 0; k < 3; ++k) {
         const Vector3d force = 60 * random_vector(rng), torque = 20 * random_vector(rng);
         a->advance(s, push(force, torque), 0.1, nullptr);
         b->advance(t, push(q * force, q * torque), 0.1, nullptr);
-        // Rounding may decide whether a step is put right in place: to within the depth that is left alone.
+        // Rounding may decide whether a step is corrected in place: tolerate the depth that is not corrected.
         EXPECT_LT((q * way(*a, s) - way(*b, t)).norm(), 1e-3) << i << " " << k;
         EXPECT_LT(angle_between(q * s.bodies[0].pose.q * q.conjugate(), t.bodies[0].pose.q), 1e-3) << i << " " << k;
       }

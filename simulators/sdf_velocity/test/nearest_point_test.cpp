@@ -1,4 +1,4 @@
-// The quadratic program: conditions of optimality on random problems, and problems of known answer.
+// The quadratic program: conditions of optimality on random problems, and problems with known answers.
 #include "nearest_point.h"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ void constrain(NearestPoint& problem, const VectorXd& normal, double offset) {
   problem.offset(i) = offset;
 }
 
-/// Necessary and sufficient, the problem being convex: y is feasible, what pulls it off the target are constraints that
-/// it lies on, and they push only.
+/// Necessary and sufficient, since the problem is convex: y is feasible, only active constraints move it off the
+/// target, and their multipliers are positive.
 void expect_optimal(NearestPoint& problem, const VectorXd& target, const VectorXd& y) {
   for (Index i = 0; i < problem.count(); ++i) ASSERT_GE(problem.normal(i).dot(y), problem.offset(i) - 1e-9);
   VectorXd pull = y - target;
@@ -56,7 +56,7 @@ TEST(NearestPoint, IsOptimalOnRandomProblems) {
     const Index n = round % 3 == 0 ? 3 : round % 3 == 1 ? 6 : 18;
     problem.reset(n);
     const auto count = static_cast<int>(rng.below(60));
-    // Feasible by construction: `inside` satisfies them all, some with no room.
+    // Feasible by construction: `inside` satisfies all of them, some with equality.
     const VectorXd inside = 0.3 * random_vector(rng, n);
     for (int i = 0; i < count; ++i) {
       const VectorXd normal = random_vector(rng, n).normalized();
@@ -71,7 +71,7 @@ TEST(NearestPoint, IsOptimalOnRandomProblems) {
 }
 
 TEST(NearestPoint, CopesWithConstraintsThatSayTheSame) {
-  // What stands flush touches at hundreds of points: equal and nearly equal normals, all without room.
+  // Flush parts touch at hundreds of points: equal and nearly equal normals, all with zero gap.
   Rng rng(32);
   NearestPoint problem;
   VectorXd y;

@@ -1,4 +1,4 @@
-// Walls thinner than a field cell hold, whatever the step.
+// Walls thinner than a field cell block parts at any step length.
 #include "world_scene.h"
 
 namespace dismantle::sdf_velocity {
@@ -11,7 +11,7 @@ TestScene scene_of(std::vector<Mesh> meshes, const ParamSet& given = {}) {
 }
 
 TEST(Walls, AThinClosedRoomStaysClosed) {
-  // It has 0.1 of room on every side.
+  // Its clearance is 0.1 on every side.
   const Vector3d room(0.9, 0.7, 0.25);
   const std::vector<Mesh> parts{box(-(room - Vector3d::Constant(0.1)), room - Vector3d::Constant(0.1)),
                                 closed_room(room, 0.03)};

@@ -8,7 +8,7 @@ namespace dismantle::geometry {
 std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance) {
   if (a.vertices.size() != b.vertices.size() || a.triangles != b.triangles || a.vertices.size() < 3)
     return std::nullopt;
-  // Three vertices that span a large triangle fix the motion; all others must follow it.
+  // Three vertices that span a large triangle determine the motion; all others must agree with it.
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;
     double value = -1;

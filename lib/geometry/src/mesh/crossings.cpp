@@ -7,7 +7,7 @@ namespace {
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// The segment (p, q) goes through the inside of the triangle, by more than `margin` on every count.
+/// True if the segment (p, q) crosses the interior of the triangle with more than `margin` on all sides.
 bool pierces(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Corners& t, double margin) {
   Eigen::Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
   const double area = n.norm();
@@ -43,7 +43,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> self_crossings(const Mesh& 
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
   if (mesh.empty() || limit == 0 || max_tested == 0) return found;
   const TriangleBvh bvh(mesh);
-  const double margin = 1e-7 * mesh.box().size().norm();  // coordinates in files carry about so much
+  const double margin = 1e-7 * mesh.box().size().norm();  // about the rounding of coordinates in files
   const std::size_t n = mesh.triangles.size(), tested = std::min(n, max_tested);
   for (std::size_t k = 0; k < tested && found.size() < limit; ++k) {
     const auto t = static_cast<std::uint32_t>(k * n / tested);

@@ -29,7 +29,7 @@ class OpenVertices {
     std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return at(a) < at(b); });
   }
 
-  /// Those strictly between the ends of the edge (a, b), in order from a; none of the triangle's own corners.
+  /// Vertices strictly between the ends of the edge (a, b), in order from a, without the triangle's own corners.
   std::vector<OnEdge> on(const Triangle& triangle, std::uint32_t a, std::uint32_t b, double tolerance) const {
     std::vector<OnEdge> found;
     const Vector3d &p = mesh_.vertices[a], d = mesh_.vertices[b] - p;
@@ -64,7 +64,7 @@ std::vector<mesh_detail::EdgeRef> open_edges(const Mesh& mesh) {
   return open;
 }
 
-/// Simple closed loops along open edges, in the sense that a filling has to have; edges of no loop are left out.
+/// Simple closed loops of open edges, in the orientation of a filling; edges outside loops are omitted.
 std::vector<std::vector<std::uint32_t>> hole_loops(const Mesh& mesh) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> next;
   for (const auto& e : open_edges(mesh)) {
@@ -139,7 +139,7 @@ double area_of(const std::vector<Vector3d>& p, const std::vector<Triangle>& tria
 
 std::size_t close_t_junctions(Mesh& mesh, double tolerance) {
   std::size_t count = 0;
-  for (int pass = 0; pass < 32; ++pass) {  // a triangle is split at one of its edges per pass
+  for (int pass = 0; pass < 32; ++pass) {  // one pass splits a triangle at one edge
     const auto open = open_edges(mesh);
     if (open.empty()) break;
     const OpenVertices vertices(mesh, open);

@@ -58,7 +58,7 @@ std::vector<std::uint32_t> shells_of(const Mesh& mesh, std::size_t& count) {
   std::vector<std::uint32_t> shell(mesh.triangles.size());
   std::uint32_t next = 0;
   for (std::uint32_t t = 0; t < shell.size(); ++t) {
-    const std::uint32_t root = sets.root(t);  // root <= t: numbered already unless it is t
+    const std::uint32_t root = sets.root(t);  // root <= t: already numbered unless it is t
     shell[t] = root == t ? next++ : shell[root];
   }
   count = next;

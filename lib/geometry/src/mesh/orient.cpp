@@ -20,11 +20,11 @@ using mesh_detail::EdgeRef;
 std::uint32_t front(std::uint32_t t) { return 2 * t; }
 std::uint32_t back(std::uint32_t t) { return 2 * t + 1; }
 
-/// Side of the triangle that faces growing angles around its edge (seen against the axis lo -> hi), and the other one.
+/// Side of the triangle that faces increasing angles around its edge (seen against lo -> hi), and its other side.
 std::uint32_t ahead(const EdgeRef& e) { return e.forward ? front(e.triangle) : back(e.triangle); }
 std::uint32_t behind(const EdgeRef& e) { return e.forward ? back(e.triangle) : front(e.triangle); }
 
-/// Connects the sides that see each other around one edge.
+/// Joins the sides that face each other around one edge.
 void join_around(const Mesh& mesh, const EdgeRef* first, const EdgeRef* last, DisjointSets& sides) {
   const auto n = static_cast<std::size_t>(last - first);
   if (n < 2) return;
@@ -39,7 +39,7 @@ void join_around(const Mesh& mesh, const EdgeRef* first, const EdgeRef* last, Di
   for (std::size_t i = 0; i < n; ++i) sides.join(ahead(*fan[i].second), behind(*fan[(i + 1) % n].second));
 }
 
-/// The side of some triangle among `members` that sees infinity: the last one hit by a ray through one of them.
+/// A side among `members` that is visible from infinity: the last one hit by a ray through one of them.
 std::uint32_t outer_side(const Mesh& mesh, const std::vector<std::uint32_t>& members) {
   std::uint32_t largest = members.front();
   double largest_area = -1;
@@ -54,7 +54,7 @@ std::uint32_t outer_side(const Mesh& mesh, const std::vector<std::uint32_t>& mem
   const Vector3d normal = geometry::area_vector(mesh, largest).normalized();
   std::uint32_t side = front(largest);
   for (int attempt = 0; attempt < 8; ++attempt) {
-    // Off the normal by odd angles, so that edges of regular shapes are not met.
+    // Tilted against the normal by irregular angles, so that the ray misses the edges of regular shapes.
     const double turn = 0.7368 + 1.3217 * attempt;
     const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
     const Vector3d d = (normal + (0.0871 + 0.0313 * attempt) * (std::cos(turn) * u + std::sin(turn) * v)).normalized();
@@ -127,7 +127,7 @@ OrientResult orient_outward(Mesh& mesh) {
 namespace {
 
 struct Shell {
-  Mesh mesh;  // own copy of the vertices that it uses
+  Mesh mesh;  // with its own copy of the vertices
   Aabb box;
   double volume = 0;
   std::vector<std::uint32_t> inside_of;  // shells that contain all of it
@@ -187,7 +187,7 @@ ShellResult orient_shells(Mesh& mesh, bool trusted) {
     const auto& in = shells[s].inside_of;
     bool outward = in.size() % 2 == 0;
     if (trusted && !in.empty()) {
-      // As the file has it, relative to the outermost shell around.
+      // Orientation of the file, relative to the outermost shell around it.
       bool root_negative = false;
       for (const auto a : in)
         if (shells[a].inside_of.empty()) {

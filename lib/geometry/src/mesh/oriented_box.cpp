@@ -61,7 +61,7 @@ Vector2d smallest_rectangle(const std::vector<Vector2d>& points) {
   return best;
 }
 
-/// Directions that a face of the smallest box may have: face normals with the most area, principal and coordinate axes.
+/// Candidate face directions of the smallest box: face normals with the most area, principal and coordinate axes.
 std::vector<Vector3d> candidate_axes(const Mesh& mesh, std::span<const Vector3d> points) {
   std::vector<geometry::FaceAxis> faces;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

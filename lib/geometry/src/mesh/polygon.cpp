@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// The polygon seen along its mean normal (Newell), so that it turns counter-clockwise; empty without area.
+/// The polygon projected along its mean normal (Newell), counter-clockwise; empty if it has no area.
 std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   Vector3d normal = Vector3d::Zero();
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -24,7 +24,7 @@ std::vector<Vector2d> flatten(std::span<const Vector3d> corners) {
   return flat;
 }
 
-/// Corners still there, in a ring.
+/// Remaining corners, in a ring.
 class EarClipper {
  public:
   explicit EarClipper(std::vector<Vector2d> points) : p_(std::move(points)) {
@@ -39,11 +39,11 @@ class EarClipper {
     std::size_t start = 0;
     while (ring_.size() > 3) {
       std::size_t ear = find_ear(start, flat_);
-      if (ear == ring_.size()) ear = find_ear(0, -flat_);  // only corners on straight lines are left
+      if (ear == ring_.size()) ear = find_ear(0, -flat_);  // only corners on straight lines remain
       if (ear == ring_.size()) return {};
       out.push_back({at(ear, -1), at(ear, 0), at(ear, 1)});
       ring_.erase(ring_.begin() + static_cast<std::ptrdiff_t>(ear));
-      start = ear;  // go on with the next corner but one: fewer slivers than a fan
+      start = ear;  // skip one corner: fewer slivers than a fan
     }
     out.push_back({ring_[0], ring_[1], ring_[2]});
     return out;
@@ -54,13 +54,13 @@ class EarClipper {
     return ring_[(i + ring_.size() + static_cast<std::size_t>(step + 1) - 1) % ring_.size()];
   }
 
-  /// First ear at or after `start` whose doubled area is above `least`; with few corners, the best shaped one.
+  /// First ear at or after `start` whose doubled area is above `least`; with few corners, the ear with the best shape.
   std::size_t find_ear(std::size_t start, double least) {
     const bool best_of_all = ring_.size() <= 64;
     std::size_t best = ring_.size();
     double best_quality = -1;
-    // Corner tests after which the polygon is given up: enough for ten thousand corners of any shape that people draw.
-    // Spirals without ears nearby would take the cube of their corners.
+    // Limit of corner tests per polygon: enough for ten thousand corners of any realistic shape. Spirals without nearby
+    // ears would need cubic time.
     for (std::size_t k = 0; k < ring_.size() && tests_ < 400'000'000; ++k) {
       const std::size_t i = (start + k) % ring_.size();
       const Vector2d &a = p_[at(i, -1)], &b = p_[at(i, 0)], &c = p_[at(i, 1)];
@@ -94,7 +94,7 @@ class EarClipper {
   std::vector<Vector2d> p_;
   std::vector<std::uint32_t> ring_;
   std::uint64_t tests_ = 0;
-  double flat_ = 0;  // doubled areas below this are straight lines
+  double flat_ = 0;  // doubled areas below this count as straight lines
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ class Subdivider {
   Mesh mesh_;
   double limit_;
   std::size_t max_triangles_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> triangles_at_;  // looked up only: no order needed
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> triangles_at_;  // only for lookup: no order needed
   std::priority_queue<Entry> queue_;                                            // edges that are too long
 };
 

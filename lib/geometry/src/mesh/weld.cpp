@@ -73,7 +73,7 @@ std::vector<std::uint32_t> close_open_vertices(const Mesh& mesh, double toleranc
   return to;
 }
 
-/// Renumbers by `to`, drops what is no triangle any more.
+/// Renumbers corners by `to` and drops triangles with two equal corners.
 void apply(Mesh& mesh, const std::vector<std::uint32_t>& to, WeldResult& result) {
   for (std::uint32_t i = 0; i < to.size(); ++i) result.merged += to[i] != i;
   std::size_t kept = 0;
@@ -87,7 +87,7 @@ void apply(Mesh& mesh, const std::vector<std::uint32_t>& to, WeldResult& result)
   mesh.triangles.resize(kept);
 }
 
-/// Drops vertices without triangle; `merged` of them are known already.
+/// Drops vertices without triangles; `merged` of them are already counted.
 std::size_t compact(Mesh& mesh) {
   std::vector<std::uint32_t> index(mesh.vertices.size(), kNoIndex);
   for (const auto& t : mesh.triangles)
@@ -111,7 +111,7 @@ WeldResult weld(Mesh& mesh, double tolerance) {
   WeldResult result;
   apply(mesh, equal_positions(mesh), result);
   if (tolerance > 0) {
-    // Never finer than what coordinates of this size can tell apart.
+    // Not below the resolution of coordinates of this size.
     const Aabb box = mesh.box();
     if (!box.empty()) tolerance = std::max(tolerance, 1e-15 * box.size().maxCoeff());
     WeldResult close;
@@ -128,7 +128,7 @@ DuplicateFaces drop_duplicate_faces(Mesh& mesh) {
   struct Face {
     Triangle corners;  // sorted
     std::uint32_t index;
-    bool even;  // sense of the triangle: even permutation of the sorted corners
+    bool even;  // orientation: even permutation of the sorted corners
   };
   std::vector<Face> faces;
   faces.reserve(mesh.triangles.size());

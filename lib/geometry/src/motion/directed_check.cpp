@@ -63,7 +63,7 @@ std::uint32_t DirectedCheck::add(const Patch& patch) {
   return static_cast<std::uint32_t>(patches_.size() - 1);
 }
 
-/// Triangles of A whose box comes near B's in the interval.
+/// Collects the triangles of A whose boxes come near B's box in the interval.
 void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   const TriangleBvh::Node& node = a_.bvh.nodes()[id];
   Aabb swept = box_under(i.at0, node.box);
@@ -82,7 +82,7 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
       const double most = allowed(patch);
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint32_t v = a_.mesh.triangles[t][c];
-        // One displacement per vertex, whatever triangle it is seen from.
+        // Scaled so that a vertex has the same displacement in all its triangles.
         patch.inward[c] = (limits_.at(a_.vertex_thickness[v]) / most) * a_.inward[v];
       }
       patch_of_[t] = add(patch);
@@ -91,7 +91,7 @@ void DirectedCheck::collect(const Interval& i, std::uint32_t id, List& list) {
   }
 }
 
-/// Cuts winding paths into pieces that are roughly straight before looking at triangles.
+/// Divides curved paths into roughly straight pieces before it collects triangles.
 bool DirectedCheck::descend(double s0, double s1) {
   const Interval i = interval(s0, s1);
   if (s1 - s0 > 1 && i.margin > 0.05 * a_.box.size().maxCoeff()) {
@@ -103,8 +103,8 @@ bool DirectedCheck::descend(double s0, double s1) {
   return process(i, std::move(list), true);
 }
 
-/// Checks the turns of a winding together, as far as that succeeds, by the vertex rule; the rest as any other motion.
-/// The first check has cells five times as wide: most of a part is not near.
+/// Checks all turns of a winding together by the vertex rule, and the patches that remain like any other motion. The
+/// first pass uses cells five times as wide, since most of a part is not near.
 bool DirectedCheck::wind(const Winding& winding) {
   List list;
   if (!a_.bvh.nodes().empty())
@@ -112,11 +112,11 @@ bool DirectedCheck::wind(const Winding& winding) {
   if (!clear_unrolled(unrolled(winding, list, 0.5 * limits_.cells_from()), winding, winding.begin, winding.end, list))
     return false;
   if (list.empty()) return true;
-  const UnrolledMesh finely = unrolled(winding, list, 0.1 * limits_.cells_from());  // before the list is given away
+  const UnrolledMesh finely = unrolled(winding, list, 0.1 * limits_.cells_from());  // before the list is moved
   return wind(finely, winding, winding.begin, winding.end, std::move(list));
 }
 
-/// B, where the patches listed come near it.
+/// B in unrolled coordinates, where the listed patches come near it.
 UnrolledMesh DirectedCheck::unrolled(const Winding& winding, const List& list, double cell) const {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
   Ring ring;
@@ -133,7 +133,7 @@ DirectedCheck::QuickTest DirectedCheck::quick_test(const UnrolledMesh& other, co
   return seen;
 }
 
-/// Takes what is certified off the list. False: the check failed.
+/// Removes certified patches from the list. False: the check failed.
 bool DirectedCheck::clear_unrolled(const UnrolledMesh& other, const Winding& winding, std::size_t from, std::size_t to,
                                    List& list) {
   const Placement start(motion_.at(static_cast<double>(winding.begin)));
@@ -158,7 +158,7 @@ bool DirectedCheck::wind(const UnrolledMesh& other, const Winding& winding, std:
   const std::size_t all = list.size();
   if (!clear_unrolled(other, winding, from, to, list)) return false;
   if (list.empty()) return true;
-  // Halving pays while few patches are left or at least half of them were certified, and for more than 1 rad.
+  // Halving pays if few patches remain or more than half were certified, and only above 1 rad.
   const bool few = list.size() < 64 || 2 * list.size() < all;
   if (!few || to - from < 2 || winding.turned_at(to) - winding.turned_at(from) < 1)
     return process(interval(static_cast<double>(from), static_cast<double>(to)), std::move(list), true);
@@ -194,8 +194,8 @@ bool DirectedCheck::clear(const Interval& i, double margin, const Corners& moved
   return seen != SweepResult::unclear;
 }
 
-/// Along a close fit a triangle fails at the same bend again and again: do not test where it did shortly before, except
-/// in intervals so short that they are the last resort.
+/// Along a close fit a triangle fails repeatedly at the same margin: skip tests that failed recently, except in very
+/// short intervals, which are the last resort.
 bool DirectedCheck::worth_a_test(const Interval& i, double margin, std::uint32_t triangle) const {
   return i.s1 - i.s0 <= 1.0 / 64 || margin < (*unclear_)[triangle];
 }
@@ -204,7 +204,7 @@ bool DirectedCheck::outside(const Placement& place, const Corners& moved) const 
   return !b_.bvh.inside(place * ((moved[0] + moved[1] + moved[2]) / 3));
 }
 
-/// All of the patch is in the exempt box, once and for all or during the interval.
+/// True if the whole patch is in the exempt box, in its own assembled frame or in B's during the interval.
 bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch) const {
   if (limits_.exempt == nullptr) return false;
   const auto inside = [&](const Corners& corners, const Pose& to_assembled, double inset) {
@@ -216,7 +216,7 @@ bool DirectedCheck::exempt(const Interval& i, double margin, const Patch& patch)
   return inside(placed(i.at0, patch.p), b_.frame, margin) && inside(placed(i.at1, patch.p), b_.frame, margin);
 }
 
-/// Certifies one patch for one interval, or puts it (or its quarters) on one of the lists. False: the check failed.
+/// Certifies a patch for an interval, or adds it (or its pieces) to one of the lists. False: the check failed.
 bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule, List& same, List& later) {
   const Patch patch = patches_[id];
   const double most = allowed(patch), e = displacement(patch), leeway = most - limits_.overlap;
@@ -231,10 +231,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     if (!budget_.spend_test()) return fail(Answer::exhausted, patch.center(), 0, patch.triangle, i.s0);
     if (vertex_rule && clear(i, margin, moved_by_vertices(patch, e), far)) {
       if (!far) pieces_.push_back({id, i.s0, i.s1});
-      (*unclear_)[patch.triangle] *= 1.1;  // a success: soon try larger margins again
+      (*unclear_)[patch.triangle] *= 1.1;  // after a success, retry larger margins sooner
       return true;
     }
-    if (bent) (*unclear_)[patch.triangle] = margin;  // and no other rule holds there
+    if (bent) (*unclear_)[patch.triangle] = margin;  // no other rule applies to bent motion
   }
   if (bent) {  // too bent to be treated as straight
     later.push_back(id);
@@ -252,7 +252,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   };
   if (violates(patch.center(), depth, mid)) return fail(Answer::violated, patch.center(), depth, patch.triangle, s);
   const double reach = patch.radius() + 0.5 * travel + 2 * margin;
-  if (depth + reach <= most) {  // depth changes no faster than the point moves
+  if (depth + reach <= most) {  // depth changes at most as fast as the point moves
     by_shrunken_copy_ = false;
     return true;
   }
@@ -262,7 +262,7 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     return true;
   };
   if (leaves(moved_along(patch, -a_.normals[patch.triangle], e))) return true;
-  // The shortest way out in the middle of the interval, or else wherever in it each corner is deepest.
+  // First the shortest way out at mid-interval, then at the time when each corner is deepest.
   Probe seen = probe(patch, mid, b_);
   for (int attempt = 0; attempt < 2; ++attempt) {
     const auto deepest = static_cast<std::size_t>(seen.deepest);
@@ -279,11 +279,11 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
     }
   }
   if (depth > 0 && leaves(moved_along(patch, mid.r.transpose() * center.out, e))) return true;
-  // What lies on one side of a ridge leaves together, the way its deepest corner does.
+  // Points on one side of a ridge share a way out: that of the deepest corner.
   const auto deepest = static_cast<std::size_t>(seen.deepest);
   if (seen.depth[deepest] > 0 && leaves(moved_along(patch, seen.out[deepest], e))) return true;
   if (reach < budget_.resolution * leeway) return fail(Answer::uncertain, patch.center(), depth, patch.triangle, s);
-  // A ridge often lies along the motion: cut there before the interval is.
+  // A ridge often lies along the motion: cut the patch there before halving the interval.
   const auto ridge = ridge_on(patch, seen);
   if (i.s1 - i.s0 > 1 || (!ridge && travel + 2 * margin > 0.3 * patch.longest_edge())) {
     later.push_back(id);
@@ -299,10 +299,10 @@ bool DirectedCheck::settle(const Interval& i, std::uint32_t id, bool vertex_rule
   return true;
 }
 
-/// What the vertex rule certified stays off the surface of B; here it is shown to be on the outer side of it.
+/// The vertex rule keeps patches off the surface of B; this proves that they are on its outer side.
 bool DirectedCheck::sides() {
   if (by_shrunken_copy_) {
-    // Each shell of the shrunken copy moves off the surface at all times: one corner at one time tells its side.
+    // Each shell of the shrunken copy is always off the surface: one corner at one time decides its side.
     const Placement start(motion_.at(0));
     bool all_outside = true;
     for (std::size_t k = 0; k + 1 < a_.shell_begin.size() && all_outside; ++k) {

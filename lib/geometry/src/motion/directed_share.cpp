@@ -1,5 +1,5 @@
-// Lists of patches on several threads. Each patch is settled by itself, so the list can be cut; what the pieces take of
-// the budget, and find, is put together as if they had been settled one after the other.
+// Lists of patches on several threads. Patches are independent, so the list can be divided. Budgets and findings are
+// merged as if the pieces had been settled one after the other.
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -11,15 +11,15 @@
 namespace dismantle::geometry {
 namespace {
 
-/// Patches that make a task worth its start; a list is divided among threads if it has enough for several tasks.
+/// Fewest patches that justify a task; a list is divided among threads if it is long enough for several tasks.
 constexpr std::size_t kLeastPiece = 32, kWorthHelp = 4 * kLeastPiece;
 
 }  // namespace
 
-/// A piece of a list, settled as if it were the first.
+/// A piece of a list, settled as if it came first.
 struct DirectedCheck::Share {
   List list;
-  std::vector<double> unclear;  // as it was before, by patch of the list
+  std::vector<double> unclear;  // previous values, by patch of the list
   Budget budget;
   std::uint64_t patches_at_first;
   std::optional<DirectedCheck> check;
@@ -42,7 +42,7 @@ bool DirectedCheck::has_help() const {
   return budget_.context != nullptr && budget_.context->executor && budget_.context->executor->threads() > 1;
 }
 
-/// From the end, where turns begin. Patches of one triangle are next to each other, and stay together.
+/// Cuts from the end, where processing begins. Patches of one triangle are adjacent and stay together.
 std::vector<DirectedCheck::List> DirectedCheck::cut(const List& list) const {
   const std::size_t size = std::max(kLeastPiece, list.size() / 8 + 1);  // at most 8 pieces
   std::vector<List> pieces;
@@ -83,14 +83,14 @@ bool DirectedCheck::settle_shared(const Interval& i, const List& list, bool vert
       if (!s.holds) return false;
       continue;
     }
-    // Not begun, or more than what those before it leave of the budget.
+    // Not started, or needs more budget than the pieces before it left.
     for (std::size_t n = 0; n < s.list.size(); ++n) (*unclear_)[patches_[s.list[n]].triangle] = s.unclear[n];
     if (!settle_in_turn(i, s.list, vertex_rule, later)) return false;
   }
   return true;
 }
 
-/// False: in its turn it would have come out otherwise.
+/// False: settled in order, this piece could have ended differently.
 bool DirectedCheck::take_over(Share& share, List& later) {
   if (!share.done) return false;
   const std::uint64_t tests = share.budget.tests_done, patches = share.patches_at_first - share.budget.patches_left;
@@ -110,7 +110,7 @@ bool DirectedCheck::take_over(Share& share, List& later) {
   return true;
 }
 
-/// Those of a list as far as threads came before they were told to stop; none where no other thread takes part.
+/// Tests of a list, as many as were done before a stop request; none without other threads.
 std::vector<DirectedCheck::QuickTest> DirectedCheck::quick_tests(const UnrolledMesh& other, const Winding& winding,
                                                                  std::size_t from, std::size_t to,
                                                                  const List& list) const {

@@ -7,15 +7,15 @@
 namespace dismantle::geometry {
 namespace {
 
-/// Samples are vertices of the triangles of `a`; along paths of some length, of the triangles that `b` passes by, as it
-/// moves backwards seen from `a`. For short paths finding these takes longer than all samples. Calls take(sample, place
-/// in the frame of b) for those within `b`, until it returns true; then returns true.
+/// Samples vertices of the triangles of `a`. On long paths it uses only triangles in the box that `b` sweeps in the
+/// frame of `a`; on short paths, finding those takes longer than all samples. Calls take(sample, point in the frame of
+/// b) for samples inside `b` until it returns true; then returns true.
 template <class Take>
 bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const RelativeMotion& backward,
             bool of_second, SampledTimes which, const Take& take) {
   const std::size_t segments = motion.segments();
   const bool all = segments <= 12;
-  const std::size_t times = all ? 24 : std::min<std::size_t>(2 * segments, 480);  // more find nothing deeper, mostly
+  const std::size_t times = all ? 24 : std::min<std::size_t>(2 * segments, 480);  // more samples rarely find more depth
   std::vector<std::uint32_t> near;
   if (!all) {
     a.bvh.overlapping(backward.swept_box(), [&](std::uint32_t t) { near.push_back(t); });
@@ -27,7 +27,7 @@ bool sample(const Solid& a, const Solid& b, const RelativeMotion& motion, const 
     if (which == (among_some ? SampledTimes::others : SampledTimes::some)) continue;
     const double time = static_cast<double>(segments) * static_cast<double>(i + 1) / static_cast<double>(times);
     const Placement place(motion.at(time));
-    // Another selection each time, so that together they cover more.
+    // A different selection at each time, to cover more of the surface.
     const std::size_t count = std::min<std::size_t>(96, triangles);
     for (std::size_t k = 0; k < count; ++k) {
       const std::size_t chosen = (k * triangles / count + i * 7919) % triangles, t = all ? chosen : near[chosen];

@@ -9,7 +9,7 @@
 namespace dismantle::geometry {
 namespace {
 
-/// Of the budget: about as many tests as there are samples.
+/// Share of the budget for the first try: about as many tests as samples.
 constexpr double kQuickShare = 0.05;
 
 Finding second_of_pair(Finding f) {
@@ -17,7 +17,7 @@ Finding second_of_pair(Finding f) {
   return f;
 }
 
-/// The second direction, begun by an idle thread while the first is checked, with the budget that both have.
+/// Check of the second direction, started by an idle thread during the first, with the common budget.
 class Ahead {
  public:
   Ahead(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, const Budget& budget)
@@ -34,7 +34,7 @@ class Ahead {
   Ahead(const Ahead&) = delete;
   Ahead& operator=(const Ahead&) = delete;
 
-  /// What is found with the budget that the first direction has left, if it was begun and took no more than that.
+  /// The finding, if the check was started and needed no more than the budget that the first direction left.
   std::optional<Finding> found(Budget& left) {
     if (!task_ || task_.withdraw()) return std::nullopt;
     task_.wait(*left.context, own_.cancel);
@@ -53,7 +53,7 @@ class Ahead {
   Budget budget_;
   const Budget before_ = budget_;
   Finding found_;
-  Executor::TaskHandle task_;  // last: its destructor waits for the thread, which uses the above
+  Executor::TaskHandle task_;  // last: its destructor waits for the thread that uses the members above
 };
 
 }  // namespace
@@ -68,8 +68,8 @@ Finding check_pair(const Solid& a, const Solid& b, const RelativeMotion& forward
   DirectedCheck check(first, second, there, limits, budget);
   const Finding one = check.run();
   if (one.answer != Answer::certified) return swap ? second_of_pair(one) : one;
-  // If one shrunken copy of `first` never touched the surface of `second`, and `second` is not within it, then the
-  // points of `second` in `first` are all in the layer that was taken off: no deeper than the limit either.
+  // If a single shrunken copy of `first` never touched the surface of `second`, and `second` is not inside it, then all
+  // points of `second` in `first` lie in the removed layer: no deeper than the limit.
   if (check.by_shrunken_copy() && starts_off(second, first, Placement(back.at(0)), limits.most())) return one;
   const std::optional<Finding> known = ahead.found(budget);
   const Finding two = known ? *known : DirectedCheck(second, first, back, limits, budget).run();
@@ -90,8 +90,8 @@ bool passes(const std::vector<Solid>& a, const std::vector<Pose>& poses_a, const
       grown = y.box;
       grown.inflate(limits.most());
       const RelativeMotion backward(rest, path, grown);
-      // Most that do not pass show it at a few samples, and most that do are certified by few tests. The other samples
-      // take a small part of what it takes to fail to certify the rest.
+      // A few samples reject most bad motions, and few tests certify most good ones. The other samples cost little
+      // compared with a failed proof.
       if (sample_beyond(x, y, forward, backward, limits, SampledTimes::some)) return false;
       Budget budget = per_pair;
       budget.tests_left = static_cast<std::uint64_t>(kQuickShare * static_cast<double>(per_pair.tests_left));

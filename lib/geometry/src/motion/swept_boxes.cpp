@@ -42,7 +42,7 @@ void SweptBoxes::build(const std::vector<Aabb>& segments, std::size_t begin, std
 
 bool SweptBoxes::meets(const SweptBoxes& other, double distance) const { return meets(0, other, 0, distance); }
 
-/// Trees over the same number of segments have the same shape, so that both descend to the same times.
+/// Trees over the same number of segments have the same shape, so nodes at the same place cover the same times.
 bool SweptBoxes::meets(std::size_t node, const SweptBoxes& other, std::size_t there, double distance) const {
   Aabb around = nodes_[node].box;
   around.inflate(distance);

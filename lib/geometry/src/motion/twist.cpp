@@ -32,7 +32,7 @@ Twist fitted_twist(const std::vector<Vec3>& points, const std::vector<Vec3>& vel
   }
   middle /= all;
   linear /= all;
-  // About the middle of the points translation and rotation do not depend on each other.
+  // About the centroid of the points, translation and rotation are independent.
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   Vec3 torque = Vec3::Zero();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -41,7 +41,7 @@ Twist fitted_twist(const std::vector<Vec3>& points, const std::vector<Vec3>& vel
     torque += weights[k] * arm.cross(velocities[k]);
   }
   Twist twist;
-  const double damping = 1e-3 * moments.trace();  // points on one line tell nothing of the rotation about it
+  const double damping = 1e-3 * moments.trace();  // points on a line do not determine the rotation about it
   if (damping > 0) twist.angular = (moments + damping * Eigen::Matrix3d::Identity()).ldlt().solve(torque);
   twist.linear = linear + twist.angular.cross(center - middle);
   return twist;

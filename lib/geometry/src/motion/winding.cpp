@@ -16,23 +16,23 @@ using Vec3 = Eigen::Vector3d;
 
 using std::numbers::pi;
 
-/// Segments that turn less (rad) have an axis that rounding displaces too far.
+/// Smallest turn of a segment, rad: below it, rounding displaces the axis too far.
 constexpr double kLeastStep = 1e-3;
-/// Triangles are divided until they are as good as straight within a cell, or that many times: into 1024.
+/// Triangles are divided until they are nearly straight within a cell, at most this often: into 1024.
 constexpr int kDepth = 5;
 
-/// The screw motion from one pose to another by the shorter turn, as a velocity field v + w x x: one unit of time.
+/// Velocity field v + w x x of the screw motion between two poses in unit time, by the shorter turn.
 struct Field {
   Vec3 w = Vec3::Zero(), v = Vec3::Zero();
   Vec3 operator()(const Vec3& x) const { return v + w.cross(x); }
 };
 
-/// Axis, pitch and a point of the axis of the motion that takes `from` to `to`. False: it turns too little or too much.
+/// Axis, pitch and a point of the axis of the motion from `from` to `to`. False: the turn is too small or too large.
 bool axis_of(const Pose& from, const Pose& to, Winding& winding, double& angle) {
   const Pose d = to * from.inverse();
   const Vec3 turn = rotation_vector(d.q);
   angle = turn.norm();
-  if (angle < kLeastStep || angle > 1) return false;  // longer arcs: their bounds get loose
+  if (angle < kLeastStep || angle > 1) return false;  // bounds of longer arcs are loose
   winding.axis = turn / angle;
   const double along = winding.axis.dot(d.t);
   const Vec3 across = d.t - along * winding.axis;
@@ -49,13 +49,13 @@ Field field_of(const Winding& w, double angle) {
   return f;
 }
 
-/// Where the screw takes `pose` while it turns by `angle`.
+/// `pose` after a turn by `angle` along the screw.
 Pose screwed(const Winding& w, const Pose& pose, double angle) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(angle, w.axis));
   return {q * (pose.t - w.origin) + w.origin + angle * w.pitch * w.axis, (q * pose.q).normalized()};
 }
 
-/// The longest winding that begins at instant k. One segment has told the screw; the others have to agree.
+/// The longest winding that begins at instant k. Its first segment defines the screw; the others must agree.
 bool winding_from(const RelativeMotion& motion, std::size_t k, double most_off, Winding& w) {
   double angle = 0;
   const Pose start = motion.at(static_cast<double>(k));
@@ -71,8 +71,8 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, double most_off, 
     if (!axis_of(from, to, own, step)) break;
     const double turned = step * own.axis.dot(w.axis);
     if (turned < 0.5 * step) break;
-    // Both ways are screw motions. Between two instants they part by no more than at these, and an eighth of what
-    // their accelerations (w x velocity) differ by.
+    // Both motions are screws. Between two instants their distance is at most that at the instants plus an eighth of
+    // the difference of their accelerations (w x velocity).
     const Field is = field_of(own, step), wanted = field_of(w, turned);
     const Pose ideal = screwed(w, start, w.turned.back() + turned);
     double off_next = 0, speed = 0, apart = 0;
@@ -94,7 +94,7 @@ bool winding_from(const RelativeMotion& motion, std::size_t k, double most_off, 
   }
   w.rounding = kRounding * extent;
   w.off += w.rounding;
-  return w.end > k && w.turned.back() >= 1;  // shorter ones are checked as quickly without unrolling
+  return w.end > k && w.turned.back() >= 1;  // unrolling does not speed up shorter ones
 }
 
 std::array<Corners, 4> quarters(const Corners& t) {
@@ -120,11 +120,11 @@ std::vector<Winding> windings(const RelativeMotion& motion, double most_off) {
 
 namespace {
 
-/// `off`: the triangle may be anywhere within that distance of `t`.
+/// `off`: largest distance of the triangle from `t`.
 Unrolled unroll(const Winding& w, const Corners& t, double off) {
   Unrolled u;
   const Vec3 across = w.axis.cross(w.side);
-  // A left-hand screw is a right-hand one upside down.
+  // Mirror a left-hand screw to a right-hand one.
   const double up = w.pitch < 0 ? -1 : 1, pitch = std::abs(w.pitch);
   std::array<Vec2, 3> flat;
   std::array<double, 3> z;
@@ -148,9 +148,9 @@ Unrolled unroll(const Winding& w, const Corners& t, double off) {
   u.z_hi = z_most + off + w.rounding;
   u.bent = least_r < 0.5 * radius || least_r < 8 * off;
   if (u.bent) return u;
-  // r and phi are not linear, but nearly: at a mean of the corners they differ from the mean of their values there by
-  // at most half the mean squared distance of the corners times the second derivative, 1 / r and 1 / r^2. As the
-  // length of a vector r is convex: never more than the mean.
+  // r and phi are nearly linear: at a weighted mean of the corners they differ from the mean of the corner values by at
+  // most half the mean squared distance of the corners times the second derivative, 1 / r and 1 / r^2. As a norm, r is
+  // convex and never exceeds the mean.
   const double sag = 0.5 * radius * radius / least_r, turn = sag / least_r + 2 * off / (least_r - off) + kRounding;
   const double about = std::atan2(center.y(), center.x());
   u.phi_lo = std::numeric_limits<double>::infinity();
@@ -202,7 +202,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   for (cell_ = cell;; cell_ *= 1.25) {
     rows_ = static_cast<long>(std::ceil((ring_.r_hi - ring_.r_lo) / cell_)) + 1;
     columns_ = static_cast<long>(std::ceil(lead_ / cell_));
-    if (rows_ * columns_ <= 1'500'000) break;  // of 16 bytes: 24 MB
+    if (rows_ * columns_ <= 1'500'000) break;  // cells of 16 bytes: 24 MB
   }
   taken_.assign(static_cast<std::size_t>(rows_ * columns_), Bits{});
   by_bent_.assign(static_cast<std::size_t>(rows_), Bits{});
@@ -210,7 +210,7 @@ UnrolledMesh::UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const
   for (const std::uint32_t t : there) enter(bvh.corners(t), kDepth);
 }
 
-/// Takes the range of phi of a triangle into that of the mesh.
+/// Extends the range of phi of the mesh by that of a triangle.
 void UnrolledMesh::extend(const Corners& t, int depth) {
   const Unrolled u = unroll(winding_, t, 0);
   if (!near(u)) return;
@@ -227,7 +227,7 @@ void UnrolledMesh::extend(const Corners& t, int depth) {
     }
 }
 
-/// The pieces of the range of phi that [lo, hi] has a share in; what lies beyond the range counts with its ends.
+/// The pieces of the range of phi that [lo, hi] overlaps; values beyond the range belong to its end pieces.
 UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
   const auto pieces = static_cast<double>(8 * sizeof(Bits));
   const double piece = std::max(kRounding, phi_hi_ - phi_lo_) / pieces;
@@ -239,7 +239,7 @@ UnrolledMesh::Bits UnrolledMesh::bits(double lo, double hi) const {
   return b;
 }
 
-/// Of what may be at any angle: psi is brought into [0, lead), so that phi tells the height.
+/// For triangles at any angle: with psi reduced to [0, lead), phi determines the height.
 UnrolledMesh::Bits UnrolledMesh::bits_of_bent(const Unrolled& u, double from, double to) const {
   const double pitch = lead_ / (2 * pi);
   return bits(u.z_lo / pitch - 2 * pi + from - kLeastStep, u.z_hi / pitch + to + kLeastStep);
@@ -250,8 +250,8 @@ std::pair<long, long> UnrolledMesh::rows_of(double lo, double hi) const {
           std::min(rows_ - 1, static_cast<long>(std::floor((hi - ring_.r_lo) / cell_)))};
 }
 
-/// Calls f(cell, turns) for all cells that the triangle may have a share in, `turns` those by which it is wound back to
-/// get there. Ends with false as soon as f does. Rows for which in_row(row) is false are left out.
+/// Calls f(cell, turns) for all cells that the triangle may overlap; `turns` is the number of full turns by which it is
+/// wound back. Returns false as soon as f does. Skips rows with false in_row(row).
 template <class Row, class Cell>
 bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f) const {
   const auto [first, last] = std::minmax({u.p[0].x(), u.p[1].x(), u.p[2].x()});
@@ -259,7 +259,7 @@ bool UnrolledMesh::cells_of(const Unrolled& u, const Row& in_row, const Cell& f)
   const double column = lead_ / static_cast<double>(columns_);
   for (long row = row0; row <= row1; ++row) {
     if (!in_row(row)) continue;
-    // psi of what has its r, without slack, in [r0, r1].
+    // Range of psi of the points with r in [r0, r1], without slack.
     const double r0 = ring_.r_lo + static_cast<double>(row) * cell_ - u.above - winding_.rounding;
     const double r1 = ring_.r_lo + static_cast<double>(row + 1) * cell_ + u.below + winding_.rounding;
     double lo = std::numeric_limits<double>::infinity(), hi = -lo;
@@ -322,7 +322,7 @@ bool UnrolledMesh::free(const Corners& t, double from, double to, int depth, std
   ++cells;
   if (!near(u)) return true;
   const auto none = [](const Bits& x, const Bits& y) { return (x[0] & y[0]) == 0 && (x[1] & y[1]) == 0; };
-  // Whatever its psi: does anything reach so near the axis at these heights?
+  // For any psi: is the mesh at these radii and heights at all?
   const Bits any = bits_of_bent(u, from, to);
   const auto [row0, row1] = rows_of(u.r_lo, u.r_hi);
   bool alone = true;

@@ -44,7 +44,7 @@ Corners moved_by_vertices(const Patch& patch, double depth) {
 }
 
 Corners moved_along(const Patch& patch, const Vec3& direction, double depth) {
-  constexpr double kAcross = 0.02;  // sine: the corners of neighbours that move alike stay a little apart
+  constexpr double kAcross = 0.02;  // sine: keeps corners of neighbours that move alike slightly apart
   static const double along = std::sqrt(1 - kAcross * kAcross);
   Corners moved = patch.p;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -65,17 +65,17 @@ Escape escape_at(const Vec3& point, const Solid& solid) {
 std::optional<Ridge> ridge_on(const Patch& patch, const Probe& probe) {
   if (patch.halved >= 2) return std::nullopt;
   std::optional<Ridge> best;
-  double least = 0.7;  // cosine, 45 degrees: corners whose ways out agree better are on one side of a ridge
+  double least = 0.7;  // cosine, 45 degrees: corners whose ways out differ less are on one side of a ridge
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const double agreement = probe.out[i].dot(probe.out[j]);
     if (agreement >= least || probe.depth[i] <= 0 || probe.depth[j] <= 0) continue;
-    // Going from i to j the way out of i gets longer by a, going back that of j by b.
+    // From i to j, the way out of i gets longer by a; from j to i, that of j by b.
     const Vec3 edge = patch.p[j] - patch.p[i];
     const double a = -edge.dot(probe.out[i]), b = edge.dot(probe.out[j]);
     if (!(a + b > 0)) continue;
     const double t = (probe.depth[j] - probe.depth[i] + b) / (a + b);
-    if (!(std::abs(t - 0.5) < 0.48)) continue;  // so near an end a cut makes a sliver
+    if (!(std::abs(t - 0.5) < 0.48)) continue;  // a cut near an end makes a sliver
     least = agreement;
     best = Ridge{i, t};
   }

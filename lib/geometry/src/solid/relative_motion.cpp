@@ -22,7 +22,7 @@ Field field_of(const Pose& from, const Pose& to) {
   f.origin = from.t;
   const double angle2 = f.w.squaredNorm();
   const Vec3 d = to.t - from.t;
-  // Inverse of the left Jacobian, see geometry/pose.cpp; kept apart because the verifier shares nothing it can avoid.
+  // Inverse of the left Jacobian, see geometry/pose.cpp; a copy, because the verifier shares little code.
   double c = 1.0 / 12;
   if (angle2 > 1e-6) {
     const double angle = std::sqrt(angle2);
@@ -55,11 +55,11 @@ RelativeMotion::RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const A
     }
     const double turn = (fa.w - fb.w).norm();
     for (const auto& c : corners_) {
-      // In B's frame y'' = (wa - wb) x va - wb x (va - vb), all in world axes, taken at where the point is.
+      // In B's frame y'' = (wa - wb) x va - wb x (va - vb), in world axes, at the position of the point.
       const Vec3 x = start * c, va = fa(x), vb = fb(x);
       double bound;
       if (b_still)
-        bound = fa.w.cross(va).norm();  // the same all the way
+        bound = fa.w.cross(va).norm();  // constant along the motion
       else if (a_still)
         bound = fb.w.cross(vb).norm();
       else
@@ -102,7 +102,7 @@ double RelativeMotion::chord_deviation(std::size_t i, std::size_t j) const {
   for (std::size_t k = i + 1; k < j; ++k) {
     const double w = way2 > 1e-20 ? std::clamp((at_instant_[k] * middle - start).dot(way) / way2, 0.0, 1.0)
                                   : static_cast<double>(k - i) / static_cast<double>(j - i);
-    // The offset is affine in the point: largest at a corner of the box.
+    // The offset is affine in the point, so its maximum is at a corner of the box.
     for (const auto& c : corners_)
       off = std::max(off, (at_instant_[k] * c - (1 - w) * (from * c) - w * (to * c)).norm());
   }
@@ -127,7 +127,7 @@ RelativeMotion::Bend RelativeMotion::bend(double s0, double s1) const {
     return bend;
   }
   const auto j = static_cast<std::size_t>(s1);
-  if (j - i > 24) return bend;  // over so long chords a bound by point is not tighter than that of the box
+  if (j - i > 24) return bend;  // for long chords a bound per point is no tighter than that of the box
   const Placement &from = at_instant_[i], &to = at_instant_[j];
   Vec3 middle = Vec3::Zero();
   for (const auto& c : corners_) middle += c / 8;
@@ -148,7 +148,7 @@ RelativeMotion::Bend RelativeMotion::bend(double s0, double s1) const {
 
 double RelativeMotion::Bend::at(const Vec3& center, double radius) const {
   if (screw_ != nullptr) {
-    // Along a screw motion the second derivative of a point's way has the same size all the time.
+    // Along a screw motion the acceleration of a point has constant magnitude.
     const Screw& f = *screw_;
     const Vec3 x = f.start * center;
     const double bound = f.w.cross(f.v + f.w.cross(x - f.origin)).norm() + f.w.squaredNorm() * radius;

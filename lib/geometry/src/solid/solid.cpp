@@ -16,12 +16,12 @@ namespace {
 
 using Vec3 = Eigen::Vector3d;
 
-/// The triangles of `pick` with the vertices that they use, in the order of the mesh.
+/// The triangles of `pick` and the vertices they use, in the order of the mesh.
 Mesh sub_mesh(const Mesh& mesh, const std::vector<std::uint32_t>& pick, bool flip = false) {
   Mesh out;
   std::vector<std::uint32_t> used;
   for (const auto t : pick) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  std::vector<std::uint32_t> number;  // by vertex; a small shell of a large mesh does without
+  std::vector<std::uint32_t> number;  // by vertex; not needed for a small shell of a large mesh
   if (used.size() >= mesh.vertices.size()) {
     number.assign(mesh.vertices.size(), kNoIndex);
     for (const auto v : used) number[v] = 0;
@@ -62,12 +62,12 @@ Vec3 triangle_normal(const Mesh& mesh, std::size_t t) {
   const double length = n.norm();
   const double longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()}));
   const double size = std::max(a.cwiseAbs().maxCoeff(), longest);
-  if (!(length > 1e-8 * size * longest)) return Vec3::Zero();  // its height is within the rounding of its corners
+  if (!(length > 1e-8 * size * longest)) return Vec3::Zero();  // its height is below the rounding of its corners
   return n / length;
 }
 
-/// Direction that enters all faces with these outward normals as steeply as can be (centre of the smallest cap of
-/// the sphere around them, by Badoiu and Clarkson's iteration), or zero.
+/// Direction that enters all faces with these outward normals as steeply as possible (centre of their smallest
+/// spherical cap, by Badoiu and Clarkson's iteration), or zero.
 Vec3 inward_direction(const std::vector<Vec3>& normals) {
   Vec3 c = Vec3::Zero();
   for (const auto& n : normals) c += n;
@@ -92,7 +92,7 @@ Vec3 inward_direction(const std::vector<Vec3>& normals) {
       best = d;
     }
   }
-  // A direction that enters a face by less than 3 degrees (a sine of 0.05) goes far beside before it is deep.
+  // A direction that enters a face at less than 3 degrees (sine 0.05) moves far sideways before it gets deep.
   return best_sine < 0.05 ? Vec3(Vec3::Zero()) : Vec3(-best);
 }
 
@@ -115,7 +115,7 @@ std::vector<Vec3> inward_directions(const Mesh& mesh, const std::vector<Vec3>& n
   return directions;
 }
 
-/// Axes along the two directions, at right angles, that most of the surface faces.
+/// Axes along the two perpendicular directions that most of the surface faces.
 Pose tight_frame(const Mesh& mesh) {
   using geometry::FaceAxis;
   std::vector<FaceAxis> all;
@@ -191,10 +191,10 @@ void Solid::measure_thickness(double reach, const Poll& poll) {
     const auto blocks = [&](std::uint32_t other) {
       if (other == t) return false;
       const double facing = normals[t].dot(normals[other]);
-      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < -0.9;  // a blade
+      if (share_corner(mesh.triangles[t], mesh.triangles[other])) return facing < -0.9;  // the edge of a blade
       return facing < 0;                                                                 // an opposite side faces away
     };
-    // Most triangles have no opposite side within reach: one question for all rays of the triangle.
+    // Most triangles have no opposite side within reach: one query covers all rays of the triangle.
     Aabb around;
     for (int k = 0; k < 3; ++k) {
       around.extend(mesh.vertex(t, k));

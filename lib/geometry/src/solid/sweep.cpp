@@ -19,7 +19,7 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
     box_.extend(end[i]);
     edges_[i] = begin[(i + 1) % 3] - begin[i];
   }
-  // Error of the few sums and products below, with a margin of 1e3: this class has no long chains of operations.
+  // Error of the few sums and products below, with a margin of 1e3: there are no long chains of operations.
   const double rounding = 1e-12 * std::max(box_.lo.cwiseAbs().maxCoeff(), box_.hi.cwiseAbs().maxCoeff());
   margin_ += rounding;
   box_.inflate(margin_);
@@ -32,7 +32,7 @@ Sweep::Sweep(const Corners& begin, const Corners& end, double margin) : margin_(
   add_axis(normal);
   if (turning_) add_axis((end[1] - end[0]).cross(end[2] - end[1]));
   for (const auto& e : edges_) add_axis(moving_ ? e.cross(motion_) : e.cross(normal));
-  // A sliver that moves along itself has sides whose normals are all but that of its face.
+  // The sides of a sliver that moves along itself have nearly the normal of its face.
   if (moving_) add_axis(normal.cross(motion_));
 }
 

@@ -17,10 +17,10 @@ namespace {
 using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
-// All lengths here are in units of four times the volume by the surface: the thickness of a round strand.
-constexpr double kSlender = 8;  // length by thickness, at least: shorter bodies are rods
-constexpr double kStep = 0.5;   // between two cuts, by thickness: coils of springs turn by a few degrees in it
-constexpr int kStarts = 16;     // spread evenly over the surface; one in a strand that is three quarters of it suffices
+// Lengths are in units of 4 volume / surface: the thickness of a round strand.
+constexpr double kSlender = 8;  // least length / thickness: shorter bodies are rods
+constexpr double kStep = 0.5;   // distance of cuts / thickness: coils of springs turn by a few degrees in one step
+constexpr int kStarts = 16;     // start points, evenly over the surface; one on the strand suffices
 
 struct Station {
   Section cut;
@@ -46,7 +46,7 @@ class Follower {
         s.along = -s.along;
         std::reverse(s.cut.rim.begin(), s.cut.rim.end());
       }
-      back.pop_back();  // the first again
+      back.pop_back();  // the first station is also in `line`
       back.insert(back.end(), line.begin(), line.end());
       line = std::move(back);
     }
@@ -55,14 +55,14 @@ class Follower {
 
  private:
   std::optional<Section> cut(const Vec3& point, const Vec3& along) const {
-    // An outline that continues at 2.5 thicknesses is none of a strand, nor one flatter than a rectangle of three to
-    // one.
+    // Rejects outlines that extend beyond 2.5 thicknesses or are flatter than a 3:1 rectangle.
     auto found = section_around(mesh_, bvh_, point, along, 2.5 * std::max(1.0, thickness_));
     if (found && 4 * pi * found->area < 0.6 * found->outline * found->outline) found.reset();
     return found;
   }
 
-  /// Of all cuts through a point that hold a normal there the smallest; then once more, square to where it leads.
+  /// The smallest cut through a point among planes that contain the normal there; then a cut perpendicular to the
+  /// strand.
   std::optional<Station> first_cut(const Vec3& point, const Vec3& normal) const {
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
     std::optional<Station> best;
@@ -72,7 +72,7 @@ class Follower {
       auto found = cut(point, along);
       if (found && (!best || found->area < best->cut.area)) best = Station{std::move(*found), along};
     }
-    // Round strands have the area of a circle one thick; flat ones, and ends that the volume includes, differ.
+    // A round strand has the area of a circle of diameter 1; flat sections and strand ends change that ratio.
     if (!best || best->cut.area < 0.6 * pi / 4 || best->cut.area > 2.2 * pi / 4) return std::nullopt;
     const double step = kStep * std::sqrt(4 * best->cut.area / pi);
     const auto on = cut(best->cut.center + step * best->along, best->along);
@@ -84,7 +84,7 @@ class Follower {
     return Station{std::move(*again), along};
   }
 
-  /// The first station and all that follow it. Sets closed_ when the last is next to the first.
+  /// The first station and its successors. Sets closed_ if the last is next to the first.
   std::vector<Station> follow(const Station& first) {
     closed_ = false;
     std::vector<Station> line{first};
@@ -111,7 +111,7 @@ class Follower {
     return line;
   }
 
-  /// The tangent at the end of a chord: as the chords go on to turn; of the first, as on a circle.
+  /// Tangent at the end of a chord: extrapolates the turn between chords, or assumes a circle at the first chord.
   static Vec3 leads(const Vec3& along, const Vec3& chord, const Vec3& chord_before) {
     const Vec3 c = chord.normalized();
     if (chord_before.isZero()) return (2 * along.dot(c) * c - along).normalized();
@@ -144,7 +144,7 @@ class Follower {
       out.length += chords[k].norm();
       volume += 0.5 * (areas[k] + areas[(k + 1) % n]) * chords[k].norm();
     }
-    if (!closed) {  // on average half a step is left at either end
+    if (!closed) {  // on average half a step remains at each end
       out.length += kStep * thickness_;
       volume += 0.5 * kStep * thickness_ * (areas.front() + areas.back());
     }
@@ -176,8 +176,8 @@ std::optional<Strand> follow_strand(const Mesh& mesh) {
   const double volume = signed_volume(mesh), area = surface_area(mesh);
   if (!(volume > 0) || !(area > 0)) return std::nullopt;
   const double unit = 4 * volume / area;
-  const double slender = volume / (pi / 4 * unit * unit * unit);  // more than that of any other section of this volume
-  if (slender < 0.75 * kSlender) return std::nullopt;             // a strand of which a quarter is something else
+  const double slender = volume / (pi / 4 * unit * unit * unit);  // largest length / thickness: that of a round one
+  if (slender < 0.75 * kSlender) return std::nullopt;             // allows a quarter of the volume beside the strand
   const Vec3 origin = mesh.box().center();
   Mesh scaled = mesh;
   for (Vec3& v : scaled.vertices) v = (v - origin) / unit;
@@ -194,7 +194,7 @@ std::optional<Strand> follow_strand(const Mesh& mesh) {
     const Vec3 middle = (scaled.vertex(t, 0) + scaled.vertex(t, 1) + scaled.vertex(t, 2)) / 3;
     auto found = follower.from(middle, -across.normalized());
     if (found && (!best || found->share > best->share)) best = std::move(found);
-    if (best && best->share > 0.95) break;  // nothing is left for another
+    if (best && best->share > 0.95) break;  // no volume is left for another strand
   }
   if (!best) return std::nullopt;
   best->thickness *= unit;

@@ -15,14 +15,14 @@ using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 Edge edge_of(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// Where the cut leaves an edge, and the edge that it comes to next.
+/// Point at which the cut leaves an edge, and the next edge that it meets.
 struct Crossing {
   Edge next;
   Vec3 at;
 };
 
-/// One crossing of each triangle that the plane divides. A corner in the plane counts as above it, so that every
-/// outline of a closed mesh is a closed chain.
+/// One crossing per triangle that the plane divides. A corner in the plane counts as above it, so that every outline of
+/// a closed mesh is a closed chain.
 std::map<Edge, Crossing> crossings(const Mesh& mesh, const TriangleBvh& bvh, const Vec3& point, const Vec3& normal,
                                    double reach) {
   std::map<Edge, Crossing> found;
@@ -43,7 +43,7 @@ std::map<Edge, Crossing> crossings(const Mesh& mesh, const TriangleBvh& bvh, con
         continue;
       }
       down = edge_of(v[k], v[n]);
-      // From the same end whichever triangle asks.
+      // Interpolate from the same end for both triangles of the edge.
       const bool first = v[k] < v[n];
       const double h0 = first ? height[k] : height[n], h1 = first ? height[n] : height[k];
       const Vec3 &p0 = mesh.vertices[down->first], &p1 = mesh.vertices[down->second];
@@ -96,7 +96,7 @@ std::optional<Section> section_around(const Mesh& mesh, const TriangleBvh& bvh, 
       at = next->second.next;
       open.erase(next);
     }
-    if (at != begin || rim.size() < 3 || !holds(rim, point, u, v)) continue;  // cut off by the reach, or elsewhere
+    if (at != begin || rim.size() < 3 || !holds(rim, point, u, v)) continue;  // open, or not around the point
     Section here = measured(std::move(rim), point, normal);
     if (here.area < 0) {
       std::reverse(here.rim.begin(), here.rim.end());

@@ -1,4 +1,4 @@
-/// Meshes that are the same surface in two places.
+/// Rigid congruence of two meshes.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 
 namespace dismantle::geometry {
 
-/// The displacement that takes each vertex of `a` to within `tolerance` (units of the meshes, per coordinate) of the
-/// vertex of `b` with the same number. Nothing when there is none, when the triangles are numbered otherwise, or when
-/// there are fewer than three vertices. Mirror images are not congruent.
+/// Rigid motion that takes each vertex of `a` to within `tolerance` (units of the meshes, per coordinate) of the vertex
+/// of `b` with the same index. Empty if there is no such motion, if the triangles have other indices, or for fewer than
+/// three vertices. Mirror images are not congruent.
 DISMANTLE_API std::optional<Pose> congruence(const Mesh& a, const Mesh& b, double tolerance);
 
 }  // namespace dismantle::geometry

@@ -17,16 +17,16 @@
 
 namespace dismantle::geometry {
 
-/// How deep points may be. A point of a triangle may be overlap + min(penetration, thickness / 4) deep.
+/// Depth limits. The limit for a point of a triangle is overlap + min(penetration, thickness / 4).
 struct Limits {
-  double overlap = 0;            ///< >= 0, the pair's when assembled
+  double overlap = 0;            ///< >= 0, of the pair in assembled position
   double penetration = 0;        ///< > 0
-  const Aabb* exempt = nullptr;  ///< where points may be as deep as they like; see exempts()
-  /// The largest penetration that the caller is interested in, >= penetration; 0 means the same. Cells of unrolled
-  /// meshes are a share of it.
+  const Aabb* exempt = nullptr;  ///< box without a depth limit, may be null; see exempts()
+  /// Largest penetration bound of the caller, >= penetration; 0: equal to it. Cells of unrolled meshes are a share of
+  /// it.
   double tolerance = 0;
-  /// Is a point of `a` that is at `in_b` in the frame of `b` in the exempt box, where it is in its part as assembled or
-  /// in the other part as assembled?
+  /// True if the exempt box contains the point when `a` or `b`, with the point fixed to it, is in assembled position.
+  /// `in_a`, `in_b`: the point in the frames of both solids.
   bool exempts(const Solid& a, const Eigen::Vector3d& in_a, const Solid& b, const Eigen::Vector3d& in_b) const {
     return exempt != nullptr && (exempt->contains(a.frame * in_a) || exempt->contains(b.frame * in_b));
   }
@@ -35,33 +35,33 @@ struct Limits {
   double cells_from() const { return tolerance > 0 ? tolerance : penetration; }
 };
 
-/// What the check of one direction says.
+/// Result of the check of one direction.
 enum class Answer {
   certified,
   violated,   ///< a point beyond its limit was found
-  uncertain,  ///< neither, down to the resolution limit
-  exhausted,  ///< neither, within the budget
+  uncertain,  ///< undecided at the resolution limit
+  exhausted,  ///< undecided within the budget
 };
 
-/// The answer of the check of one direction, and the place where it fails.
+/// Result of the check of one direction, and the place where it failed.
 struct Finding {
   Answer answer = Answer::certified;
   // Unless certified:
   Eigen::Vector3d point = Eigen::Vector3d::Zero();             ///< frame of its part
   bool of_second = false;                                      ///< `point` belongs to the second part of the pair
   double depth = 0;                                            ///< measured at `point`; negative outside
-  double thickness = std::numeric_limits<double>::infinity();  ///< of the triangle that it lies on
+  double thickness = std::numeric_limits<double>::infinity();  ///< of the triangle that contains `point`
   double time = 0;
 };
 
-/// Work allowed and done, in elementary sweep tests and patches. Counts, so that answers do not depend on the machine.
+/// Work allowed and done, in elementary sweep tests and patches: counts make results independent of the machine.
 struct Budget {
   std::uint64_t tests_left = 0;
   std::uint64_t patches_left = 0;
   std::uint64_t tests_done = 0;
-  const RunContext* context = nullptr;  ///< may be null; when it says stop, nothing is left
-  /// Share of the penetration allowed, > 0. Parts of the surface, in a time interval, that stay within less of it are
-  /// not divided further: the check ends as uncertain.
+  const RunContext* context = nullptr;  ///< may be null; a stop request sets tests_left to 0
+  /// Share of the allowed penetration, > 0. An undecided patch whose radius and motion in the time interval are below
+  /// it is not divided further: the check ends as uncertain.
   double resolution = 0.125;
   bool spend_test() {
     if (context != nullptr && tests_done % 256 == 0 && context->should_stop()) tests_left = 0;
@@ -79,14 +79,14 @@ struct Budget {
   }
 };
 
-/// The surface of `a` against `b`. One object per question. Idle threads of the executor in the budget's context help;
-/// what is found, and what that takes, does not depend on them.
+/// Checks the surface of `a` against `b`. One object per check. Idle threads of the executor in the budget's context
+/// help; neither the finding nor the budget spent depends on them.
 class DirectedCheck {
  public:
   DirectedCheck(const Solid& a, const Solid& b, const RelativeMotion& motion, const Limits& limits, Budget& budget);
   Finding run();
-  /// After a certified run: all of it by the vertex rule. Then one and the same shrunken copy of A stayed off the
-  /// surface of B at all times.
+  /// After a certified run: true if the vertex rule certified all of it. Then a single shrunken copy of A stayed clear
+  /// of the surface of B at all times.
   bool by_shrunken_copy() const { return by_shrunken_copy_; }
 
  private:
@@ -95,7 +95,7 @@ class DirectedCheck {
     Placement at0, at1;
     RelativeMotion::Bend bend;
   };
-  struct Piece {  // certified by the vertex rule except for which side it is on
+  struct Piece {  // certified by the vertex rule, except for the side of B's surface
     std::uint32_t patch;
     double s0, s1;
   };
@@ -113,7 +113,7 @@ class DirectedCheck {
   bool process(const Interval& i, List list, bool vertex_rule);
   bool settle_all(const Interval& i, List list, bool vertex_rule, List& later);
   bool settle_in_turn(const Interval& i, List list, bool vertex_rule, List& later);
-  // directed_share.cpp: with idle threads
+  // directed_share.cpp: work shared with idle threads
   struct Share;
   DirectedCheck(const DirectedCheck& whole, const List& list, Budget& budget);
   bool has_help() const;
@@ -136,7 +136,7 @@ class DirectedCheck {
   bool sides();
   bool fail(Answer answer, const Eigen::Vector3d& point, double depth, std::uint32_t triangle, double time);
   double allowed(const Patch& patch) const { return limits_.at(a_.thickness[patch.triangle]); }
-  /// How far the patch is displaced: less than is allowed, so that rounding cannot carry it beyond.
+  /// Displacement of the patch: slightly below the limit, so that rounding cannot exceed the limit.
   double displacement(const Patch& patch) const { return allowed(patch) * (1 - kRounding); }
 
   const Solid& a_;
@@ -145,8 +145,8 @@ class DirectedCheck {
   Limits limits_;
   Budget& budget_;
   std::vector<Patch> patches_;
-  std::vector<std::uint32_t> patch_of_;  // by triangle of A; none until it was needed
-  /// By triangle of A: margins from there on proved nothing lately. Of all shares; no two have patches of one triangle.
+  std::vector<std::uint32_t> patch_of_;  // by triangle of A; kNoIndex until needed
+  /// By triangle of A: recent tests with this margin or more proved nothing. Shares have no triangle in common.
   std::shared_ptr<std::vector<double>> unclear_;
   std::vector<Piece> pieces_;
   bool by_shrunken_copy_ = true;

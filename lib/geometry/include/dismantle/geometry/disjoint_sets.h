@@ -1,4 +1,4 @@
-/// Which of n things hang together.
+/// Disjoint sets (union-find).
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace dismantle {
 
-/// Disjoint sets of 0 to n - 1. The root of a set is its smallest member, so no order of joining matters.
+/// Disjoint sets of 0 to n - 1. The root of a set is its smallest member, whatever the order of joins.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -1,4 +1,4 @@
-/// The directions along which the faces of a mesh look.
+/// Axes of the face normals of a mesh.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,33 +13,33 @@
 
 namespace dismantle::geometry {
 
-/// The cross product of two edges: along the outward normal, twice the area long.
+/// Cross product of two edges: the outward normal times twice the area.
 inline Eigen::Vector3d area_vector(const std::array<Eigen::Vector3d, 3>& corners) {
   return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
 }
-/// Normal of the triangle times its area.
+/// The same for one triangle of a mesh.
 inline Eigen::Vector3d area_vector(const Mesh& mesh, std::size_t triangle) {
   const Eigen::Vector3d& a = mesh.vertex(triangle, 0);
   return (mesh.vertex(triangle, 1) - a).cross(mesh.vertex(triangle, 2) - a);
 }
 
-/// A line along which faces look, either way.
+/// Common axis of face normals.
 struct FaceAxis {
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit; its sign means nothing
-  double area = 0;                                 ///< of those faces, or what the caller weighs them by
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< unit; the sign has no meaning
+  double area = 0;                                 ///< of these faces, or another weight that the caller chose
 };
 
-/// Joins a face to the first axis that is as near as `same` (cosine of the angle); else it becomes an axis of its own,
-/// where there are not `most` yet.
+/// Adds a face to the first axis within the angle whose cosine is `same`. Without such an axis, the face becomes a new
+/// one unless there are `most` already.
 DISMANTLE_API void add_face(std::vector<FaceAxis>& axes, const FaceAxis& face, double same,
                             std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Most area first; equals stay in their order. Drops what comes after the first `most`.
+/// Sorts by descending area (stable) and keeps the first `most` axes.
 DISMANTLE_API void sort_by_area(std::vector<FaceAxis>& axes,
                                 std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// Joins faces whose normals agree to three decimals, up to their sign; the first of them stands for the axis. Faster
-/// than add_face() where there are thousands, and which axes come out depends less on the order. Ordered by direction.
+/// Joins faces whose normals agree to three decimals, up to sign; the first normal becomes the axis. With thousands of
+/// faces this is faster than add_face(), and the axes depend less on the order of faces. Ordered by direction.
 DISMANTLE_API std::vector<FaceAxis> rounded_axes(const std::vector<FaceAxis>& faces);
 
 }  // namespace dismantle::geometry

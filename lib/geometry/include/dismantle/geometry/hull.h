@@ -10,8 +10,8 @@
 
 namespace dismantle {
 
-/// The points of `points` that are corners of their convex hull, in the order given.
-/// Flat or degenerate sets are allowed: then a superset of the corners comes back.
+/// The points of `points` that are corners of their convex hull, in the order given. Flat or degenerate sets are
+/// allowed; for them the result is a superset of the corners.
 DISMANTLE_API std::vector<Eigen::Vector3d> hull_corners(std::span<const Eigen::Vector3d> points);
 
 /// Plane that has all of A on one side and all of B on the other.
@@ -20,8 +20,8 @@ struct Separation {
   double gap;              ///< min over B of normal.b minus max over A of normal.a; > 0
 };
 
-/// A separating plane of two point sets, or nothing when their hulls touch or overlap (or are closer
-/// than `min_gap`). What comes back was checked against every point, so it is a proof. Both sets non-empty.
+/// A separating plane of two point sets, or nothing when their hulls touch, overlap or are closer than `min_gap`. The
+/// returned plane was checked against every point, so it is a proof. Both sets non-empty.
 DISMANTLE_API std::optional<Separation> separate(std::span<const Eigen::Vector3d> a,
                                                  std::span<const Eigen::Vector3d> b, double min_gap = 0.0);
 

@@ -1,4 +1,4 @@
-/// Rule (c): when the convex hulls of two groups of parts are apart.
+/// Rule (c): the convex hulls of two groups of parts are disjoint.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace dismantle::geometry {
 
-/// A part at its pose. What is pointed to must outlive this.
+/// A part at its pose. The objects pointed to must outlive this one.
 struct PlacedHull {
   const Mesh* mesh = nullptr;
   const Aabb* box = nullptr;                              ///< of the mesh
@@ -18,25 +18,25 @@ struct PlacedHull {
   Pose pose;
 };
 
-/// For one question, or several of which only the shift differs. Not safe to call from several threads.
+/// Answers queries that differ only in the shift. Not thread-safe.
 class HullsApart {
  public:
   HullsApart(std::vector<PlacedHull> group, std::vector<PlacedHull> rest);
-  /// With all of the group moved by `shift`. True is certain on all vertices. True when there is nothing to be apart.
+  /// True if the hulls are disjoint with the group moved by `shift`, proved on all vertices, or if a side is empty.
   bool after(const Eigen::Vector3d& shift);
-  /// Distance along the unit vector `direction`, at most `most` (where it is taken for granted), by which the group has
-  /// to be moved until it is so; by that number of bisections.
+  /// Distance along the unit vector `direction` after which the hulls are disjoint, by bisection. Returns at most
+  /// `most`, where the hulls are assumed to be disjoint.
   double distance(const Eigen::Vector3d& direction, double most, int bisections);
 
  private:
   using Vec3 = Eigen::Vector3d;
-  /// Boxes around the parts, and around runs of them, so that what reaches farthest is found at the cost of few parts.
+  /// Boxes around parts, and around runs of parts, so that finding the farthest point visits few parts.
   struct Side {
     std::vector<PlacedHull> parts;
-    std::vector<Vec3> begin;   // of the parts: where they were put
-    std::vector<Aabb> boxes;   // of the parts, where they are
+    std::vector<Vec3> begin;   // of the parts: initial translations
+    std::vector<Aabb> boxes;   // of the parts at their current poses
     std::vector<Aabb> runs;    // of each kRun parts
-    std::vector<double> most;  // of farthest(), by run: how far it could reach
+    std::vector<double> most;  // scratch, by run: upper bound of its extent
 
     explicit Side(std::vector<PlacedHull> placed);
     void move_to(const Vec3& shift);

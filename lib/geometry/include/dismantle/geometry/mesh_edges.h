@@ -1,4 +1,4 @@
-/// Edges of an indexed mesh, grouped.
+/// Edges of an indexed mesh, grouped by vertex pair.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,8 +18,8 @@ struct EdgeRef {
   bool forward;  ///< the triangle runs from lo to hi
 };
 
-/// The items in ascending order of key(item), which is below `keys`, and among equal keys by `less`. Linear in the number
-/// of items where few share a key, as edges share a vertex.
+/// Sorts items by ascending key(item), which is below `keys`, and items with equal keys by `less`. Linear in the number
+/// of items if few of them share a key, as with edges at a vertex.
 template <class Item, class Key, class Less>
 std::vector<Item> sorted_by_key(const std::vector<Item>& items, std::size_t keys, Key&& key, Less&& less) {
   std::vector<std::size_t> begin(keys + 1, 0);
@@ -33,7 +33,7 @@ std::vector<Item> sorted_by_key(const std::vector<Item>& items, std::size_t keys
   return sorted;
 }
 
-/// All edges, equal ones next to each other, in an order that depends on nothing but the mesh.
+/// All edges, equal ones next to each other, in an order that depends only on the mesh.
 inline std::vector<EdgeRef> sorted_edges(const Mesh& mesh) {
   std::vector<EdgeRef> edges;
   edges.reserve(mesh.triangles.size() * 3);

@@ -22,13 +22,13 @@ DISMANTLE_API double longest_edge(const Mesh& mesh);  ///< 0 for an empty mesh
 
 /// How the edges of a mesh are used. Closed = each directed edge is matched by its opposite.
 struct EdgeUse {
-  std::size_t open = 0;                             ///< undirected edges of one triangle
-  std::size_t crowded = 0;                          ///< of three or more triangles
-  std::size_t inconsistent = 0;                     ///< of two or more, with unequal numbers in both directions
+  std::size_t open = 0;                             ///< undirected edges with one triangle
+  std::size_t crowded = 0;                          ///< with three or more triangles
+  std::size_t inconsistent = 0;                     ///< with two or more, not equally many in both directions
   Eigen::Vector3d where = Eigen::Vector3d::Zero();  ///< middle of the first open (else inconsistent) edge
   bool closed() const { return open == 0 && inconsistent == 0; }
 };
-/// How often edges are used by triangles, in each sense.
+/// Counts how triangles use the edges of a mesh.
 DISMANTLE_API EdgeUse edge_use(const Mesh& mesh);
 
 /// Shell of each triangle: connected through shared edges; numbered by first triangle. The mesh must be welded.

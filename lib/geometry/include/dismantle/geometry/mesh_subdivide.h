@@ -8,10 +8,10 @@
 
 namespace dismantle {
 
-/// The same surface with no edge longer than `max_edge` (> 0), by halving the longest edge first, in all triangles that
-/// share it: a closed mesh stays closed, and no angle gets smaller than half the smallest one there was.
-/// Original vertices keep their numbers.
-/// @throws InputError when more than `max_triangles` would be needed.
+/// The same surface without edges longer than `max_edge` (> 0). Halves the longest edge first, in all triangles that
+/// share it: a closed mesh stays closed, and no angle falls below half the smallest initial angle. Original vertices
+/// keep their indices.
+/// @throws InputError if more than `max_triangles` would be needed.
 DISMANTLE_API Mesh subdivide(const Mesh& mesh, double max_edge, std::size_t max_triangles = 50'000'000);
 
 }  // namespace dismantle

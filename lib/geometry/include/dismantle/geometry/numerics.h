@@ -1,17 +1,17 @@
-/// Numerical tolerances that several files share. They decide about rounding, never about how hard something is tried.
+/// Numerical tolerances that several files share. They bound rounding errors and never limit effort.
 #pragma once
 
 #include <cstdint>
 
 namespace dismantle::geometry {
 
-/// Relative error that a chain of a few dozen operations in double precision stays below, with a margin of about 1e5:
-/// coordinates are products of rotations, and corners of slivers lose digits. Of a length: times the size of the
-/// coordinates that it is computed from.
+/// Bound of the relative error of a few dozen operations in double precision, with a margin of about 1e5 because
+/// coordinates are products of rotations and corners of slivers lose digits. For a length, multiply it by the size of
+/// the coordinates that the length is computed from.
 inline constexpr double kRounding = 1e-9;
 
-/// Cosine between unit vectors that count as one direction: 0.26 degrees. Normals that come from single precision files
-/// differ by up to about 0.1 degrees on the small triangles of a flat face.
+/// Cosine of 0.26 degrees: unit vectors closer than that count as one direction. Normals from single precision files
+/// differ by up to about 0.1 degrees on small triangles of a flat face.
 inline constexpr double kSameDirection = 0.99999;
 
 /// Index that refers to nothing: no neighbour, no parent, no owner.

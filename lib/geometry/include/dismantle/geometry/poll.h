@@ -9,7 +9,7 @@
 
 namespace dismantle::geometry {
 
-/// What a long construction calls now and then. The function may be empty; what it throws ends the construction.
+/// Callback that a long construction calls periodically. It may be empty; an exception from it ends the construction.
 class Poll {
  public:
   Poll() = default;
@@ -20,17 +20,17 @@ class Poll {
   void operator()() const {
     if (function_) function_();
   }
-  /// Before work on that many triangles: not called if there are few.
+  /// Call before work on `triangles` triangles; skips the callback if there are few.
   void before(std::size_t triangles) const {
     if (triangles >= kTriangles) (*this)();
   }
-  /// In a loop over triangles, or what grows with them: called in some of its passes.
+  /// Call in each pass of a loop whose length grows with the triangles; runs the callback in some passes.
   void in_pass(std::size_t pass) const {
     if (pass % kTriangles == kTriangles - 1) (*this)();
   }
 
  private:
-  static constexpr std::size_t kTriangles = std::size_t{1} << 15;  // which take some 10 ms
+  static constexpr std::size_t kTriangles = std::size_t{1} << 15;  // about 10 ms of work
   std::function<void()> function_;
 };
 

@@ -12,8 +12,8 @@
 
 namespace dismantle::geometry {
 
-/// Distance along `direction` (unit) from `from` to the first triangle that `counts(triangle)` admits, infinity when
-/// there is none within `reach`. Triangles parallel to the ray are not hit.
+/// Distance along `direction` (unit) from `from` to the first triangle with `counts(triangle)`, infinity if there is
+/// none within `reach`. Triangles parallel to the ray are not hit.
 template <class Counts>
 double first_hit(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double reach,
                  const Counts& counts) {
@@ -27,7 +27,7 @@ double first_hit(const TriangleBvh& bvh, const Eigen::Vector3d& from, const Eige
     return b;
   };
   Aabb segment = segment_box(reach);
-  // Boxes that the box around an oblique ray meets, and the ray does not.
+  // The box around an oblique ray may meet boxes that the ray itself does not.
   const Vec3 size = direction.cwiseAbs();
   const auto passed_by = [&](const Aabb& box) {
     const Vec3 to = from - box.center(), half = 0.5 * box.size(), off = to.cross(direction).cwiseAbs();

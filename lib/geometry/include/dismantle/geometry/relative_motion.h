@@ -1,4 +1,4 @@
-/// How one part moves in the frame of another, with bounds on how far that is from straight lines.
+/// Motion of one part in the frame of another, with bounds on its deviation from straight lines.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,52 +23,52 @@ struct Placement {
 /// Time runs from 0 to segments(); segment k joins instants k and k + 1 by the screw motions of both parts.
 class RelativeMotion {
  public:
-  /// Poses of part A and of part B, instant by instant; one pose alone stay fixed. `box` holds the points of A
-  /// (its assembled frame) for which deviation() has to hold. At least one pose each; equal numbers if both move.
+  /// Poses of parts A and B, instant by instant; a part with a single pose is fixed. `box` contains the points of A (in
+  /// its assembled frame) for which deviation() must hold. At least one pose each; equal numbers if both move.
   RelativeMotion(std::vector<Pose> a, std::vector<Pose> b, const Aabb& box);
 
   std::size_t segments() const { return at_instant_.size() - 1; }
-  /// Takes points of A to the frame of B.
+  /// Pose that maps points of A to the frame of B.
   Pose at(double s) const;
-  /// One of the parts stay fixed in segment k, so that the other's screw motion is the relative motion.
+  /// True if one of the parts is fixed in segment k: the other's screw motion is the relative motion.
   bool is_screw(std::size_t k) const { return screws_[k].known; }
   const std::array<Eigen::Vector3d, 8>& corners() const { return corners_; }  ///< of the box
-  /// No point of the box leaves where it is in the frame of B by more than `tolerance`.
+  /// True if no point of the box moves by more than `tolerance` in the frame of B.
   bool constant(double tolerance) const;
-  /// Bound of the distance of a triangle of A, at any time of [s0, s1], from the triangle whose corners are
-  /// (1 - w) x(s0) + w x(s1) for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
+  /// Bound of the distance between a triangle of A at any time in [s0, s1] and the triangle with the corners (1 - w)
+  /// x(s0) + w x(s1), for some w in [0, 1]. s0 and s1 are instants or lie in one segment.
   double deviation(double s0, double s1) const;
-  /// A segment on which one of the parts stay fixed: velocity v + w x (x - origin) of the other where the points of
-  /// A are at its beginning (world).
+  /// A segment in which one part is fixed: velocity field v + w x (x - origin) of the other part in world axes, and the
+  /// placement of A at the start of the segment.
   struct Screw {
     bool known = false;
     Eigen::Vector3d w, v, origin;
     Placement start;
   };
-  /// The same for a few points: a turn bends the ways of what is near its axis far less than those of the corners of
-  /// the box. Made once for an interval as above, asked for many places.
+  /// The bound of deviation() for points near a given point: points near the axis of a rotation deviate far less than
+  /// the corners of the box. Built once per interval and queried for many points.
   class Bend {
    public:
-    /// Bound for the points within `radius` of `center`, all of them in the box.
+    /// Bound for the points within `radius` of `center`, which all lie in the box.
     double at(const Eigen::Vector3d& center, double radius) const;
 
    private:
     friend class RelativeMotion;
-    struct Offset {  // of an instant from the chord: an affine map of the points
+    struct Offset {  // offset of an instant from the chord, an affine map of the points
       Eigen::Matrix3d m;
       Eigen::Vector3d t;
       double stretch;  // norm of m
     };
     std::vector<Offset> offsets_;
-    double along_ = 0;              // between instants, at most
+    double along_ = 0;              // bound between instants
     double whole_ = 0;              // deviation() of the box
-    const Screw* screw_ = nullptr;  // of the one segment, if it has one
-    double share2_ = 0;             // of that segment, squared
+    const Screw* screw_ = nullptr;  // of the only segment, if it is a screw
+    double share2_ = 0;             // square of the covered share of the segment
   };
   Bend bend(double s0, double s1) const;
-  /// Box in the frame of B that holds the box of A at all times.
+  /// Box in the frame of B that contains the box of A at all times.
   Aabb swept_box() const;
-  /// The same by segment. Not empty when A or B moves.
+  /// The same for each segment. Not empty if A or B moves.
   std::vector<Aabb> segment_boxes() const;
 
  private:
@@ -77,7 +77,7 @@ class RelativeMotion {
   std::array<Eigen::Vector3d, 8> corners_;
   std::vector<Placement> at_instant_;
   std::vector<Screw> screws_;  // by segment
-  std::vector<double> bend_;   // by segment: bound of the second derivative of a point's way in the frame of B
+  std::vector<double> bend_;   // by segment: bound of a point's acceleration in the frame of B
 };
 
 }  // namespace dismantle::geometry

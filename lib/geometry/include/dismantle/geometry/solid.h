@@ -1,4 +1,4 @@
-/// A part as the verifier uses it: closed shells grouped into solids, with all that sweeps need of each, built once.
+/// A part as the verifier uses it: closed shells grouped into solids, with precomputed data for sweeps.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,8 +12,8 @@
 
 namespace dismantle::geometry {
 
-/// One outer shell and the voids within it. A part whose shells overlap is checked solid by solid: the surface of
-/// one shell inside another must not make a deep penetration look shallow. Immutable.
+/// One outer shell and the voids within it. A part with overlapping shells is checked solid by solid, since the surface
+/// of a shell inside another would make a deep penetration look shallow. Immutable.
 struct Solid {
   explicit Solid(const Mesh& m, const Poll& poll = {});
 
@@ -24,20 +24,20 @@ struct Solid {
   TriangleBvh bvh;
   Aabb box;
   std::vector<Eigen::Vector3d> normals;  ///< by triangle: unit, outward; zero for a triangle without area
-  std::vector<Eigen::Vector3d> inward;   ///< by vertex: unit, into every face around it; zero where there is none
-  /// By triangle: length of an inward ray to the opposite side, the least of four samples; infinity beyond the reach
-  /// asked for. A neighbour that shares a corner counts only when it faces almost the opposite way.
+  std::vector<Eigen::Vector3d> inward;   ///< by vertex: unit, into every face around it; zero if there is none
+  /// By triangle: length of an inward ray to the opposite side, the minimum of four samples; infinity beyond the reach
+  /// of measure_thickness(). A triangle that shares a corner counts only if it faces almost the opposite way.
   std::vector<double> thickness;
-  std::vector<double> vertex_thickness;       ///< least of the triangles around
-  std::vector<std::uint32_t> shell_vertices;  ///< for each shell, all its vertices, ...
-  std::vector<std::uint32_t> shell_begin;     ///< ... which begin here; one entry more than shells
+  std::vector<double> vertex_thickness;       ///< minimum of the adjacent triangles
+  std::vector<std::uint32_t> shell_vertices;  ///< vertices of all shells, shell by shell
+  std::vector<std::uint32_t> shell_begin;     ///< first vertex of each shell; one entry more than shells
 
-  /// Fills thickness up to `reach`; until then it is infinite everywhere.
+  /// Measures thickness up to `reach`; before this call it is infinite everywhere.
   void measure_thickness(double reach, const Poll& poll = {});
 };
 
-/// Shells are joined by common edges. A shell turned inside out is a void of the smallest solid around it; if there
-/// is none, it is taken for a solid that was wound the wrong way.
+/// Triangles with common edges form a shell. An inward shell is a void of the smallest solid around it; without such a
+/// solid it is treated as a solid with reversed orientation.
 std::vector<Solid> split_into_solids(const Mesh& mesh, const Poll& poll = {});
 
 }  // namespace dismantle::geometry

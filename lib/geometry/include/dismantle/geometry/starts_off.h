@@ -1,4 +1,4 @@
-/// Is a solid certainly not within a shrunken copy of another?
+/// Proof that a solid is not inside a shrunken copy of another.
 #pragma once
 
 #include "dismantle/geometry/relative_motion.h"
@@ -6,8 +6,8 @@
 
 namespace dismantle::geometry {
 
-/// Each shell of `b` (placed by `to_a`) has a point that is outside every copy of `a` shrunken by `reach` or less: it
-/// is outside `a`, and further from its surface than any displacement goes. False: not found among some tries.
+/// True if each shell of `b` (placed by `to_a`) has a point outside every copy of `a` that is shrunken by `reach` or
+/// less. False: no such point among the vertices tried.
 bool starts_off(const Solid& b, const Solid& a, const Placement& to_a, double reach);
 
 }  // namespace dismantle::geometry

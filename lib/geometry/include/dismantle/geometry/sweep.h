@@ -12,15 +12,15 @@ namespace dismantle::geometry {
 /// Corners of a triangle.
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-/// What a sweep found.
+/// Result of a sweep test.
 enum class SweepResult {
-  far,      ///< clear, and apart from the whole box of the hierarchy
+  far,      ///< clear, and disjoint from the root box of the hierarchy
   clear,    ///< certainly meets no triangle
-  unclear,  ///< may meet one
+  unclear,  ///< may meet a triangle
 };
 
-/// Convex hull of a triangle at two places, grown by a margin. Tests are one-sided: what is reported clear is more
-/// than the margin away; what is not may be clear as well.
+/// Convex hull of a triangle at two places, grown by a margin. Tests are one-sided: a clear result proves a distance
+/// above the margin; an unclear one proves nothing.
 class Sweep {
  public:
   Sweep(const Corners& begin, const Corners& end, double margin);
@@ -32,14 +32,14 @@ class Sweep {
     double lo, hi;            // extent of the grown hull along n
   };
   void add_axis(const Eigen::Vector3d& n);
-  /// True when n proves the triangle to be off the grown hull.
+  /// True if n separates the triangle from the grown hull.
   bool apart_along(const Eigen::Vector3d& n, const Corners& triangle) const;
   bool apart(const Corners& triangle) const;
   bool misses(const Aabb& box) const;
 
   std::array<Eigen::Vector3d, 6> hull_;
   double margin_;
-  bool turning_ = false;  // the two triangles are not parallel shifts of each other
+  bool turning_ = false;  // the two triangles are not translates of each other
   bool moving_ = false;   // their centers differ by more than rounding
   Eigen::Vector3d motion_;
   std::array<Eigen::Vector3d, 3> edges_;

@@ -19,16 +19,16 @@ namespace dismantle {
 DISMANTLE_API Eigen::Vector3d closest_on_triangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                                                   const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-/// The point of a surface that is closest to a given one.
+/// Closest point of a surface to a query point.
 struct ClosestPoint {
   double distance = std::numeric_limits<double>::infinity();  ///< >= 0
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::uint32_t triangle = 0xffffffffu;  ///< 0xffffffff when nothing lies within the limit
+  std::uint32_t triangle = 0xffffffffu;  ///< 0xffffffff if nothing lies within the limit
 };
 
-/// Bounding-volume hierarchy over the triangles of one mesh. Immutable and safe to share between threads.
-/// Inside is decided by the winding number of the surface, counted exactly along a ray, so that
-/// overlapping shells count as their union and a void with inward normals counts as outside.
+/// Bounding-volume hierarchy over the triangles of one mesh. Immutable and safe to share between threads. The winding
+/// number of the surface, counted exactly along a ray, decides what is inside: overlapping shells count as their union,
+/// and a void with inward normals counts as outside.
 class DISMANTLE_API TriangleBvh {
  public:
   /// A box of the hierarchy.
@@ -38,7 +38,7 @@ class DISMANTLE_API TriangleBvh {
     std::uint32_t count = 0;  ///< leaf: number of triangles; inner: 0
   };
 
-  explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {});  ///< copies what it needs
+  explicit TriangleBvh(const Mesh& mesh, const geometry::Poll& poll = {});  ///< copies the data it needs
 
   ClosestPoint closest(const Eigen::Vector3d& p,
                        double limit = std::numeric_limits<double>::infinity()) const;

@@ -1,8 +1,8 @@
-/// Long screw motions in unrolled coordinates, where a point that turns about an axis and advances moves straight.
+/// Long screw motions in unrolled coordinates, in which a point on a screw motion moves along a straight line.
 ///
-/// Around the axis of a screw motion a point has a radius r, an angle phi and a height z. The motion changes phi, and z
-/// in proportion (`pitch`, per rad); r and psi = z - pitch phi stay what they were. So the surface that a triangle
-/// sweeps in many turns is no more than the triangle's own (r, psi), for a range of phi.
+/// In cylindrical coordinates about the screw axis, a point has a radius r, an angle phi and a height z. The motion
+/// changes phi, and z in proportion to it (`pitch`, per rad); r and psi = z - pitch phi are constant. So the surface
+/// that a triangle sweeps in many turns has only the (r, psi) of the triangle itself, for a range of phi.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,51 +19,51 @@
 
 namespace dismantle::geometry {
 
-/// Instants between which the motion is one and the same screw motion, in the frame of B.
+/// Range of instants in which the motion is a single screw motion, in the frame of B.
 struct Winding {
   std::size_t begin = 0, end = 0;      ///< instants
-  Eigen::Vector3d origin, axis, side;  ///< a point of the axis; unit; unit and square to it: where phi is zero
+  Eigen::Vector3d origin, axis, side;  ///< point of the axis; unit; unit, normal to the axis: phi = 0
   double pitch = 0;                    ///< advance along the axis per rad, either sign
-  std::vector<double> turned;          ///< rad since `begin`, by instant: grows
-  double off = 0;                      ///< largest distance of a point from where the screw takes it, at any time
-  double rounding = 0;                 ///< bound on the error of lengths that are computed from coordinates
+  std::vector<double> turned;          ///< rad since `begin`, by instant; ascending
+  double off = 0;                      ///< largest distance of a point from its place on the screw motion
+  double rounding = 0;                 ///< error bound of lengths computed from coordinates
 
   double turned_at(std::size_t instant) const { return turned[instant - begin]; }
 };
 
-/// Those of at least 1 rad whose points are off the screw by `most_off` at most, one after the other.
+/// Windings of at least 1 rad whose points deviate from the screw by at most `most_off`, in order of time.
 std::vector<Winding> windings(const RelativeMotion& motion, double most_off);
 
-/// Where a triangle is, unrolled. Its r and psi lie in the hull of `p`, grown by the slacks.
+/// A triangle in unrolled coordinates. Its (r, psi) lie in the hull of `p`, grown by the slacks.
 struct Unrolled {
   std::array<Eigen::Vector2d, 3> p;  ///< (r, psi)
   double below = 0, above = 0;       ///< slack of r
-  double beside = 0;                 ///< slack of psi, either way
-  double phi_lo = 0, phi_hi = 0;     ///< with slack, in one of its turns
-  bool bent = false;                 ///< too near the axis: no more is known than what follows
+  double beside = 0;                 ///< slack of psi, both ways
+  double phi_lo = 0, phi_hi = 0;     ///< with slack, for one turn
+  bool bent = false;                 ///< too near the axis: only the bounds below are known
   double r_lo = 0, r_hi = 0;         ///< with slack
   double z_lo = 0, z_hi = 0;         ///< with slack
 };
 
-/// Distances from the axis and heights along it (upwards: the direction of the advance).
+/// Range of distances from the axis and of heights along it (up: the direction of the advance).
 struct Ring {
   double r_lo = std::numeric_limits<double>::infinity(), r_hi = 0;
   double z_lo = std::numeric_limits<double>::infinity(), z_hi = -std::numeric_limits<double>::infinity();
 
-  /// All that the triangle passes from the first instant of the winding, where it is at `t`, to the last.
+  /// Adds the region that a triangle sweeps during the winding; `t`: its corners at the first instant.
   void add(const Winding& winding, const Corners& t);
 };
 
-/// All places that a mesh takes up, unrolled, as a raster of r and psi; each cell tells where along phi it is taken.
-/// Threads have equal profiles everywhere: thousands of triangles share a few cells.
+/// Occupancy of a mesh in unrolled coordinates: a raster of r and psi whose cells store the occupied ranges of phi. A
+/// thread has the same profile everywhere, so thousands of its triangles share a few cells.
 class UnrolledMesh {
  public:
-  /// Only what comes near `asked`, see Ring. Cells have the width `cell`: what is nearer than two of them counts as
-  /// touching. They are wider where there would be too many, and a lead of less than four of them tells nothing.
+  /// Enters only the part of the mesh near `asked`. `cell`: cell width; anything closer than two cells counts as
+  /// touching. Cells get wider if there would be too many. If the lead is below four cells, nothing is proved.
   UnrolledMesh(const TriangleBvh& bvh, const Winding& winding, const Ring& asked, double cell);
 
-  /// True: proved that the triangle, `moved` at the first instant of the winding (frame of B), meets no triangle of the
-  /// mesh from instant `from` to instant `to`. Adds to `cells` how many were looked at.
+  /// True proves that the triangle meets no triangle of the mesh from instant `from` to instant `to`. `moved`: its
+  /// corners at the first instant of the winding, frame of B. Adds the number of cells visited to `cells`.
   bool clear_of(const Corners& moved, std::size_t from, std::size_t to, std::uint64_t& cells) const;
 
  private:
@@ -83,13 +83,13 @@ class UnrolledMesh {
   const Winding& winding_;
   Ring ring_;
   double lead_;      // >= 0
-  bool blind_;       // the lead is too small: nothing is proved
+  bool blind_;       // lead too small: nothing is proved
   double cell_ = 0;  // along r
   long rows_ = 0, columns_ = 0;
-  double phi_lo_, phi_hi_;     // of all of the mesh; phi goes on from turn to turn as psi is brought into [0, lead)
+  double phi_lo_, phi_hi_;     // of the whole mesh; phi continues over turns, as psi is reduced to [0, lead)
   std::vector<Bits> taken_;    // by row and column
-  std::vector<Bits> by_bent_;  // by row: in all of its columns
-  std::vector<Bits> in_row_;   // of all columns together
+  std::vector<Bits> by_bent_;  // by row: triangles near the axis, for all columns
+  std::vector<Bits> in_row_;   // by row: union of all columns
 };
 
 }  // namespace dismantle::geometry

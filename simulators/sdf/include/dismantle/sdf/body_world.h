@@ -1,4 +1,4 @@
-/// What worlds of rigid bodies in contact have in common, whatever moves them.
+/// Common base of worlds of rigid bodies in contact, for any dynamics.
 #pragma once
 
 #include <memory>
@@ -20,19 +20,19 @@ struct MovingBody {
   std::vector<Eigen::Vector3d> hull;
 };
 
-/// How contact is sensed and resisted.
+/// Parameters of contact detection and response.
 struct ContactOptions {
   DistanceModel distance = DistanceModel::exact;
   bool surroundings = false;  ///< see ContactScene::see_surroundings
   double margin = 0.025;      ///< contacts with a smaller gap are listed
-  double threshold = 0;       ///< depth granted to all pairs
+  double threshold = 0;       ///< depth allowed to all pairs
   double stiffness = 1e6;     ///< of a contact, N / unit
   double damping = 0;         ///< N s / unit^2
-  double max_travel = 0.02;   ///< most that a correction in place may move a point
+  double max_travel = 0.02;   ///< largest motion of a point by a correction
 };
 
-/// Keeps the contacts of the last state asked for, answers what does not depend on the dynamics, and corrects states
-/// in place. A displacement x holds per body a shift and (rigid) a rotation vector about the centre, world axes.
+/// Keeps the contacts of the last queried state, answers queries that do not depend on dynamics, and corrects states in
+/// place. A displacement x holds per body a shift and (rigid) a rotation vector about the centre, world axes.
 class BodyWorld : public World {
  public:
   const Scene& scene() const override { return scene_; }
@@ -56,7 +56,7 @@ class BodyWorld : public World {
 
   const std::vector<MovingBody>& bodies() const { return bodies_; }
   int per_body() const { return per_body_; }  ///< degrees of freedom: 3 or 6
-  /// Depth by which contact may be off, assembly units.
+  /// Depth error of contact, assembly units.
   double contact_depth() const { return contact_depth_; }
   Eigen::Index dof() const { return static_cast<Eigen::Index>(bodies_.size()) * per_body_; }
   const std::vector<ContactPoint>& touching() const { return touching_; }
@@ -64,40 +64,40 @@ class BodyWorld : public World {
   RowColumns& columns() { return columns_; }
   double deepest() const;  ///< of touching(), >= 0
 
-  /// Contacts and rows at `state`, remembered: the next advance() often begins there too. False, and nothing done, when
-  /// a number in state or action is not finite.
+  /// Finds contacts and rows at `state` and caches them, since the next advance() often begins there too. Returns false
+  /// and does nothing if a number in state or action is not finite.
   /// @throws std::invalid_argument unless state and action have one entry per body.
   [[nodiscard]] bool begin(const State& state, const Action& action);
-  /// Contacts at `state`.
+  /// Finds the contacts at `state`.
   void update_contacts(const State& state);
-  /// Contacts after the bodies were displaced by `x`, no point by more than `travel`: by their own linear model over
-  /// short ways, else asked for.
+  /// Updates the contacts after a displacement `x` that moved no point by more than `travel`: with their linear model
+  /// over short distances, else with distance queries.
   template <int Dof>
   void follow_contacts(const State& state, const typename StepSolver<Dof>::Vector& x, double travel);
-  /// Rows of touching(), with damping over `dt` > 0.
+  /// Builds the rows of touching(), with damping if `dt` > 0.
   void build_rows(const State& state, double dt);
-  /// Moves the bodies; returns an upper bound of the way of any point.
+  /// Moves the bodies; returns an upper bound of the motion of any point.
   template <int Dof>
   double displace(State& state, const typename StepSolver<Dof>::Vector& x) const;
-  /// Upper bound of the way of any point under `x`.
+  /// Upper bound of the motion of any point under `x`.
   template <int Dof>
   double travel_of(const typename StepSolver<Dof>::Vector& x) const;
-  /// Displacement of a point (world) that `body` carries; none for body -1.
+  /// Displacement of a point (world) fixed to `body`; zero for body -1.
   template <int Dof>
   Eigen::Vector3d shift_of(int body, const Eigen::Vector3d& point, const State& state,
                            const typename StepSolver<Dof>::Vector& x) const;
-  /// Pushes the state out of surfaces that it is deeper in than `depth`. Contacts are those of `state`, before and
-  /// after.
+  /// Pushes bodies out of surfaces in which they are deeper than `depth`. Needs the contacts of `state`, and updates
+  /// them.
   template <int Dof>
   void settle(State& state, double depth);
-  /// What holds all bodies back alike, whichever way they go.
+  /// Isotropic weight matrix that penalises any displacement of the bodies.
   template <int Dof>
   typename StepSolver<Dof>::Matrix stay_put(double stiffness) const;
 
  private:
   template <int Dof>
   void keep_off(State& state, double clearance);
-  /// Least distance from what the bodies would touch (negative inside of it), at most `most`.
+  /// Smallest gap of the contacts (negative: penetration), at most `most`.
   double room(const State& state, double most);
   void forget_contacts();
 
@@ -106,19 +106,19 @@ class BodyWorld : public World {
   ContactOptions options_;
   double contact_depth_;
   ContactScene contact_scene_;
-  std::unique_ptr<ContactScene> sensor_;  ///< sees penetration only; made when first asked for
+  std::unique_ptr<ContactScene> sensor_;  ///< for penetration only; created on demand
   std::vector<ContactPoint> sensed_;      // scratch
   std::vector<MovingBody> bodies_;
   int per_body_ = 3;
   std::vector<Eigen::Vector3d> rest_hull_;  ///< corners of all fixed parts, world
   std::vector<Pose> poses_;                 // scratch
-  std::vector<ContactPoint> touching_;      // at the state of the last update or follow
-  std::vector<Pose> touching_at_;           // poses that touching_ belongs to; empty: to none
-  double since_update_ = 0;                 // way since distances were asked for
+  std::vector<ContactPoint> touching_;      // at the state of the last update or follow_contacts()
+  std::vector<Pose> touching_at_;           // poses of touching_; empty: invalid
+  double since_update_ = 0;                 // motion since the last distance queries
   std::vector<ContactPoint> begin_touching_;
   std::vector<Pose> begin_at_;
   std::vector<ContactRow> begin_rows_;
-  bool rows_current_ = false;     // rows_ were built from touching_ as it is
+  bool rows_current_ = false;     // rows_ match touching_
   std::vector<ContactRow> rows_;  // scratch
   RowMerger merger_;              // scratch
   RowColumns columns_;            // scratch of solvers

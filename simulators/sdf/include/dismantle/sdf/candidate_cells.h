@@ -1,4 +1,4 @@
-/// Short lists of the triangles that can be closest to a point, by where the point is.
+/// Short lists of the triangles that can be closest to a point, by grid cell of the point.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,23 +15,23 @@
 
 namespace dismantle::sdf {
 
-/// A triangle that is closest to some point of a cell.
+/// A triangle that may be closest to a point of a cell.
 struct Candidate {
-  float from_center = 0;  ///< a distance that it is not nearer to the cell's centre than
+  float from_center = 0;  ///< lower bound of its distance to the cell's centre
   std::uint32_t slot = 0;
 };
 
-/// What is known of a cell, while it is found out.
+/// A cell under construction.
 struct CandidateDraft {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   double distance = 0;  ///< signed, of the centre
-  double reach = 0;     ///< triangles that are not listed are further from the centre
+  double reach = 0;     ///< triangles that are not listed are further from the centre than this
   bool usable = true;
   std::vector<Candidate> candidates;
 };
 
-/// One cell: candidates by growing distance, or `usable` false where there would be too many or all are far. The
-/// candidates follow their head in memory: a query waits for one line, not for three in a row.
+/// One cell: candidates by ascending distance. `usable` is false if there would be too many or all are far. The
+/// candidates follow this header in memory, so a query waits for one cache line instead of three.
 class CandidateList {
  public:
   Eigen::Vector3d center;
@@ -39,7 +39,7 @@ class CandidateList {
   double reach;
   bool usable;
 
-  /// A distance that the true one is not below, for a point of the cell.
+  /// Lower bound of the distance for a point of the cell.
   double lower_bound(const Eigen::Vector3d& p) const { return std::max(0.0, distance - (p - center).norm()); }
   std::span<const Candidate> candidates() const {
     return {std::launder(reinterpret_cast<const Candidate*>(this + 1)), count_};
@@ -55,11 +55,11 @@ class CandidateList {
   std::uint32_t count_;
 };
 
-/// Sparse grid of lists, made when they are first asked for and kept: contacts return to the same places again and
-/// again, in every attempt. Thread-safe; the first thread that asks makes a list, and every thread would make the same.
+/// Sparse grid of lists, created on demand and kept, since contacts return to the same places in every attempt.
+/// Thread-safe: the first thread that needs a list creates it, and every thread would create the same.
 class CandidateCells {
  public:
-  /// `box` holds all points that are asked for.
+  /// `box` contains all query points.
   CandidateCells(const Aabb& box, double cell);
   ~CandidateCells();
   CandidateCells(const CandidateCells&) = delete;
@@ -82,14 +82,14 @@ class CandidateCells {
   }
 
   using Place = std::atomic<const CandidateList*>;
-  /// Where the list of p's cell is kept, if its surroundings have been asked for before.
+  /// Storage of the list of p's cell; nullptr if no list of its block was needed before.
   const Place* place_of(const Eigen::Vector3d& p) const {
     if (!covers(p)) return nullptr;
     const Eigen::Array3i i = cell_of(p);
     const Block* block = table_[static_cast<std::size_t>(outer_of(i))].load(std::memory_order_acquire);
     return block == nullptr ? nullptr : &(*block)[inner_of(i)];
   }
-  /// Brings the head of the list there and its first candidates into the cache; nullptr if there is none.
+  /// Prefetches the header and the first candidates of the list at `place`; nullptr if there is none.
   static const CandidateList* prefetch_list(const Place* place) {
     const CandidateList* list = place == nullptr ? nullptr : place->load(std::memory_order_acquire);
     if (list != nullptr)
@@ -100,7 +100,7 @@ class CandidateCells {
 
  private:
   static constexpr int kBlock = 8;
-  static constexpr std::size_t kLine = 64, kLines = 3;  // of the cache: the head and most lists
+  static constexpr std::size_t kLine = 64, kLines = 3;  // cache lines: the header and most lists
   using Block = std::array<Place, kBlock * kBlock * kBlock>;
   Eigen::Array3i cell_of(const Eigen::Vector3d& p) const {
     return ((p - box_.lo) * inverse_cell_).array().cast<int>().max(0).min(cells_ - 1);

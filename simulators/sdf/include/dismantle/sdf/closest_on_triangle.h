@@ -1,4 +1,4 @@
-/// The point of a triangle that is closest to a given one, and the feature that it lies on.
+/// Closest point of a triangle to a query point, and the feature that contains it.
 #pragma once
 
 #include <Eigen/Core>

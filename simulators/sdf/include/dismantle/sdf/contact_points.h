@@ -1,4 +1,4 @@
-/// Where a part can touch another: sample points on its surface, grouped for culling.
+/// Sample points on the surface of a part at which it can touch another, grouped for culling.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,16 +23,16 @@ struct ContactPoints {
 
 struct ContactPointOptions {
   double spacing = 0.1;             ///< along sharp edges and over smooth surfaces, assembly units, > 0
-  double sharp_angle = 0.5;         ///< rad; convex edges that bend more are sampled one by one
-  std::size_t max_points = 60'000;  ///< the spacing grows where there would be more
+  double sharp_angle = 0.5;         ///< rad; convex edges with a larger bend count as sharp
+  std::size_t max_points = 60'000;  ///< the spacing grows if there would be more
 };
 
-/// Where this closed surface can touch another one first:
+/// Points at which this closed surface can first touch another one:
 ///  - every vertex that is a corner or lies on a curved rim or surface,
 ///  - points along convex edges, at most `spacing` apart on sharp edges, as dense per area elsewhere.
-/// Two polyhedra that penetrate have an edge of one going through a face of the other, so vertices and
-/// edges of both sides together see every contact down to the spacing. Vertices inside flat faces or on
-/// straight edges or in folds, slivers and concave edges add nothing and are left out, however finely the mesh is cut.
+/// Two polyhedra that penetrate have an edge of one going through a face of the other, so vertices and edges of both
+/// parts find every contact down to the spacing. Vertices inside flat faces, on straight edges or in folds, slivers and
+/// concave edges add nothing and are omitted, however fine the mesh is.
 ContactPoints sample_contact_points(const Mesh& mesh, const ContactPointOptions& options);
 
 /// Reorders `points` into blocks.

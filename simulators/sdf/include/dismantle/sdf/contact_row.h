@@ -8,10 +8,9 @@ namespace dismantle::sdf {
 constexpr int kMaxBodies = 8;
 constexpr int kMaxDof = 6 * kMaxBodies;
 
-/// Row of a contact in the generalised displacement x of all bodies: gap(x) = gap + j . x. At most two
-/// bodies take part; `first` and `second` are where their degrees of freedom begin, -1 = none.
-/// A contact on a convex edge has several rows in a run, `alternatives` counts those that follow: its gap is
-/// the largest of theirs.
+/// Row of a contact in the generalised displacement x of all bodies: gap(x) = gap + j . x. It involves at most two
+/// bodies; `first` and `second` are the indices of their first degrees of freedom, -1 = none. A contact on a convex
+/// edge has several consecutive rows, and its gap is the largest of theirs; `alternatives` counts the rows that follow.
 struct ContactRow {
   double gap = 0;
   double stiffness = 0;

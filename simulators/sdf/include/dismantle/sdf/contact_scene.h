@@ -1,4 +1,4 @@
-/// Contacts between a few moving parts and those that stay fixed, kept up to date while they move.
+/// Contacts between a few moving parts and the fixed parts, updated as the parts move.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,22 +16,22 @@ namespace dismantle::sdf {
 
 enum class DistanceModel {
   exact,  ///< closest triangle near the surface: no field error
-  grid,   ///< trilinear interpolation of the grid (the paper's)
+  grid,   ///< trilinear interpolation of the grid (as in the paper)
 };
 
 /// Depths in assembly units.
 struct ContactDepths {
-  double threshold = 0;  ///< granted to all pairs everywhere, on top of their overlap
-  /// A larger overlap is not granted everywhere from the start, since it would let a part through walls that are thinner than
-  /// twice that: at first each point may be as deep as it was when assembled, and other points this deep.
+  double threshold = 0;  ///< allowed to all pairs everywhere, on top of their overlap
+  /// Limit of the overlap allowed everywhere at first, since a larger one would let a part pass walls thinner than
+  /// twice that. A point that is deeper in assembled position keeps its own depth.
   double everywhere = std::numeric_limits<double>::infinity();
-  double slack = 0;    ///< what each point may be deeper than when assembled
-  double contact = 0;  ///< depth, and distance from a convex edge, by which contact may be off
+  double slack = 0;    ///< allowed depth of a point beyond its assembled depth, at most
+  double contact = 0;  ///< error of depth, and of the distance from a convex edge
 };
 
-/// Points are culled by motion: each pair, then each block of points, remembers how far the bodies may
-/// move before it can matter, so that the work of a step follows the points that can touch. Once warm,
-/// update() allocates nothing.
+/// Points are culled by motion: each pair and each block of points stores how far the bodies may move before it can be
+/// in contact, so the cost of a step depends on the points that can touch. update() does not allocate once its buffers
+/// have grown.
 class ContactScene {
  public:
   struct Member {
@@ -39,8 +39,8 @@ class ContactScene {
     const Placed* placed = nullptr;
     Pose pose;  ///< of a fixed part; start pose of a moving one
   };
-  /// `margin`: points with a gap below it are listed. `allowed(a, b)`: depth that the pair may overlap.
-  /// allow_overlap_everywhere() grants that depth to all points; see ContactDepths for before.
+  /// `margin`: points with a smaller gap are listed. `allowed(a, b)`: depth that the pair may overlap.
+  /// allow_overlap_everywhere() allows it to all points; ContactDepths limits it before that call.
   ///
   /// `rest`: contacts of the assembled pairs, for scenes of the same shapes, model, margin, slack and allowances.
   template <class Allowed>
@@ -54,14 +54,14 @@ class ContactScene {
       pair.everywhere = std::min(overlap, depths.everywhere) + depths.threshold;
     }
   }
-  /// Margins beyond which a query gives up, and the block of the point is not asked for until it may be nearer.
+  /// Range of distance queries, in margins. The block of a point beyond it is not queried until it may be nearer.
   static constexpr double kReach = 20;
-  /// The same members, samples and allowances as they are now, with nothing measured yet.
+  /// A copy with the current members, samples and allowances, without measured contacts.
   ContactScene with_margin(double margin) const;
-  /// Also lists the faces around each contact that its point can run into (SurfaceQuery::surroundings), and tells how
-  /// far it can go for certain. To be called before the first update; exact distances only.
+  /// Also lists the faces around each contact that its point can run into (SurfaceQuery::surroundings), and the
+  /// distance that is certainly free of others. Call before the first update; exact distances only.
   void see_surroundings() { surroundings_ = true; }
-  bool overlap_is_local() const;  ///< allow_overlap_everywhere() would grant something
+  bool overlap_is_local() const;  ///< allow_overlap_everywhere() would have an effect
   void allow_overlap_everywhere();
 
   /// Moves the moving bodies to `poses` and lists all points whose gap is below the margin.
@@ -89,10 +89,10 @@ class ContactScene {
                         const Eigen::Vector3d& point) const;
   void measure_own_depths(const ContactPair& pair, DirectedContacts& set, const Member& owner,
                           const Member& surface) const;
-  /// What is known of a point before it is asked for.
+  /// Data of a point before its distance query.
   struct Near {
-    bool surely = false;  ///< bounds of its distance would not do, and its last closest triangle is known
-    double way = 0;       ///< from where it was last asked for
+    bool surely = false;  ///< near for certain: a bound cannot exclude it, and its last closest triangle is known
+    double way = 0;       ///< motion since its last query
     const CandidateList* list = nullptr;
   };
   /// A point whose distance has to be measured.
@@ -114,10 +114,10 @@ class ContactScene {
   std::vector<Member> members_;   ///< moving first
   std::vector<Pose> world_;       ///< shape frame -> world, now
   std::vector<Aabb> boxes_;       ///< world, now
-  std::vector<double> odometer_;  ///< per moving body: way that its points may have travelled in all
+  std::vector<double> odometer_;  ///< per moving body: bound of the total motion of its points
   std::vector<ContactPair> pairs_;
-  std::vector<AwakePoint> awake_;  ///< of the set that is scanned
-  RestContacts* rest_;             ///< nullptr once the scene has begun
+  std::vector<AwakePoint> awake_;  ///< points of the set being scanned
+  RestContacts* rest_;             ///< nullptr after the first update
   std::uint64_t queries_ = 0;
 };
 

@@ -13,32 +13,31 @@ namespace dismantle::sdf {
 struct GridOptions {
   double cell = 0.05;                   ///< appendix A: largest cell edge, assembly units, > 0
   int cells_per_edge = 20;              ///< appendix A: cell <= L_i / cells_per_edge along each axis, >= 1
-  std::int64_t max_nodes = 30'000'000;  ///< cells grow evenly on all axes where the grid would exceed this
+  std::int64_t max_nodes = 30'000'000;  ///< if exceeded, cells grow evenly on all axes
   bool exact = false;                   ///< exact distances at all nodes: for coarse grids that bound distances
 };
 
-/// For those who ask the triangles near the surface: a coarse grid that says how near it is. A hundredth of the nodes
-/// of the default one at bounds as good, since all of its nodes are exact.
+/// Coarse grid for users that query the triangles near the surface: it bounds the distance. It has a hundredth of the
+/// nodes of the default grid and equally good bounds, since all its nodes are exact.
 constexpr GridOptions bounding_grid() { return {.cell = 0.25, .cells_per_edge = 6, .exact = true}; }
 
-/// Distance at grid nodes: exact to float precision in a band around the surface, then eight fast
-/// sweeps of the Eikonal equation (Zhao 2005); or exact everywhere. Between nodes trilinear.
+/// Distance at grid nodes: exact to float precision in a band around the surface, with eight fast sweeps of the Eikonal
+/// equation (Zhao 2005) elsewhere; or exact everywhere. Trilinear between nodes.
 ///
-/// Error: at nodes of the band none; between nodes at most 0.87 of the cell diagonal's half anywhere and
-/// about curvature * cell^2 / 8 where the surface is smooth; far nodes err by the first-order scheme
-/// (a few per cent, never below the true distance by more than lower_bound() allows for).
-/// Outside the grid the value is extended by the distance to the grid.
+/// Error: at nodes of the band none; between nodes at most 0.87 of the cell diagonal's half anywhere and about
+/// curvature * cell^2 / 8 where the surface is smooth; far nodes have the error of the first-order scheme (a few per
+/// cent, covered by lower_bound()). Outside the grid the value is extended by the distance to the grid.
 class DistanceGrid {
  public:
   DistanceGrid(const Solid& solid, const SurfaceQuery& surface, const GridOptions& options);
 
   double value(const Eigen::Vector3d& p) const;
-  /// Value and its gradient (of the trilinear interpolant, normalised; zero gradient only where degenerate).
+  /// Value and normalised gradient of the trilinear interpolant; the gradient is zero only where degenerate.
   double value(const Eigen::Vector3d& p, Eigen::Vector3d& gradient) const;
-  /// A distance that the true one is not below, for |p| anywhere: how far a sphere around p is surely
-  /// free of surface. 0 near the surface or inside.
+  /// Lower bound of the true distance for any p: radius of a sphere around p that contains no surface. 0 near the
+  /// surface or inside.
   double lower_bound(const Eigen::Vector3d& p) const;
-  /// How far value() may be off where its magnitude is below a cell's diagonal; anywhere, if all nodes are exact.
+  /// Error bound of value() where its magnitude is below a cell's diagonal; everywhere if all nodes are exact.
   double error_near() const { return 0.5 * cell_.norm() + rounding_; }
 
   const Eigen::Vector3d& cell() const { return cell_; }
@@ -56,7 +55,7 @@ class DistanceGrid {
   }
   struct Place {
     std::size_t first;     ///< node with the least indices
-    Eigen::Array3d share;  ///< of a cell, from there
+    Eigen::Array3d share;  ///< position in the cell from there, [0, 1]
   };
   Place locate(const Eigen::Vector3d& p) const;
   double interpolate(const Place& place, Eigen::Vector3d* gradient) const;
@@ -70,7 +69,7 @@ class DistanceGrid {
   Eigen::Array3d last_;  ///< node, along each axis
   Aabb box_;             ///< from the first node to the last
   double band_ = 0;
-  double rounding_ = 0;  ///< of distances within the grid, which are stored as float
+  double rounding_ = 0;  ///< rounding of distances in the grid, stored as float
   bool exact_everywhere_ = false;
   std::vector<float> values_;
   std::vector<std::uint8_t> exact_;  // only while building

@@ -1,4 +1,4 @@
-/// Parameters that all simulators on these fields have; declared once.
+/// Parameters common to all simulators on these fields, declared once.
 #pragma once
 
 #include "dismantle/parameters.h"
@@ -6,7 +6,7 @@
 
 namespace dismantle::sdf {
 
-/// Members that parameter structs derive from.
+/// Base of parameter structs.
 struct ContactParameters {
   double contact_spacing = 0.1;
   double contact_depth = 0.02;
@@ -20,20 +20,19 @@ void describe_points(Schema<P>& s) {
         {.unit = "unit",
          .min = 1e-3,
          .max = 10,
-         .doc = "Distance of contact points along edges; halved or doubled at most, after the thinnest part."});
+         .doc = "Distance of contact points along edges. It adapts to the thinnest part by at most a factor of 2."});
   s.add("contact_depth", static_cast<double P::*>(&ContactParameters::contact_depth),
         {.unit = "max_penetration",
          .min = 1e-3,
          .max = 0.5,
-         .doc = "Advanced. Depth by which contact may be off, as a share of verify.max_penetration: deeper states are "
-                "corrected, and a contact that is nearer to a convex edge is held by both faces. Smaller: more "
-                "accurate, slower."});
+         .doc = "Advanced. Depth error of contact, as a share of verify.max_penetration: deeper states are corrected, "
+                "and a contact nearer to a convex edge uses both faces. Smaller values are more accurate and slower."});
   s.add("facet_share", static_cast<double P::*>(&ContactParameters::facet_share),
         {.unit = "max_penetration",
          .min = 0,
          .max = 1,
-         .doc = "Advanced. Depth that a pair may overlap beyond its initial overlap, as a share of "
-                "verify.max_penetration. Facets of round fits overlap more or less as they slide."});
+         .doc = "Advanced. Depth that a pair may have beyond its initial overlap, as a share of "
+                "verify.max_penetration. The overlap of the facets of round fits varies as they slide."});
 }
 
 template <class P>

@@ -1,4 +1,4 @@
-/// Gaps of many contact rows at a time.
+/// Evaluates the gaps of many contact rows at once.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,11 @@
 
 namespace dismantle::sdf {
 
-/// Keeps the rows of one body column by column: most of them do not hold, so that a solver reads their gaps and nothing
-/// else of them. Gaps are the same to the last bit as ContactRow::gap_at(). Grows, and allocates nothing once warm.
+/// Stores the rows of one body by column: most contacts are inactive, so a solver reads only their gaps. Gaps are
+/// bitwise equal to ContactRow::gap_at(). Does not allocate once its buffers have grown.
 class RowColumns {
  public:
-  /// Gaps are those at x = 0 then. `Dof`: 3 or 6, one body; Eigen::Dynamic: several.
+  /// Sets the gaps to those at x = 0. `Dof`: 3 or 6 for one body; Eigen::Dynamic for several.
   template <int Dof>
   void assign(const std::vector<ContactRow>& rows) {
     rows_ = rows.data();
@@ -37,7 +37,7 @@ class RowColumns {
     }
   }
 
-  /// Gaps at x, kept beside those of the last keep().
+  /// Evaluates the gaps at x; those of the last keep() stay available.
   template <int Dof, class Vector>
   void try_at(const Vector& x, int per_body) {
     if constexpr (Dof == Eigen::Dynamic) {
@@ -55,8 +55,8 @@ class RowColumns {
   }
   void keep() { std::swap(gaps_, next_); }
 
-  /// What holds: `use(row, gap)` for each contact whose gap is below zero, and of its alternatives the largest.
-  /// `tried`: at the point of the last try_at(), else at that of the last keep().
+  /// Calls `use(row, gap)` for each active contact: the row with the largest gap of its alternatives, if that is
+  /// negative. `tried`: at the point of the last try_at(), else at that of the last keep().
   template <class Use>
   void for_each_held(bool tried, const Use& use) const {
     const std::vector<double>& gaps = tried ? next_ : gaps_;

@@ -1,4 +1,4 @@
-/// Contacts that resist alike, taken together: what stands flush touches at hundreds of points that all say the same.
+/// Merges equal contacts: flush parts touch at hundreds of points with the same row.
 #pragma once
 
 #include <cmath>
@@ -10,11 +10,11 @@
 
 namespace dismantle::sdf {
 
-/// For bodies that only translate: two contacts with the same normals and gaps have the same rows, so that one with the
-/// sum of their stiffness replaces both. Alike means to within rounding.
+/// For bodies that only translate: contacts with the same normals and gaps, to within rounding, have the same rows. One
+/// row with the sum of their stiffness replaces them.
 class RowMerger {
  public:
-  /// Call after each contact: [first, rows.size()) are its rows. Removes them again if they are like earlier ones.
+  /// Call after each contact: [first, rows.size()) are its rows. Removes them if they equal earlier ones.
   void add(std::vector<ContactRow>& rows, std::size_t first) {
     const std::uint64_t h = hash(rows, first);
     for (std::size_t slot = h & mask();; slot = (slot + 1) & mask()) {

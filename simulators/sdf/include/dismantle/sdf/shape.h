@@ -1,4 +1,4 @@
-/// All that contact needs of a part, computed once per distinct shape.
+/// Contact data of a part, computed once per distinct shape.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ struct SolidField {
   std::unique_ptr<const DistanceGrid> grid;
 };
 
-/// In its own frame: the box along the directions of its largest faces, where fields are smallest and
-/// results do not depend on how the assembly was turned.
+/// In its own frame, with axes along its largest faces: fields are smallest there, and results do not depend on the
+/// orientation of the assembly.
 struct Shape {
   Aabb box;
   std::vector<SolidField> solids;
@@ -30,14 +30,14 @@ struct Shape {
   double radius = 0;  ///< largest distance of a vertex from mass.center
 };
 
-/// Where a shape stands when assembled.
+/// A shape in assembled position.
 struct Placed {
   std::shared_ptr<const Shape> shape;
   Pose rest;  ///< shape frame -> assembled frame
 };
 
 struct ShapeOptions {
-  GridOptions grid = bounding_grid();  ///< enough for DistanceModel::exact
+  GridOptions grid = bounding_grid();  ///< sufficient for DistanceModel::exact
   ContactPointOptions points;
   // Shares of the verifier's tolerance, see PreparedShapes.
   double facet_share = 0.3;

@@ -1,4 +1,4 @@
-/// A part split into solids: closed surfaces whose nearest feature alone tells inside from outside.
+/// A part split into solids: closed surfaces whose nearest feature decides inside or outside.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,8 @@
 
 namespace dismantle::sdf {
 
-/// One outer shell together with the voids inside it. Parts that consist of several, possibly
-/// overlapping shells (inserts, unions that CAD never merged) become several solids; the part is their
-/// union and its distance is the smallest of theirs.
+/// One outer shell together with the voids inside it. A part with several, possibly overlapping shells (inserts, unions
+/// not merged in CAD) becomes several solids; the part is their union and its distance is their smallest.
 struct Solid {
   Mesh mesh;
   // Angle-weighted pseudo-normals (Baerentzen & Aanaes 2005), not normalised for vertices and edges:
@@ -20,8 +19,8 @@ struct Solid {
   std::vector<Eigen::Vector3d> vertex_normal;               ///< per vertex
 };
 
-/// Splits by connected shells; a shell of negative volume is a void and goes to the smallest outer
-/// shell around it. `mesh` must be closed and oriented.
+/// Splits into connected shells; a shell of negative volume is a void of the smallest outer shell around it. `mesh`
+/// must be closed and oriented.
 std::vector<Solid> split_solids(const Mesh& mesh, const geometry::Poll& poll = {});
 
 /// Volume, centre of mass and inertia of a closed mesh of density 1 (divergence theorem; exact).

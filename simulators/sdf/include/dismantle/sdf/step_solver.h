@@ -1,4 +1,4 @@
-/// One implicit step: the energy of inertia (or drag), action and penalty contact, minimised by Newton.
+/// One implicit step: minimises the energy of inertia (or drag), action and penalty contact with Newton's method.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -10,9 +10,9 @@
 
 namespace dismantle::sdf {
 
-/// Minimises  1/2 (x - x*)^T W (x - x*) + 1/2 sum_i k_i min(0, gap_i + j_i . x)^2  over x.
-/// Piecewise quadratic, and convex but for contacts on edges: Newton on the active set with step halving
-/// ends at a minimum in a few iterations. Dof = 3 or 6 (one body) or Eigen::Dynamic. Allocates nothing.
+/// Minimises  1/2 (x - x*)^T W (x - x*) + 1/2 sum_i k_i min(0, gap_i + j_i . x)^2  over x. Piecewise quadratic, and
+/// convex except for contacts on edges: Newton on the active set with step halving reaches a minimum in a few
+/// iterations. Dof = 3 or 6 (one body) or Eigen::Dynamic. Allocates nothing.
 template <int Dof>
 class StepSolver {
  public:
@@ -59,7 +59,7 @@ class StepSolver {
  private:
   using Entries = Eigen::Matrix<double, 6, 1>;
 
-  /// Of a symmetric matrix, the lower half: LDLT reads no more.
+  /// Updates only the lower half of the symmetric matrix: LDLT reads nothing else.
   static void add_square(Matrix& h, int at, const Entries& a, int n, double k) {
     for (int c = 0; c < n; ++c)
       for (int r = c; r < n; ++r) h(at + r, at + c) += k * a[r] * a[c];

@@ -1,4 +1,4 @@
-/// Exact signed distance to a solid: what the grid is built from, and what contact uses near the surface.
+/// Exact signed distance to a solid, used to build the grid and for contact near the surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,74 +23,71 @@ struct Sample {
   double value = std::numeric_limits<double>::infinity();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   std::uint32_t triangle = geometry::kNoIndex;  ///< closest triangle; geometry::kNoIndex: nothing within the limit
-  /// Within this distance of the point asked for, `value` is linear: its change is normal . displacement, and no convex
-  /// edge is near. 0 where that is not known.
+  /// Within this distance of the query point, `value` is linear: its change is normal . displacement, and no convex
+  /// edge is near. 0: unknown.
   double flat_radius = 0;
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< the point asked for minus the closest one
-  Feature feature = Feature::face;                   ///< of the triangle, that the closest point lies on
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< query point minus closest point
+  Feature feature = Feature::face;                   ///< feature of the triangle that contains the closest point
 };
 
-/// Asks for Sample::flat_radius.
+/// Requests Sample::flat_radius.
 struct FlatnessWanted {
-  double within = 0;     ///< of points nearer to the surface than this; 0: of none
-  double from_edge = 0;  ///< convex edges have to stay so far away
-  double least = 0;      ///< smaller radii are not worth looking for
+  double within = 0;     ///< for points nearer to the surface than this; 0: none
+  double from_edge = 0;  ///< least distance from convex edges
+  double least = 0;      ///< smaller radii are reported as 0
 };
 
-/// Half-space whose plane passes through a face: a point is outside the solid near a convex edge or corner
-/// as soon as it is outside one of the faces there.
+/// Half-space whose plane passes through a face: near a convex edge or corner, a point is outside the solid if it is
+/// outside one of the faces there.
 struct FacePlane {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double gap = 0;  ///< signed distance of the point from the plane
 };
 constexpr int kMaxPlanes = 4;
 
-/// Bounding-volume hierarchy with precomputed triangles, and lists of the closest ones where contact has been. Answers
-/// never change; queries allocate nothing but a list where none has been asked for yet.
+/// Bounding-volume hierarchy with precomputed triangles, and cached lists of the closest ones where queries were made.
+/// The cache does not affect answers; queries allocate only new lists.
 class SurfaceQuery {
  public:
-  /// `near`: distance from the surface up to which lists of triangles make queries fast; > 0. Answers do not depend on
+  /// `near`: distance from the surface within which lists of triangles speed up queries; > 0. Answers do not depend on
   /// it.
   explicit SurfaceQuery(const Solid& solid, double near = 0.1, const geometry::Poll& poll = {});
 
-  /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle.
-  /// `hint`: a triangle that is probably close (from the last query of a moving point); `list`: as prefetch() found it.
-  /// Both only affect speed.
+  /// Exact signed distance if its magnitude is below `limit`, else a Sample without triangle. `hint`: a triangle that
+  /// is probably close (from the last query of a moving point); `list`: from prefetch(). Both only affect speed.
   Sample sample(const Eigen::Vector3d& p, double limit = std::numeric_limits<double>::infinity(),
                 std::uint32_t hint = geometry::kNoIndex, const FlatnessWanted& flatness = {},
                 const CandidateList* list = nullptr) const;
 
-  /// A distance that the true one is not below, from that of the middle of p's cell; 0 near the surface, inside, and
-  /// far away. `hint`, `list`: as in sample().
+  /// Lower bound of the distance, from that of the centre of p's cell; 0 near the surface, inside, and far away.
+  /// `hint`, `list`: as in sample().
   double lower_bound(const Eigen::Vector3d& p, std::uint32_t hint = geometry::kNoIndex,
                      const CandidateList* list = nullptr) const;
 
-  /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex
-  /// edge: the planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: none, the
-  /// sample's own plane is all there is). Parts that stand flush make such contacts by the hundred, and a
-  /// single normal would hold them in directions that are free.
+  /// If the point of the surface closest to p lies on a convex edge or corner, or within `near` of a convex edge: the
+  /// planes of the faces that meet there, at most kMaxPlanes. Returns how many (0: only the sample's own plane). Flush
+  /// parts have hundreds of such contacts, and a single normal would block them in free directions.
   int planes(const Eigen::Vector3d& p, const Sample& sample, double near, FacePlane* out) const;
 
-  /// What p can run into, besides what it is closest to, while it stays in front of one of `fronts`. Appends the planes
-  /// of faces that p is in front of and near the middle of, up to kMaxPlanes in all, with gaps >= 0. Returns a
-  /// distance: moved by less, p meets no face but those, and such as bend from the first of `fronts` by less than 30
-  /// degrees. At most `reach`; 0 where it is not known. A point that is behind a face by less than `behind` counts as
-  /// in front of it.
+  /// Finds faces other than the closest that p can run into while it stays in front of one of `fronts`. Appends the
+  /// planes of faces that p is in front of and nearly above, up to kMaxPlanes in all, with gaps >= 0. Returns the
+  /// distance within which p meets only those faces, and faces that bend from the first of `fronts` by less than 30
+  /// degrees; at most `reach`, 0 if unknown. A point behind a face by less than `behind` counts as in front of it.
   double surroundings(const Eigen::Vector3d& p, const FacePlane* fronts, int front_count, double reach, double behind,
                       FacePlane* out, int& count) const;
 
-  /// Signed distance of p from the plane of a triangle. Where the closest point lies inside a face this is `value`, bit
-  /// by bit, for each triangle of that face.
+  /// Signed distance of p from the plane of a triangle. If the closest point lies inside a face, this is bitwise equal
+  /// to Sample::value for each triangle of the face.
   double plane_distance(const Eigen::Vector3d& p, std::uint32_t triangle) const {
     const Plane& plane = planes_[face_of_[triangle]];
     return plane.normal.dot(p) - plane.offset;
   }
 
-  /// Brings what sample() will ask for at these points into the cache, for all of them at a time: a query waits for
-  /// memory more than it computes. `lists`: for each point the list to ask with, nullptr where there is none yet.
+  /// Prefetches the data that sample() needs at these points, for all points together, since queries are bound by
+  /// memory latency. `lists`: receives the list of each point, nullptr if there is none yet.
   void prefetch(std::span<const Eigen::Vector3d> points, std::span<const std::uint32_t> hints,
                 std::span<const CandidateList*> lists) const;
-  static constexpr std::size_t kMostPrefetched = 64;  ///< points in one call
+  static constexpr std::size_t kMostPrefetched = 64;  ///< limit of points per call
 
   std::size_t triangle_count() const { return corners_.size(); }
 
@@ -103,7 +100,7 @@ class SurfaceQuery {
   struct Corner {
     Eigen::Vector3d a, ab, ac;
   };
-  /// Triangles that lie in one plane are one face.
+  /// Plane of a face; coplanar triangles form one face.
   struct Plane {
     Eigen::Vector3d normal;
     double offset = 0;
@@ -112,7 +109,7 @@ class SurfaceQuery {
   void find_convex_features(const Solid& solid);
   void build(std::uint32_t first, std::uint32_t count, std::vector<std::uint32_t>& ids, const std::vector<Aabb>& boxes,
              const geometry::Poll& poll);
-  /// `near_slot`: any triangle that is not far; only affects speed.
+  /// `near_slot`: a triangle that is not far; only affects speed.
   CandidateDraft candidates_of(const Eigen::Vector3d& center, std::uint32_t near_slot) const;
   /// The closest triangle so far.
   struct Nearest {
@@ -128,12 +125,12 @@ class SurfaceQuery {
                      const FlatnessWanted& wanted) const;
 
   double near_;
-  double coplanar_ = 0;  // distance from a plane that single precision leaves of a flat face
+  double coplanar_ = 0;  // distance from a plane within which a face of a single precision file is flat
   std::unique_ptr<CandidateCells> cells_;
   std::vector<Node> nodes_;
   std::vector<Corner> corners_;          // by slot: leaves are contiguous
   std::vector<TriangleSlabs> slabs_;     // by slot
-  double bounded_within_ = 0;            // slabs_ bound distances of points that are nearer to the origin than this
+  double bounded_within_ = 0;            // slabs_ are valid for points nearer to the origin than this
   std::vector<std::uint32_t> triangle_;  // slot -> triangle
   std::vector<std::uint32_t> slot_;      // triangle -> slot
   std::vector<Triangle> indices_;        // by triangle

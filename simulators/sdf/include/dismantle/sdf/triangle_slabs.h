@@ -1,4 +1,4 @@
-/// Bounds of the distance from a triangle that cost a few operations: what decides which triangles are measured.
+/// Cheap lower bounds of the distance from a triangle: they decide which triangles are measured.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,7 +6,7 @@
 
 namespace dismantle::sdf {
 
-/// A point as TriangleSlabs reads it: each coordinate four times.
+/// A point in the layout of TriangleSlabs: each coordinate four times.
 struct PointLanes {
   Eigen::Array4f x, y, z;
   explicit PointLanes(const Eigen::Vector3d& p)
@@ -15,24 +15,24 @@ struct PointLanes {
         z(Eigen::Array4f::Constant(static_cast<float>(p.z()))) {}
 };
 
-/// The space between four pairs of parallel planes that a triangle lies in: its own plane; along its longest edge;
-/// across that; and across its second longest edge. The first three make its smallest box, which for a sliver that lies
-/// slanted is far smaller than one along the axes. Single precision, one lane for each pair: four lanes are what the
-/// baseline of the machine has, so that there is nothing to dispatch and the bits are the same everywhere.
+/// Four slabs (pairs of parallel planes) that contain a triangle: along its normal, along its longest edge, across that
+/// edge, and across its second longest edge. The first three form an oriented box, which for an oblique sliver is far
+/// smaller than an axis-aligned one. Single precision, one lane per slab: every supported CPU has four lanes, so no
+/// dispatch is needed and results are bitwise equal everywhere.
 class TriangleSlabs {
  public:
-  /// `reach`: no coordinate of a point that is asked for is further from the origin than this, nor is any corner.
+  /// `reach`: bound of the coordinates of corners and query points.
   TriangleSlabs(const Eigen::Vector3d& a, const Eigen::Vector3d& ab, const Eigen::Vector3d& ac, double reach);
 
-  /// Not above the squared distance of the point by more than kRelative of it.
+  /// Lower bound of the squared distance of the point, up to a relative error of kRelative.
   float squared_distance(const PointLanes& p) const {
     const Eigen::Array4f off = ((x_ * p.x + y_ * p.y + z_ * p.z + offset_).abs() - half_).max(0.0F);
     const Eigen::Array4f squared = off * off;
     return squared[0] + std::max(squared[1] + squared[2], squared[3]);
   }
-  static constexpr double kRelative = 1e-6;  ///< roundings of squares and sums to single precision
+  static constexpr double kRelative = 1e-6;  ///< rounding of squares and sums in single precision
 
-  /// What squared_distance() exceeds only if the triangle is further away than the root of `squared`.
+  /// Threshold: squared_distance() exceeds it only if the triangle is further away than the root of `squared`.
   static float filter(double squared) { return static_cast<float>(squared * (1 + 2 * kRelative)); }
 
  private:
