@@ -32,7 +32,7 @@ PartId part_named(const Assembly& assembly, const std::string& name) {
   throw std::logic_error("a finding names a part that the assembly does not have: " + name);
 }
 
-/// One file for each pair with a place: overlap_01.png, ...
+/// Draws one file for each pair with a known place: overlap_01.png, ...
 void draw_pairs(AssemblyCheck& check, const Assembly& assembly, const Check& options, const RunContext& context) {
   const BookLibrary& library = book_library();
   const std::filesystem::path folder = options.pictures;
@@ -71,12 +71,12 @@ int check(const Check& options) {
   const RunConfig config = load_config(options.config.source(), registry);
   warn_of_problems(registry, console);
   RunContext context = context_of(config.run, console);
-  context.on_log = nullptr;  // the findings say it all
+  context.on_log = nullptr;  // the findings contain everything
   PrepareReport report;
   try {
     const Assembly assembly = load_assembly(options.input, config, registry, context, report);
     AssemblyCheck found = stoppable(context, [&] {
-      const double resolution = 0.01 * config.verify.max_penetration;  // far below what makes a motion valid or not
+      const double resolution = 0.01 * config.verify.max_penetration;  // far below the tolerance of the verifier
       return check_assembly(assembly, report, resolution, context);
     });
     if (!options.pictures.empty()) draw_pairs(found, assembly, options, context);

@@ -27,7 +27,7 @@ void add_completion(CLI::App& app, Action& action) {
   add(*command, "bash", "For bash: source it", &bash_completion);
   add(*command, "zsh", "For zsh: a file _dismantle in a folder of $fpath", &zsh_completion);
   add(*command, "fish", "For fish: a file dismantle.fish in ~/.config/fish/completions", &fish_completion);
-  add(app, "manual-page", "The manual page, in troff", &manual_page)->group("");  // the build asks for it
+  add(app, "manual-page", "The manual page, in troff", &manual_page)->group("");  // used by the build
 }
 
 }  // namespace dismantle::app

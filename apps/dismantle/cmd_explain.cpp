@@ -22,7 +22,7 @@ void flatten(const ConfigNode& node, const std::string& key, ExplainSettings& ou
   for (const auto& member : node.members) flatten(member.value, key.empty() ? member.key : key + "." + member.key, out);
 }
 
-/// The values of the run, where resolved.yaml lies beside the plan; advice then names what they were.
+/// The settings of the run if resolved.yaml is beside the plan, so that the advice can quote them.
 ExplainSettings settings_beside(const std::filesystem::path& plan) {
   ExplainSettings out;
   const std::filesystem::path file = std::filesystem::path(plan).replace_filename("resolved.yaml");

@@ -25,9 +25,9 @@ std::string as_text(const std::vector<std::uint8_t>& bytes) { return {bytes.begi
 struct ExportFormat {
   const char *name, *file, *doc;
   bool binary;
-  /// Null: it needs the parts' surfaces.
+  /// Null: the format needs the parts' surfaces.
   std::string (*of_plan)(const Plan&, const InputFrame&);
-  /// Null: the plan says it all.
+  /// Null: the plan suffices.
   std::string (*of_assembly)(const Plan&, const Assembly&, const InputFrame&);
 };
 
@@ -57,7 +57,7 @@ struct ExportOptions {
   ConsoleOptions console;
 };
 
-/// The parts of the plan, read from its input again.
+/// Reads the parts of the plan from its input again.
 Assembly assembly_for(const Plan& plan, const ExportOptions& options, Console& console) {
   Registry registry;
   registry.scan();

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 struct PlanOptions {
   std::string input, folder, part;
   bool isolate = false;
-  std::int64_t memory = 0;  // MiB, of an isolated run
+  std::int64_t memory = 0;  // MiB, for an isolated run
   ConfigFlags config;
   ConsoleOptions console;
 };
@@ -47,11 +47,11 @@ fs::path default_folder(const std::string& input) {
 
 bool third_party(const std::string& id) { return id.find('.') != std::string::npos; }
 
-/// From now on the notes follow the run.
+/// Keeps `notes` up to date during the run.
 void take_notes(RunNotes& notes, const RunConfig& config, RunContext& context) {
   notes.chosen.set(fmt::format("simulator {}, path planner {}, sequence planner {}", config.simulator.type,
                                config.path_planner.type, config.sequence_planner.type));
-  // A wait of a century is one without end; more would not fit into the ticks of a clock.
+  // A century counts as unlimited: longer times would overflow the ticks of the clock.
   const double century = 3.2e9;  // s
   notes.grace = static_cast<std::int64_t>(std::nano::den * std::min(config.run.grace, century));
   if (const double left = context.deadline.seconds_left(); left < century && config.run.grace > 0) {
@@ -73,7 +73,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     report_crashes(known, notes, isolated ? AfterCrash::hand_over : AfterCrash::exit,
                    options.console.format == Format::json);
   };
-  watch_for_crashes(nullptr);  // plugins run code when they are loaded
+  watch_for_crashes(nullptr);  // plugins run code while they are loaded
   const RunConfig config = load_config(options.config.source(), registry);
   watch_for_crashes(&registry);
   warn_of_problems(registry, console);
@@ -112,7 +112,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
     notes.plan.set(saved);
   };
   const RunResult result = stoppable(context, [&] { return run(assembly, setup, run_options, context, on_step); });
-  watchdog.reset();  // what follows is no plugin
+  watchdog.reset();  // no plugin runs after this
   const auto files = write_results(result, assembly, folder, console);
   console.end_progress();
 
@@ -134,7 +134,7 @@ int plan(const PlanOptions& options, RunNotes& notes, bool isolated) {
 
 int plan(const PlanOptions& options) {
   if (!options.isolate) {
-    static RunNotes notes;  // a signal handler reads them
+    static RunNotes notes;  // static because a signal handler reads them
     return plan(options, notes, false);
   }
   Isolation isolation(options.memory);

@@ -18,7 +18,7 @@ struct Plugins {
   std::string id, format = "text";
 };
 
-/// With a configuration its search paths count too.
+/// Scans for plugins, also in the search paths of the configuration if there is one.
 void scan(const Plugins& options, Registry& registry) {
   if (options.config.source().file)
     load_config(options.config.source(), registry);

@@ -24,7 +24,7 @@ int prepare(const Prepare& options) {
   Registry registry;
   const RunConfig config = load_config(options.config.source(), registry);
   warn_of_problems(registry, console);
-  // Its meshes would be parts of the next run, or replace the input.
+  // The output meshes would be parts of the next run, or replace the input.
   if (std::error_code error; std::filesystem::equivalent(options.input, options.folder, error))
     throw Error(fmt::format("{}: is the input itself: name another folder with -o", options.folder));
   open_output_folder(options.folder);

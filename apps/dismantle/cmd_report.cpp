@@ -19,7 +19,7 @@ struct ReportOptions {
   bool plans = false;
 };
 
-/// Those that were asked for. Without a word: all, but a terminal gets no list of trials and CSV nothing else.
+/// The requested tables. Default: all; without the list of trials as text, only that list as CSV.
 std::vector<bench::Table> chosen(std::vector<bench::Table> all, const ReportOptions& options) {
   std::vector<bench::Table> out;
   for (auto& table : all) {
@@ -43,7 +43,8 @@ std::string rendered(const bench::ReportData& data, const ReportOptions& options
     plans = folder.filename().string();
   }
   if (options.format == "svg") {
-    if (!options.tables.empty()) throw Error("--table and --format svg exclude each other: the picture is of the curves");
+    if (!options.tables.empty())
+      throw Error("--table and --format svg exclude each other: the picture is of the curves");
     return bench::report_svg(data);
   }
   const auto tables = chosen(bench::tables_of(data, plans), options);
@@ -86,10 +87,14 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("DIR", options->inputs, "Folders with results, or databases; any number, merged")
       ->required()
       ->option_text(" ");
-  command->add_option("--format", options->format, "text, markdown, csv (the trials), svg (the curves), or html: one self-contained page")
+  command
+      ->add_option("--format", options->format,
+                   "text, markdown, csv (the trials), svg (the curves), or html: one self-contained page")
       ->check(CLI::IsMember({"text", "markdown", "csv", "svg", "html"}))
       ->option_text("text|markdown|csv|svg|html");
-  command->add_option("--time", options->time, "What times are: wall time of planning (default), or CPU time, for trials on a busy machine")
+  command
+      ->add_option("--time", options->time,
+                   "What times are: wall time of planning (default), or CPU time, for trials on a busy machine")
       ->check(CLI::IsMember({"wall", "cpu"}))
       ->option_text("wall|cpu");
   command->add_option("-o,--output", options->output, "File to write; with --row: folder")->option_text("FILE");

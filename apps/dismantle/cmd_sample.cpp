@@ -20,7 +20,7 @@ struct SampleOptions {
   ConsoleOptions console;
 };
 
-/// Not a ConfigError: there is no file to point at.
+/// Not a ConfigError, since there is no file to refer to.
 class UsageError : public Error {
   using Error::Error;
 };
@@ -67,7 +67,7 @@ ParamValue value_of(const ParamSpec& spec, const std::string& text) {
       return number_of<double>(spec.name, text);
     case ParamType::text:
     case ParamType::choice:
-    case ParamType::plugin:   // no sample has them, and complete() says so
+    case ParamType::plugin:  // no sample has such parameters; complete() reports them
     case ParamType::plugins:
       break;
   }
@@ -115,7 +115,7 @@ int sample(const SampleOptions& options) {
   std::vector<RawPart> parts;
   try {
     parts = samples::make(options.name, parameters(*found, options.set));
-  } catch (const std::invalid_argument& e) {  // values that do not fit, or do not fit together
+  } catch (const std::invalid_argument& e) {  // invalid or inconsistent values
     throw UsageError(fmt::format("sample {}: {}", options.name, e.what()));
   }
   open_output_folder(options.folder);

@@ -23,9 +23,9 @@ struct Verify {
   ConsoleOptions console;
 };
 
-/// The tolerance of the verification: that of the plan, but not more than what makes a plan valid. A plan states the
-/// scale of its units itself, so what is allowed is bounded by the size of the assembly, too: one that calls it tiny
-/// gains nothing.
+/// The tolerance of the verification: that of the plan, limited to the largest one for valid plans. A plan states its
+/// own scale, so the tolerance is also bounded relative to the size of the assembly. A plan with a wrong scale thus
+/// cannot increase it.
 double tolerance_of(const Plan& plan, const Assembly& assembly, Console& console) {
   const double most = VerifyOptions{}.max_penetration, usual_size = PrepareOptions{}.size;
   if (plan.verified_max_penetration > most)

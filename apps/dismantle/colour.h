@@ -1,4 +1,4 @@
-/// Colours, where the reader has a terminal and wants them.
+/// Coloured output on terminals.
 #pragma once
 
 #include <cstdio>
@@ -9,9 +9,9 @@ namespace dismantle::app {
 
 enum class Colour { red, yellow, green };
 
-/// Is `stream` a terminal that shows colours, and is NO_COLOR not set (https://no-color.org)?
+/// True if `stream` is a terminal with colours and NO_COLOR is not set (https://no-color.org).
 bool wants_colour(std::FILE* stream);
-/// `text` in bold and that colour, or as it is.
+/// `text` in bold and `colour` if wants_colour(stream), else unchanged.
 std::string coloured(std::FILE* stream, Colour colour, std::string_view text);
 
 }  // namespace dismantle::app

@@ -1,4 +1,4 @@
-/// Sub-commands. Each add_... declares its options; parsing picks one and stores what it does in `action`.
+/// Sub-commands. Each add_... declares one with its options. Parsing stores the chosen sub-command in `action`.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -7,7 +7,7 @@
 namespace dismantle::app {
 namespace {
 
-/// "text|json" -> text, json. A placeholder such as "DIR" is no choice.
+/// "text|json" -> text, json. A placeholder such as "DIR" has no choices.
 std::vector<std::string> choices_of(const std::string& value) {
   std::vector<std::string> out;
   if (value.find('|') == std::string::npos || value.find(' ') != std::string::npos) return out;

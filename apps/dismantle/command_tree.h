@@ -1,4 +1,4 @@
-/// The commands and options, read from the parser itself: completion and the manual page never differ from it.
+/// The commands and options, read from the parser, so that completion and the manual page agree with it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@ namespace dismantle::app {
 struct CommandOption {
   std::vector<std::string> names;    ///< "-o", "--output"
   std::string value;                 ///< as shown in the help, "DIR"; empty: a flag
-  std::vector<std::string> choices;  ///< of a value such as "text|json"; empty: any
+  std::vector<std::string> choices;  ///< for a value such as "text|json"; empty: any value
   std::string help;
 };
 
@@ -24,7 +24,7 @@ struct CommandNode {
   std::string name() const;  ///< "dismantle plugins list"
 };
 
-/// Without what is hidden from the help.
+/// The tree of all commands that the help shows.
 CommandNode command_tree(const CLI::App& app);
 /// The node and all below it, parents first.
 std::vector<const CommandNode*> all_of(const CommandNode& node);

@@ -1,4 +1,4 @@
-/// Completion scripts of shells and the manual page, made from the command tree.
+/// Shell completion scripts and the manual page, generated from the command tree.
 #pragma once
 
 #include <string>

@@ -15,7 +15,7 @@ namespace {
 const auto g_begin = std::chrono::steady_clock::now();  // when the program was loaded
 
 double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); }
-/// To a multiple of 1 / `steps`.
+/// Rounds to a multiple of 1 / `steps`.
 double rounded(double x, double steps) { return std::round(x * steps) / steps; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// How a command talks: what goes to which stream, how much of it, and the JSON line at the end.
+/// Output of a command: the streams, the amount of output, and the JSON line at the end.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -23,25 +23,25 @@ struct ConsoleOptions {
 void add_format(CLI::App& command, ConsoleOptions& options);
 void add_verbosity(CLI::App& command, ConsoleOptions& options);
 
-/// With --format json the standard output gets one JSON object as its last line, whatever happens, and all else
-/// goes to standard error. See report_failure() for errors.
+/// With --format json, the last line of standard output is always one JSON object, and all other output goes to
+/// standard error. See report_failure() for errors.
 class Console {
  public:
   explicit Console(const ConsoleOptions& options);
 
-  /// Sinks for progress and log messages. The console must outlive the context.
+  /// Shows the context's progress and log messages. The console must outlive the context.
   void attach(RunContext& context);
-  /// What the command has to say in text form; nothing with -q.
+  /// Prints the result of the command in text form; nothing with -q.
   void text(std::string_view text);
-  /// A line about something that happened; nothing with -q.
+  /// Prints a line about an event; nothing with -q.
   void line(std::string_view text);
   void warning(std::string_view text);
   void error(std::string_view text);
-  /// What is going on: the phase and the part in hand.
+  /// The current phase and part.
   std::string busy_with() const;
   /// Prints `result` (with times and memory added) if the format is JSON.
   void result(nlohmann::ordered_json result);
-  /// Takes the bar away.
+  /// Clears the progress bar.
   void end_progress();
 
  private:

@@ -23,7 +23,7 @@ struct KnownPlugin {
   bool built_in;
 };
 
-/// All that the handler reads is made before: it allocates nothing. Lives as long as the process.
+/// Data for the handler, prepared in advance because the handler must not allocate. Lives as long as the process.
 struct Facts {
   std::vector<KnownPlugin> plugins;
   RunNotes* notes = nullptr;
@@ -57,7 +57,7 @@ struct Line {
     while (*words != '\0' && size + 1 < sizeof text) text[size++] = *words++;
     text[size] = '\0';
   }
-  /// As the inside of a JSON string.
+  /// Appends `words`, escaped for a JSON string.
   void add_escaped(const char* words) {
     for (; *words != '\0' && size + 3 < sizeof text; ++words) {
       if (static_cast<unsigned char>(*words) < 0x20) {
@@ -78,14 +78,14 @@ struct Line {
   }
 };
 
-/// Code that is no part of a plugin yet: of a library that is just being loaded. Other libraries have a version in
-/// their names.
+/// True for a file name NAME.so. Identifies a plugin that is still being loaded; names of other libraries contain a
+/// version.
 bool has_name_of_plugin(const char* file) {
   const std::size_t size = std::strlen(file);
   return size > 3 && std::strcmp(file + size - 3, ".so") == 0;
 }
 
-/// Appends which plugin it was: the one nearest to the top of the stack, a third party's before ours.
+/// Appends the plugin nearest to the top of the stack. A third party's plugin takes precedence over ours.
 void add_culprit(Line& line) {
   void* frames[256];
   const int count = ::backtrace(frames, 256);
@@ -111,8 +111,7 @@ void add_culprit(Line& line) {
   }
 }
 
-// Beyond what a handler may safely do are backtrace and dladdr, in a process that is lost anyway; the alarm ends it
-// should they hang.
+// backtrace and dladdr are not async-signal-safe, but the process is lost anyway. The alarm ends it if they hang.
 extern "C" void on_crash(int number) {
   if (g_crashing.exchange(true)) {
     for (;;) ::pause();  // another thread is reporting
@@ -180,7 +179,7 @@ std::string advice_after_crash(bool isolated) {
 }
 
 void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after, bool json) {
-  // Never destroyed: a crash may come at any time, also while the process exits.
+  // Never destroyed, because a crash may also happen while the process exits.
   static auto& all = *new std::deque<Facts>;
   Facts* facts = &all.emplace_back();
   for (const PluginFile& file : registry != nullptr ? registry->files() : std::deque<PluginFile>{})
@@ -198,7 +197,7 @@ void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after,
   g_facts = facts;
   void* warm[4];
   static_cast<void>(::backtrace(warm, 4));  // the first call loads a library
-  // A stack of its own, for the main thread: the other one may be what has overflowed.
+  // An alternative stack for the main thread, in case its own stack has overflowed.
   static char alternative[1 << 16];
   stack_t stack = {};
   stack.ss_sp = alternative;

@@ -1,4 +1,4 @@
-/// A plugin that crashes takes the process with it: says which one it was, and what to do.
+/// A plugin that crashes ends the process. The handler reports which plugin it was and what the user can do.
 #pragma once
 
 #include "dismantle/host/registry.h"
@@ -8,15 +8,15 @@ namespace dismantle::app {
 
 enum class AfterCrash {
   exit,      ///< prints the message (and with `json` a line of JSON) and ends with status 4
-  hand_over  ///< leaves it in RunNotes::culprit and dies by the signal: another process prints it
+  hand_over  ///< writes to RunNotes::culprit and ends by the signal; the parent process prints the message
 };
 
-/// From now on, at SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT, the stack is searched for code of a plugin. `registry`:
-/// those that are loaded; null: not known yet, a plugin is told by the name of its file. `notes` has to live as long as
-/// the process. A later call takes the place of an earlier one.
+/// Installs a handler that searches the stack for code of plugins at SIGSEGV, SIGBUS, SIGFPE, SIGILL and SIGABRT.
+/// `registry`: the loaded plugins; null: not known yet, plugins are recognized by their file names. `notes` must live
+/// as long as the process. A later call replaces an earlier one.
 void report_crashes(const Registry* registry, RunNotes& notes, AfterCrash after, bool json);
 
-/// What a user can do about a plugin that crashes, for `isolated` runs and others.
+/// Advice for the user after a plugin has crashed. `isolated`: the run used --isolate.
 std::string advice_after_crash(bool isolated);
 
 }  // namespace dismantle::app

@@ -1,4 +1,4 @@
-/// The options --unit and --up: what the files of an input do not say about its coordinates.
+/// The options --unit and --up: properties of the coordinates that the input files do not state.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,11 +10,11 @@
 namespace dismantle::app {
 
 struct FrameOptions {
-  std::string unit, up;  ///< empty: as the files say
+  std::string unit, up;  ///< empty: as stated in the files
 };
 void add_frame(CLI::App& command, FrameOptions& options);
 
-/// @throws InputError for a unit that is not known.
+/// @throws InputError for an unknown unit.
 InputFrame frame_of(const Plan& plan, const FrameOptions& options);
 
 }  // namespace dismantle::app

@@ -21,7 +21,7 @@
 namespace dismantle::app {
 namespace {
 
-std::atomic<int> g_told{0};  // signals that the parent got
+std::atomic<int> g_told{0};  // number of signals that the parent received
 extern "C" void on_told(int) { g_told.fetch_add(1); }
 
 std::int64_t now() {
@@ -29,7 +29,7 @@ std::int64_t now() {
       .count();
 }
 
-/// Sanitizers reserve terabytes of addresses.
+/// Does nothing in sanitizer builds, because sanitizers reserve terabytes of address space.
 void limit_memory([[maybe_unused]] std::int64_t mib) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const rlimit limit = {static_cast<rlim_t>(mib) << 20, static_cast<rlim_t>(mib) << 20};
@@ -53,11 +53,11 @@ Isolation::Isolation(std::int64_t memory) : memory_(memory) {
   if (child_ == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(kPluginFailed);
-    ::setpgid(0, 0);  // Ctrl-C reaches the parent, which passes it on
+    ::setpgid(0, 0);  // only the parent receives Ctrl-C and forwards it
     limit_memory(memory_);
     return;
   }
-  ::setpgid(child_, child_);  // both do it: it is done when either goes on
+  ::setpgid(child_, child_);  // in both processes, since either may run first
   struct sigaction action = {};
   action.sa_handler = on_told;
   sigemptyset(&action.sa_mask);
@@ -76,8 +76,8 @@ Isolation::~Isolation() {
 IsolatedEnd Isolation::wait() {
   IsolatedEnd end;
   int passed_on = 0, status = 0;
-  std::int64_t last_moment = 0;  // after Ctrl-C
-  // What the child gets on top of its grace, nanoseconds: its own watchdog comes first, and saves more.
+  std::int64_t last_moment = 0;  // when to kill the child after Ctrl-C; 0: none
+  // Extra time beyond the child's grace, ns, so that its own watchdog acts first: that one can save more.
   const std::int64_t margin = 5'000'000'000;
   std::string killed_for;
   while (true) {
@@ -103,7 +103,7 @@ IsolatedEnd Isolation::wait() {
     }
     ::poll(nullptr, 0, 20);
   }
-  ::kill(-child_, SIGKILL);  // what it may have left behind
+  ::kill(-child_, SIGKILL);  // descendants that may still run
   child_ = -1;
   end.exited = WIFEXITED(status);
   if (end.exited) {
@@ -111,7 +111,7 @@ IsolatedEnd Isolation::wait() {
     return end;
   }
   const int signal = WTERMSIG(status);
-  if (passed_on > 0 && signal == SIGINT) end.interrupted = true;  // it came before the child was ready for it
+  if (passed_on > 0 && signal == SIGINT) end.interrupted = true;  // the child had no handler yet
   std::string who = notes_->culprit.get();
   if (!killed_for.empty())
     end.why = fmt::format("the process of the run was killed: {}", killed_for);

@@ -1,5 +1,5 @@
-/// `dismantle plan --isolate`: the run goes on in a child process, so that a plugin that crashes, hangs or eats memory
-/// costs no step that was finished.
+/// `dismantle plan --isolate`: the run continues in a child process, so that no finished step is lost when a plugin
+/// crashes, hangs or uses too much memory.
 #pragma once
 
 #include <sys/types.h>
@@ -13,26 +13,26 @@ namespace dismantle::app {
 
 /// How the child ended.
 struct IsolatedEnd {
-  bool exited = false;  ///< by itself, with `status`; its messages have been printed
+  bool exited = false;  ///< the child ended by itself with `status` and has printed its messages
   int status = 0;
-  std::string why;           ///< else: what happened, for the user
-  bool interrupted = false;  ///< the user pressed Ctrl-C twice, or once and the child did not stop
+  std::string why;           ///< if not `exited`: the reason, for the user
+  bool interrupted = false;  ///< the user pressed Ctrl-C twice, or before the child could handle it
 };
 
-/// Makes the child when it is constructed; both processes return from there. No other thread may run.
+/// The constructor forks the child and returns in both processes. No other thread may run then.
 class Isolation {
  public:
-  /// `memory`: MiB of address space that the child may use; 0: as much as the machine has memory.
-  /// @throws Error when there can be no child.
+  /// `memory`: MiB of address space that the child may use; 0: the machine's physical memory.
+  /// @throws Error when the child cannot be created.
   explicit Isolation(std::int64_t memory);
-  ~Isolation();  ///< of the parent: kills the child if it is still there
+  ~Isolation();  ///< in the parent: kills the child if it still runs
   Isolation(const Isolation&) = delete;
   Isolation& operator=(const Isolation&) = delete;
 
   bool in_child() const { return child_ == 0; }
-  /// Shared by both.
+  /// Shared by both processes.
   RunNotes& notes() { return *notes_; }
-  /// For the parent: waits, passes Ctrl-C and SIGTERM on, kills a child that does not stop.
+  /// In the parent: waits for the child, forwards Ctrl-C and SIGTERM, and kills a child that does not stop.
   IsolatedEnd wait();
 
  private:

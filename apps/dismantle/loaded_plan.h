@@ -1,4 +1,4 @@
-/// A plan file together with the assembly that it is for.
+/// A plan file together with its assembly.
 #pragma once
 
 #include <string>
@@ -13,15 +13,14 @@ namespace dismantle::app {
 
 struct LoadedPlan {
   Plan plan;
-  Assembly assembly;  ///< with the plan's scale, of the parts that the plan has
+  Assembly assembly;  ///< the parts in the plan, with the plan's scale
 };
 
-/// A context without a time limit, and the plugins that are found; warnings about plugins go to `console`.
+/// A context without a time limit. Also scans for plugins into `registry`; warnings about them go to `console`.
 RunContext context_for_reading(Registry& registry, Console& console);
 
-/// `file`: plan.json. `input`: where the assembly is, if it has moved; empty: as the plan says. Importers get the
-/// parameters that they had when the plan was made. @throws InputError naming what does not fit; Stopped.
-LoadedPlan load_plan(const std::string& file, const std::string& input, const Registry& registry,
-                     RunContext& context);
+/// `file`: plan.json. `input`: the assembly if it has moved; empty: as stated in the plan. Importers get the parameters
+/// with which the plan was made. @throws InputError naming what does not match the plan; Stopped.
+LoadedPlan load_plan(const std::string& file, const std::string& input, const Registry& registry, RunContext& context);
 
 }  // namespace dismantle::app

@@ -1,4 +1,4 @@
-// dismantle: one command, sub-commands. Errors become messages and exit statuses here.
+// Main program of dismantle. Turns errors into messages and exit statuses.
 #include <fcntl.h>
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@
 namespace dismantle::app {
 namespace {
 
-/// True if the user asked for JSON, also on a command line that does not parse.
+/// True if the user asked for JSON; works also for a command line that cannot be parsed.
 bool asks_for_json(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view arg = argv[i];
@@ -39,7 +39,7 @@ int report_failure(bool json, int status, const std::string& message) {
   return status;
 }
 
-/// One per line, without a prefix of ours: `file:line:column: error: message` is what editors jump to.
+/// Prints one per line without a prefix, since editors recognize `file:line:column: error: message`.
 int report_diagnostics(bool json, const ConfigError& e) {
   std::string all;
   for (const auto& d : e.diagnostics()) all += (all.empty() ? "" : "\n") + d.text();
@@ -48,7 +48,7 @@ int report_diagnostics(bool json, const ConfigError& e) {
   return kUsage;
 }
 
-/// Those that the help shows.
+/// The sub-commands that the help shows.
 std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -56,14 +56,13 @@ std::vector<std::string> commands_of(const CLI::App& app) {
   return names;
 }
 
-/// What is wrong with the names of the command and its sub-command, or nothing: the parser would only say that one
-/// is missing.
+/// Reports an unknown command or sub-command; empty if there is none. The parser would only call it missing.
 std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   const CLI::App* at = &app;
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
     const auto commands = at->get_subcommands([](const CLI::App*) { return true; });
     if (commands.empty()) break;
-    const std::vector<std::string> names = commands_of(*at);  // the others are for ourselves
+    const std::vector<std::string> names = commands_of(*at);  // hidden commands are internal
     const CLI::App* next = nullptr;
     for (const CLI::App* command : commands)
       if (command->get_name() == argv[i]) next = command;
@@ -77,7 +76,7 @@ std::string unknown_command(const CLI::App& app, int argc, char** argv) {
   return "";
 }
 
-/// What is wrong with the arguments, with what to do next.
+/// Describes the problem with the arguments and what to do next.
 std::string usage_problem(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const CLI::App* at = &app;
   std::string path = app.get_name();
@@ -107,7 +106,7 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return report_failure(json, kUsage, usage_problem(app, e, argc, argv));
   }
-  if (!app.got_subcommand("bench") && !app.got_subcommand("bench-trial")) {  // bench tells how its processes ended
+  if (!app.got_subcommand("bench") && !app.got_subcommand("bench-trial")) {  // bench reports the end of its processes
     static RunNotes notes;
     report_crashes(nullptr, notes, AfterCrash::exit, json);
   }
@@ -132,14 +131,14 @@ int run(CLI::App& app, Action& action, int argc, char** argv) {
   }
 }
 
-/// A descriptor of the three that the caller closed would be that of the next file opened, and messages would end up in
-/// a plan.
+/// If the caller has closed a standard stream, the next opened file would get its descriptor and messages would be
+/// written to that file. Opens /dev/null in its place.
 void open_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd)
     if (::fcntl(fd, F_GETFD) == -1 && ::open("/dev/null", O_RDWR) != fd) return;
 }
 
-/// The first line is the program's own version; DISMANTLE_BUILT_WITH is a list that the build makes.
+/// The first line is the program's version; the build generates the list DISMANTLE_BUILT_WITH.
 std::string version_text() {
   std::string out = "dismantle " DISMANTLE_VERSION "\nbuilt with";
   std::istringstream libraries(DISMANTLE_BUILT_WITH);
@@ -148,7 +147,7 @@ std::string version_text() {
   return out;
 }
 
-/// What did not reach standard output was not done.
+/// Turns success into an error if standard output could not be written.
 int flushed(int status) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
   fmt::print(stderr, "dismantle: error: standard output cannot be written\n");

@@ -7,7 +7,7 @@
 namespace dismantle::app {
 namespace {
 
-/// Text for troff: backslashes, hyphens, and lines that would be requests.
+/// Escapes text for troff: backslashes, hyphens, and lines that would be requests.
 std::string roff(const std::string& text) {
   std::string out;
   bool line_begins = true;
@@ -32,7 +32,7 @@ std::string option_text(const CommandOption& option, bool is_argument) {
   return fmt::format(".TP\n{}\n{}\n", names, roff(option.help));
 }
 
-/// Lines of the footer that are indented are examples: they keep their breaks.
+/// Footers contain examples, so their line breaks are kept.
 std::string footer_text(const std::string& footer) {
   if (footer.empty()) return "";
   return ".PP\n.nf\n" + roff(footer) + "\n.fi\n";

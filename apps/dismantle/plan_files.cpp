@@ -54,7 +54,7 @@ void Saver::save() {
 void Saver::operator()(const Plan& plan) {
   {
     const std::lock_guard lock(mutex_);
-    catch_up(latest_, plan);  // a copy of all would cost the square of the steps
+    catch_up(latest_, plan);  // copying the whole plan each time would cost quadratic time
     const auto now = std::chrono::steady_clock::now();
     if (!saved_once_ || when_ == When::every_step || now - saved_ >= std::chrono::seconds(1)) {
       write_file(file_, to_json(plan));
@@ -62,7 +62,7 @@ void Saver::operator()(const Plan& plan) {
       saved_ = now;
     }
   }
-  report(plan);  // after it was saved: what the user has read is not lost
+  report(plan);  // after saving, so that no reported step is lost
 }
 
 Plan Saver::latest() const {

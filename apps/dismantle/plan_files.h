@@ -1,4 +1,4 @@
-/// The files of a run: what is written to its folder, and when.
+/// Writes the output files of a run.
 #pragma once
 
 #include <chrono>
@@ -14,29 +14,29 @@
 
 namespace dismantle::app {
 
-/// Removes what an earlier run wrote to `folder`, so that a run that fails leaves no older plan behind that would be
-/// taken for its own. `input` is left alone.
+/// Removes the files that an earlier run wrote to `folder`, so that no older plan is mistaken for the plan of a failed
+/// run. Keeps `input`.
 void remove_old_results(const std::filesystem::path& folder, const std::filesystem::path& input);
 
 /// Returns the names of the files in `folder`.
 std::vector<std::string> write_results(const RunResult& result, const Assembly& assembly,
                                        const std::filesystem::path& folder, Console& console);
 
-/// Saves the plan while it grows, at most once a second (what a crash can cost is one second's steps) or at every step.
-/// Safe to call from several threads.
+/// Saves the growing plan at every step, or at most once per second (a crash then loses the steps of one second).
+/// Thread-safe.
 class Saver {
  public:
   enum class When { every_second, every_step };
 
-  /// `plan`: the one before the first step.
+  /// `plan`: the plan before the first step.
   Saver(std::filesystem::path file, Plan plan, Console& console, When when);
 
-  /// The plan as it is.
+  /// Saves the current plan.
   void save();
 
-  /// The plan after one more step.
+  /// Takes the plan after another step.
   void operator()(const Plan& plan);
-  /// All steps that are finished.
+  /// The plan with all finished steps.
   Plan latest() const;
 
  private:

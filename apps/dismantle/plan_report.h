@@ -1,4 +1,4 @@
-/// What `dismantle plan` says of a run when it is over.
+/// The report of `dismantle plan` at the end of a run.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace dismantle::app {
 
-/// The exit status. `constrained`: the outcome says whether all was done that the constraints leave to do.
+/// The exit status. `constrained`: the outcome decides whether everything that the constraints allow was done.
 int status_of(const RunResult& result, const Assembly& assembly, bool one_part, bool constrained,
               const RunContext& context);
 
-/// What Console::result() prints.
+/// The object for Console::result().
 nlohmann::ordered_json result_json(const RunResult& result, const Assembly& assembly, int status,
                                    const std::filesystem::path& plan);
 
-/// Times and what was searched; the planners' own counters are for `verbose`.
+/// Times and search effort; `verbose` adds the planners' own counters.
 std::string effort_text(const RunResult& result, bool verbose);
 
 }  // namespace dismantle::app

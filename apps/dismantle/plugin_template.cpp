@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Template {
   const char* kind;
-  const char* id;  // of the plugin that its files are written for
+  const char* id;  // of the plugin in the template's files
 };
 constexpr std::array kTemplates = {
     Template{"path_planner", "acme.lines"},         Template{"sequence_planner", "acme.in_turn"},
@@ -48,7 +48,7 @@ std::string class_name(const std::string& id) {
 
 void check_id(const std::string& id) {
   bool good = id.find('.') != std::string::npos;
-  bool begins = true;  // a word
+  bool begins = true;  // of a word
   for (const char c : id) {
     const bool letter = c >= 'a' && c <= 'z', more = (c >= '0' && c <= '9') || c == '_';
     good = good && (begins ? letter : letter || more || c == '.');
@@ -61,7 +61,7 @@ void check_id(const std::string& id) {
       id));
 }
 
-/// "AcmeLines" -> "FooBar" and so on, in a text or a name of a file.
+/// Replaces names such as "AcmeLines" -> "FooBar" in a text or a file name.
 class Renaming {
  public:
   Renaming(const std::string& from, const std::string& to) { add(from, to); }
@@ -70,7 +70,7 @@ class Renaming {
     pairs_.emplace_back(identifier(from), identifier(to));
     pairs_.emplace_back(class_name(from), class_name(to));
   }
-  /// In one pass: what was put in is not replaced again.
+  /// Replaces in one pass, so that inserted names are not replaced again.
   std::string operator()(const std::string& text) const {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
@@ -114,7 +114,7 @@ void copy(const fs::path& from, const fs::path& to, const Renaming& renamed, std
     fs::path place;
     for (const fs::path& name : fs::relative(entry.path(), from)) {
       const std::string word = renamed(name.string());
-      const std::string_view hidden = "dot_";  // the templates themselves hide nothing
+      const std::string_view hidden = "dot_";  // prefix of template files whose copies are hidden
       place /= word.starts_with(hidden) ? "." + word.substr(hidden.size()) : word;
     }
     fs::create_directories((to / place).parent_path());
@@ -152,7 +152,7 @@ std::vector<std::string> write_plugin_project(const fs::path& folder, const std:
                             (templates / kind).string()));
   open_project_folder(folder);
   Renaming renamed(chosen->id, id);
-  renamed.add("acme.example", id);  // what all kinds have in common is written for this plugin
+  renamed.add("acme.example", id);  // the id in the files that all kinds share
   std::vector<std::string> written;
   copy(templates / "common", folder, renamed, written);
   copy(templates / kind, folder, renamed, written);

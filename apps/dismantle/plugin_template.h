@@ -1,4 +1,4 @@
-/// `dismantle plugins new`: a project for a plugin out of tree, from the templates that are installed.
+/// `dismantle plugins new`: creates a project for an out-of-tree plugin from the installed templates.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,13 @@
 
 namespace dismantle::app {
 
-/// Kinds of plugin that there is a template for, as a configuration names them.
+/// Kinds of plugin that have a template, named as in configurations.
 std::vector<std::string> template_kinds();
 
-/// Writes a project for a plugin `id` of this kind to `folder`, which is made when it is not there.
+/// Writes a project for a plugin `id` of this kind to `folder`, which is created if needed.
 /// Returns the files, relative to `folder`, in alphabetical order.
-/// @throws Error: unknown kind, an id that is not words joined by dots, a folder that holds something, templates that
-/// are not installed, a file that cannot be written.
+/// @throws Error for an unknown kind, an id that is not words joined by dots, a folder that is not empty, templates
+/// that are not installed, or a file that cannot be written.
 std::vector<std::string> write_plugin_project(const std::filesystem::path& folder, const std::string& kind,
                                               const std::string& id);
 

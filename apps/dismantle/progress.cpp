@@ -34,7 +34,7 @@ void put(std::string_view text) {
   std::fflush(stderr);
 }
 
-/// Are the items of the phase alike, so that the time for some tells the time for all?
+/// True if the items of the phase take similar times, so that the remaining time can be estimated.
 bool is_even(std::string_view phase) {
   return phase == "read" || phase == "prepare" || phase == "hulls" || phase == "subdivide" || phase == "overlaps" ||
          phase == "fields" || phase == "verify";
@@ -80,8 +80,8 @@ std::string Progress::status(Clock::time_point now) const {
   if (!detail_.empty()) out += ": " + detail_;
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   out += " (" + duration(elapsed);
-  const bool is_long = elapsed >= 5;  // s; less needs no forecast
-  // Three items, and a tenth of all, tell how long the others take.
+  const bool is_long = elapsed >= 5;  // s; shorter phases need no estimate
+  // An estimate needs at least three items and a tenth of all items.
   if (is_long && is_even(phase_) && done_ >= 3 && 10 * done_ >= total_ && done_ < total_)
     out += fmt::format(", about {} left", duration(elapsed * double(total_ - done_) / double(done_)));
   else if (is_long && phase_ == "sequence" && std::isfinite(deadline_.seconds_left()))
@@ -102,7 +102,7 @@ void Progress::event(const ProgressEvent& event) {
   done_ = event.done;
   total_ = event.total;
   if (style_ == Style::none) return;
-  // Long runs say less often how far they are; each step that is found is a line of its own.
+  // Long runs report progress less often; each step that is found gets a separate line.
   using std::chrono::seconds;
   const auto pause = std::clamp<Clock::duration>((now - begin_) / 20, seconds(1), seconds(30));
   if (style_ == Style::bar) {
@@ -148,7 +148,7 @@ void Progress::clear() {
   visible_ = false;
 }
 
-/// Keeps the seconds running while a long attempt reports nothing.
+/// Updates the displayed seconds while a long attempt reports nothing.
 void Progress::tick(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {

@@ -1,6 +1,6 @@
-/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. The remaining time is shown only
-/// where it can be estimated: in phases whose items are alike. For the parts that are left it cannot; there the limit
-/// is shown.
+/// Progress on the standard error stream: a bar on a terminal, plain lines elsewhere. The remaining time is shown in
+/// phases whose items take similar times. It cannot be estimated for the removal of parts; the time limit is shown
+/// instead.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace dismantle::app {
 
-/// Safe to call from several threads.
+/// Thread-safe.
 class Progress {
  public:
   enum class Style { none, lines, bar };
@@ -24,15 +24,15 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// bar on a terminal that can move its cursor, else lines.
+  /// Style::bar on a terminal that can move its cursor, else Style::lines.
   static Style style_of_stderr();
 
   void event(const ProgressEvent& event);
-  /// When the run ends at the latest; shown where nothing better is known.
+  /// Sets the time limit of the run; shown where no estimate is available.
   void ends_by(const Deadline& deadline);
-  /// The phase and the part in hand: "parts out 3/9: shaft (12 s)".
+  /// The current phase and part: "parts out 3/9: shaft (12 s)".
   std::string busy_with();
-  /// A line above the bar.
+  /// Prints a line above the bar.
   void line(std::string_view text);
 
  private:
@@ -51,7 +51,7 @@ class Progress {
   Clock::time_point begin_, drawn_;
   Deadline deadline_;
   bool visible_ = false;
-  std::jthread ticker_;  // last: it stops before what it uses is gone
+  std::jthread ticker_;  // last member: it stops before the members that it uses are destroyed
 };
 
 }  // namespace dismantle::app

@@ -12,7 +12,7 @@ namespace dismantle {
 std::string check_text(const Plan& plan, const PlanCheck& check) {
   std::string out = fmt::format("{}: {}\n", plan.assembly.source, text::counted(plan.disassembly.size(), "step"));
   const std::size_t width = text::widest_step(plan);
-  const double scale = plan.assembly.scale > 0 ? plan.assembly.scale : 1;  // people read input units
+  const double scale = plan.assembly.scale > 0 ? plan.assembly.scale : 1;  // the report uses input units
   for (std::size_t i = 0; i < plan.disassembly.size(); ++i) {
     const auto& step = plan.disassembly[i];
     const bool bad = std::ranges::any_of(check.problems, [&](const PlanProblem& p) { return p.step == step.step; });

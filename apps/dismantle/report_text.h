@@ -1,4 +1,4 @@
-/// What `verify` and `prepare` print. UTF-8, each text ends with a line break.
+/// The output of `verify` and `prepare`. UTF-8; each text ends with a line break.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace dismantle {
 /// The result of a check, step by step.
 std::string check_text(const Plan& plan, const PlanCheck& check);
 
-/// What was done to each part and why.
+/// The changes to each part, with reasons.
 std::string prepare_text(const Assembly& assembly, const PrepareReport& report);
 
 }  // namespace dismantle

@@ -1,5 +1,5 @@
-/// What is known of a run when its process is about to die: plain text of fixed size, which a signal handler may read,
-/// and which may lie in memory that two processes share.
+/// Notes about a run for use when its process crashes: plain text of fixed size, which a signal handler may read and
+/// which may be in memory that two processes share.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace dismantle::app {
 
-/// Text that one thread writes at a time and any may read: a reader sees the old text or the new one.
+/// Text that one thread at a time may write and any thread may read. A reader sees the old text or the new one.
 template <std::size_t N>
 class NoteText {
  public:
@@ -30,12 +30,12 @@ class NoteText {
 };
 
 struct RunNotes {
-  NoteText<512> busy;                ///< the phase and the part in hand
-  NoteText<512> chosen;              ///< simulator and planners
-  NoteText<1024> plan;               ///< plan.json; empty: nothing has been saved yet
-  NoteText<2048> culprit;            ///< of a crash: the signal, and the plugin that was found on the stack
-  std::atomic<std::int64_t> end{0};  ///< of the run, ns of the steady clock, time for plugins to stop included; 0: none
-  std::atomic<std::int64_t> grace{0};  ///< ns that plugins have to stop when they are told to; 0: as long as they like
+  NoteText<512> busy;                  ///< the current phase and part
+  NoteText<512> chosen;                ///< simulator and planners
+  NoteText<1024> plan;                 ///< plan.json; empty: nothing has been saved yet
+  NoteText<2048> culprit;              ///< after a crash: the signal and the plugin that was found on the stack
+  std::atomic<std::int64_t> end{0};    ///< deadline of the run plus grace, ns of the steady clock; 0: none
+  std::atomic<std::int64_t> grace{0};  ///< ns that plugins may take to stop after a request; 0: unlimited
 };
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free);
 

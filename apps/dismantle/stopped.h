@@ -1,4 +1,4 @@
-/// A command that was interrupted, or whose time was up.
+/// A command that was interrupted or reached its time limit.
 #pragma once
 
 #include "dismantle/command.h"
@@ -17,7 +17,7 @@ class Stopped : public Error {
   int status_;
 };
 
-/// Runs `work`. The plain Error that core functions throw when `context` wants to stop becomes Stopped.
+/// Runs `work`. Turns the plain Error that core functions throw when `context` should stop into Stopped.
 template <class Work>
 auto stoppable(const RunContext& context, Work work) {
   try {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every part that is left has the reason.
+/// Records `why` as the reason for every remaining part.
 void blame(Plan& plan, const std::string& why) {
   if (plan.status != PlanStatus::partial) return;
   for (const std::string& part : plan.remaining) plan.unsolved.push_back({part, Outcome::crashed, {}, {}, why});
@@ -82,7 +82,7 @@ int finish_for(const IsolatedEnd& end, const RunNotes& notes, const ConsoleOptio
   nlohmann::ordered_json json = {{"status", "error"}};
   Assembly assembly;
   try {
-    Registry registry(built_in_plugin_folder());  // not the plugin that may have crashed
+    Registry registry(built_in_plugin_folder());  // without the plugin that may have crashed
     RunContext context = context_for_reading(registry, console);
     assembly = load_plan(file.string(), "", registry, context).assembly;
     write_results(result, assembly, file.parent_path(), console);

@@ -1,4 +1,4 @@
-/// Runs that a plugin does not let come to an end: what is saved of them.
+/// Saves the results of runs that a plugin keeps from ending.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,20 @@
 
 namespace dismantle::app {
 
-/// What a run that a plugin holds up leaves behind. Called on the watchdog's thread; the others may be anywhere.
+/// Saves the results of a run whose plugin does not stop. Called on the watchdog's thread; other threads may still run.
 class GiveUp {
  public:
   GiveUp(const RunConfig& config, const RunContext& context, std::filesystem::path folder, Console& console)
       : config_(config), context_(context), folder_(std::move(folder)), console_(console) {}
 
-  /// From now on there are steps to save. Both must outlive this.
+  /// Sets the source of steps to save. Both objects must outlive this one.
   void has(const Assembly& assembly, const Saver& saver) {
     const std::lock_guard lock(mutex_);
     assembly_ = &assembly;
     saver_ = &saver;
   }
 
-  /// Saves, says why, and ends the process.
+  /// Saves, reports the reason, and ends the process.
   [[noreturn]] void operator()();
 
  private:
@@ -42,7 +42,7 @@ class GiveUp {
   const Saver* saver_ = nullptr;
 };
 
-/// For the parent of an isolated run that did not end by itself: writes the files of the steps that were finished.
+/// For the parent of an isolated run that did not end by itself: writes the output files for the finished steps.
 /// Returns the exit status.
 int finish_for(const IsolatedEnd& end, const RunNotes& notes, const ConsoleOptions& console);
 

@@ -1,4 +1,4 @@
-/// The page that shows plans, without a plan in it.
+/// The viewer page without a plan.
 #pragma once
 
 #include <optional>
@@ -6,12 +6,12 @@
 
 namespace dismantle::app {
 
-/// What a build without npm says, and what helps.
+/// Message of a build without npm, with the remedy.
 inline constexpr const char* kNoViewer =
     "this program was built without the viewer; install nodejs and npm and build again (docs/viewer.md)";
 
-/// Read from where it is installed, seen from the program. Nothing if the viewer was not built.
-/// @throws Error when it is there and cannot be read.
+/// Reads the page from its installation path, relative to the program. Nothing if the viewer was not built.
+/// @throws Error when the page exists but cannot be read.
 std::optional<std::string> viewer_template();
 
 }  // namespace dismantle::app

@@ -1,4 +1,4 @@
-// node build.mjs MODULES PAGE: bundles src/ into PAGE, a file that needs nothing else. MODULES: the folder with node_modules.
+// node build.mjs MODULES PAGE: bundles src/ into PAGE, a self-contained file. MODULES: the folder with node_modules.
 import {mkdirSync, readFileSync, renameSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
@@ -23,7 +23,7 @@ const {outputFiles} = await esbuild.build({
 });
 const text = ending => outputFiles.find(f => f.path.endsWith(ending)).text.trim();
 
-/** Puts `value` where `mark` is, which has to be there once. No `$` patterns. */
+/** Replaces `mark`, which must occur exactly once, by `value`. `$` patterns have no effect. */
 function fill(html, mark, value) {
   const pieces = html.split(mark);
   if (pieces.length !== 2) throw new Error(`${mark} is there ${pieces.length - 1} times, not once`);

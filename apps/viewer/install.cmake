@@ -1,4 +1,4 @@
-# cmake -DNPM=... -DSOURCE=... -DFOLDER=... -P install.cmake: what package-lock.json names, into FOLDER/node_modules.
+# cmake -DNPM=... -DSOURCE=... -DFOLDER=... -P install.cmake: installs the packages of package-lock.json into FOLDER/node_modules.
 file(COPY "${SOURCE}/package.json" "${SOURCE}/package-lock.json" "${SOURCE}/.npmrc" DESTINATION "${FOLDER}")
 execute_process(COMMAND "${NPM}" ci --ignore-scripts --no-progress --loglevel=error
   WORKING_DIRECTORY "${FOLDER}" RESULT_VARIABLE status)

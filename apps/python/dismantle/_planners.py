@@ -6,7 +6,7 @@ from typing import Optional, Union
 
 from . import _core
 
-# Files that registered planners are in, for the processes of bench().
+# Source files of registered planners, for the processes of bench().
 source_files = []
 
 
@@ -84,7 +84,7 @@ def _decorator(base, register, id, parameters, doc, source, version, needs, simu
     def decorate(cls):
         if not (isinstance(cls, type) and issubclass(cls, base)):
             raise TypeError(f"{cls!r} has to be derived from dismantle.{base.__name__}")
-        # The class that a parameter is not declared for would fail at its first use only.
+        # Otherwise a class that does not take the declared parameters would fail only at its first use.
         given = {p.name: p.default for p in parameters}
         try:
             inspect.signature(cls).bind(**given)

@@ -59,7 +59,7 @@ def pose_of_matrix(matrix):
     if not (np.allclose(r @ np.swapaxes(r, -1, -2), np.eye(3), atol=1e-6) and np.all(np.linalg.det(r) > 0)
             and np.allclose(m[..., 3, :], [0, 0, 0, 1], atol=1e-9)):
         raise ValueError("expected rotations and translations only")
-    # Of the four ways to take a quaternion out of a matrix the one that divides by the largest of its numbers.
+    # Of the four formulas for the quaternion of a matrix, use the one that divides by the largest component.
     d = np.einsum("...ii->...i", r)
     trace = d.sum(-1)
     squares = np.stack([1 + trace, *(1 + 2 * d[..., k] - trace for k in range(3))], -1)

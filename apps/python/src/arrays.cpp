@@ -32,7 +32,7 @@ Pose read(const double* in, const std::string& what) {
   if (std::abs(pose.q.norm() - 1) > 1e-6)
     throw py::value_error(
         fmt::format("{}: the quaternion (columns 3 to 6: w, x, y, z) has length {:.6g}, not 1", what, pose.q.norm()));
-  // What is of unit length to rounding stays as it is: poses that Python was given come back with the same bits.
+  // Quaternions of unit length up to rounding are kept, so that poses from Python are returned bit by bit.
   const double rounding = 8 * std::numeric_limits<double>::epsilon();  // of the squared length after normalising
   if (std::abs(pose.q.squaredNorm() - 1) > rounding) pose.q.normalize();
   return pose;

@@ -1,4 +1,4 @@
-/// numpy arrays of poses, and back. A pose is a row of seven numbers: x, y, z, qw, qx, qy, qz, as in plan.json.
+/// Conversions from and to numpy arrays. A pose is a row of seven numbers: x, y, z, qw, qx, qy, qz, as in plan.json.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -25,8 +25,8 @@ Array array_of(const std::vector<Pose>& poses);              ///< (N, 7)
 Array array_of_path(const Path& path, std::size_t bodies);   ///< (K, M, 7)
 Indices array_of(const std::vector<Triangle>& triangles);    ///< (F, 3)
 
-/// All throw ValueError that names `what` and the shape that is expected. Quaternions may be off unit length by
-/// rounding (1e-6) and are normalised.
+/// All throw ValueError that names `what` and the expected shape. The length of a quaternion may deviate from 1 by
+/// 1e-6; quaternions are normalised.
 Eigen::Vector3d vector_of(const Array& array, const std::string& what);
 std::vector<Eigen::Vector3d> points_of(const Array& array, const std::string& what);
 Pose pose_of(const Array& array, const std::string& what);

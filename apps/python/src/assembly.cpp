@@ -38,7 +38,7 @@ Array in_input_units(const Mesh& mesh, const Normalization& frame) {
   return array_of(points);
 }
 
-/// Parts that constraints.ignore names are taken out of `parts`.
+/// Removes the parts that constraints.ignore names from `parts`.
 std::vector<ExcludedPart> take_ignored(const RunConfig& config, std::vector<RawPart>& parts, const std::string& input) {
   std::vector<std::string> names;
   for (const auto& raw : parts) names.push_back(raw.name);
@@ -86,7 +86,7 @@ LoadedAssembly load(const std::string& path, const std::string& file, const std:
   });
 }
 
-/// Of names and coordinates, for parts that come from no file.
+/// Hash of names and coordinates, for parts that are not read from files.
 std::string hash_of(const std::vector<RawPart>& parts) {
   py::object hash = py::module_::import("hashlib").attr("sha256")();
   const auto add = [&](const void* data, std::size_t size) {

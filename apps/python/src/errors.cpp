@@ -1,4 +1,4 @@
-// Exceptions of the core as those of dismantle/_errors.py.
+// Translates exceptions of the core to those of dismantle/_errors.py.
 #include "dismantle/errors.h"
 
 #include <pybind11/stl.h>
@@ -10,7 +10,7 @@
 namespace dismantle::python {
 namespace {
 
-/// Makes dismantle._errors.NAME(message, *details) the Python error. Details: attributes by name.
+/// Sets a dismantle._errors.NAME(message) with these attributes as the Python error.
 void raise(const char* name, const char* what, const py::dict& attributes) {
   const py::object type = py::module_::import("dismantle._errors").attr(name);
   const py::object error = type(py::str(what));

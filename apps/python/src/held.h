@@ -10,11 +10,11 @@ namespace dismantle::python {
 
 namespace py = pybind11;
 
-/// Shared ownership that needs the interpreter's lock neither to copy nor to drop. Dropped after the end of the
-/// interpreter, the object is leaked.
+/// Shared ownership that can be copied and released without the interpreter's lock. If it is released after the end of
+/// the interpreter, the object is leaked.
 using Held = std::shared_ptr<py::object>;
 
-/// Called with the interpreter's lock.
+/// Call it with the interpreter's lock.
 inline Held hold(py::object object) {
   return {new py::object(std::move(object)), [](py::object* held) {
             if (Py_IsInitialized() == 0) return;
@@ -23,7 +23,7 @@ inline Held hold(py::object object) {
           }};
 }
 
-/// The exception with its traceback, as Python prints it. Called with the interpreter's lock.
+/// The exception with its traceback, as Python prints it. Call it with the interpreter's lock.
 inline std::string traceback_of(const py::error_already_set& error) {
   const py::object lines =
       py::module_::import("traceback").attr("format_exception")(error.type(), error.value(), error.trace());

@@ -1,5 +1,5 @@
-/// Long work for Python: runs on a thread of its own without the interpreter's lock, while the calling thread serves
-/// signals (Ctrl-C) and asks a callback whether to stop.
+/// Runs long work for Python on a separate thread without the interpreter's lock, while the calling thread handles
+/// signals (Ctrl-C) and polls a callback that may stop the work.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,14 +14,14 @@ namespace dismantle::python {
 
 namespace py = pybind11;
 
-/// What happens after the first Ctrl-C when the work has ended.
+/// What to do after the first Ctrl-C, once the work has ended.
 enum class OnInterrupt {
-  raise,         ///< KeyboardInterrupt
-  keep_results,  ///< the partial results are returned; a second Ctrl-C raises
+  raise,         ///< raise KeyboardInterrupt
+  keep_results,  ///< return the partial results; a second Ctrl-C raises
 };
 
-/// Called with the interpreter's lock; returns what `work` returns and throws what it throws, or what a signal handler
-/// or `should_stop` (None, or a callable without arguments) raised. `work` must end soon when `cancel` is set.
+/// Call it with the interpreter's lock. Returns the result of `work`. Throws the exception of `work`, of a signal
+/// handler or of `should_stop` (None, or a callable without arguments). `work` must end soon when `cancel` is set.
 template <class Work>
 auto run_interruptible(const CancelToken& cancel, const py::object& should_stop, OnInterrupt on_interrupt, Work work,
                        bool* interrupted = nullptr) {
@@ -54,7 +54,7 @@ auto run_interruptible(const CancelToken& cancel, const py::object& should_stop,
   if (raised) {
     try {
       result.get();
-    } catch (const std::exception&) {  // it was told to stop; what made it stop is said instead
+    } catch (const std::exception&) {  // caused by cancellation; the reason for the cancellation is thrown instead
     }
     throw py::error_already_set(*raised);
   }

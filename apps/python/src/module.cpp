@@ -1,4 +1,4 @@
-// The module dismantle._core: what the package `dismantle` is made of.
+// The module dismantle._core, the compiled part of the package `dismantle`.
 #include <pybind11/pybind11.h>
 
 #include "bindings.h"

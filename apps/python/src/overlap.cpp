@@ -17,7 +17,7 @@ OverlapPlace in_input_units(OverlapPlace place, const Normalization& frame) {
   return place;
 }
 
-/// What `get` makes of the place; None where there is none.
+/// Property `get` of the place; None if there is no place.
 template <class Get>
 auto of_place(Get get) {
   return [get](const HeldOverlap& o) -> py::object { return o.place ? py::object(get(*o.place)) : py::none(); };

@@ -1,4 +1,4 @@
-/// Two parts that are in each other when assembled, as Python sees them. Input units.
+/// Python view of two parts that overlap when assembled. Input units.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,4 @@
-// Path planners that are written in Python.
+// Path planners written in Python.
 #include "dismantle/path_planner.h"
 
 #include <fmt/format.h>
@@ -17,13 +17,13 @@
 namespace dismantle::python {
 namespace {
 
-/// A PathQuery as Python sees it, while the search lasts.
+/// Python view of a PathQuery, valid during the search.
 class QueryView {
  public:
   QueryView(const PathQuery& query, const RunContext& context, std::shared_ptr<const Assembly> assembly)
       : query_(&query), context_(&context), assembly_(std::move(assembly)), work_(std::make_shared<Work>()) {}
 
-  /// The references are gone: what Python has kept raises from now on.
+  /// Drops the references: objects that Python has kept raise from now on.
   void close() {
     for (const auto& world : worlds_)
       if (const auto open = world.lock()) open->close();
@@ -47,7 +47,7 @@ class QueryView {
   std::shared_ptr<HeldWorld> world(const std::string& space) {
     const PathQuery& q = query();
     const MotionSpace motion = motion_space(space);
-    // Until close() the query is there.
+    // The query exists until close().
     const auto make = [&q, motion] { return q.simulator.world(q.assembly, q.prepared, q.scene, motion); };
     std::shared_ptr<HeldWorld> held;
     {
@@ -94,7 +94,7 @@ PathResult failed(Outcome outcome, const std::string& message, const py::object&
   return result;
 }
 
-/// What `plan` may return: a PathResult, an accepted PathCheck, a path, or None.
+/// Converts the return value of `plan`: a PathResult, an accepted PathCheck, a path, or None.
 PathResult result_of(const py::object& returned, QueryView& view) {
   if (py::isinstance<PathResult>(returned)) return py::cast<PathResult>(returned);
   if (py::isinstance<PathCheck>(returned)) {

@@ -1,4 +1,4 @@
-// Step, Unsolved, Certificate: what a plan consists of.
+// Step, Unsolved, Certificate: the contents of a plan.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-// Plugins: what there is, files that are loaded, types that are written in Python.
+// Plugins: listing them, loading files, and registering types written in Python.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-// Databases of benchmarks, and running a suite.
+// Reads databases of benchmarks and runs suites.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -12,7 +12,7 @@
 namespace dismantle::python {
 namespace {
 
-/// Column by column, as lists; None where a trial has no value.
+/// The results as one list per column; None where a trial has no value.
 py::dict read_results(const std::vector<std::filesystem::path>& paths) {
   bench::ReportData data;
   {

@@ -1,4 +1,4 @@
-// run() and verify(): the main job with the interpreter's lock released.
+// run() and verify(), which release the interpreter's lock.
 #include "dismantle/engine/run.h"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@
 namespace dismantle::python {
 namespace {
 
-/// A callback of the run. When it raises, the run is cancelled and the exception is raised at its end.
+/// A callback of the run. If it raises, the run is cancelled and the exception is raised when the run has ended.
 class ProgressCallback {
  public:
   ProgressCallback(py::object function, CancelToken cancel)
@@ -55,7 +55,7 @@ class ProgressCallback {
   CancelToken cancel_;
 };
 
-/// The assembly with what the configuration declares of overlaps. @throws Error when the assembly was prepared for
+/// The assembly with the overlaps that the configuration declares. @throws Error when the assembly was prepared for
 /// another configuration.
 std::shared_ptr<const Assembly> assembly_for(const LoadedAssembly& loaded, const RunConfig& config) {
   const NamedConstraints& named = config.constraints;

@@ -1,4 +1,4 @@
-/// RunContext as Python sees it.
+/// Python view of a RunContext.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,7 +15,7 @@ class RunView {
   explicit RunView(RunContext& context) : context_(&context) {}
   void close() { context_ = nullptr; }
   RunContext& context() const;
-  /// numpy.random.Generator, seeded from the run's own generator; one per call of the planner.
+  /// numpy.random.Generator, seeded from the run's generator; one per call of the planner.
   py::object rng();
 
  private:

@@ -1,4 +1,4 @@
-// Sequence planners that are written in Python.
+// Sequence planners written in Python.
 #include "dismantle/sequence_planner.h"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace dismantle::python {
 namespace {
 
-/// An answer of the oracle, while the run lasts.
+/// An answer of the oracle, valid during the run.
 struct Answer {
   const AttemptResult* result = nullptr;
   std::shared_ptr<bool> open;
@@ -123,7 +123,7 @@ class SequenceView {
     return proof == nullptr ? py::object(py::none()) : py::str(proof->text);
   }
 
-  /// Books a success.
+  /// Records a successful attempt as a removal.
   void remove(const Answer& answer) {
     check_open();
     const AttemptResult& result = answer.get();
@@ -162,7 +162,7 @@ class SequenceView {
     const auto known = poses_.find(id);
     return known == poses_.end() ? Pose{} : known->second;
   }
-  /// Parts by name or number, where they have been moved to.
+  /// Parts by name or number, at their current poses.
   std::vector<PlacedPart> placed(const py::object& parts, const char* what) const {
     std::vector<PlacedPart> out;
     for (const PartId id : part_ids(*assembly_, parts)) out.push_back({id, pose_of_part(id)});
@@ -175,13 +175,13 @@ class SequenceView {
   SequenceObserver* observer_;
   RunContext* context_;
   std::shared_ptr<bool> open_;
-  std::vector<PartId> left_;                 // never removed
-  std::vector<std::vector<PartId>> groups_;  // parts that are still together
+  std::vector<PartId> left_;                 // not removed yet
+  std::vector<std::vector<PartId>> groups_;  // parts that are not separated from each other yet
   std::map<PartId, Pose> poses_;
   std::vector<Removal> removals_;
 };
 
-/// `returned`: None, or answers about parts that are left.
+/// `returned`: None, or answers about remaining parts.
 SequenceResult result_of(const py::object& returned, const SequenceView& view) {
   SequenceResult result;
   result.removals = view.removals();

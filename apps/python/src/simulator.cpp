@@ -1,4 +1,4 @@
-// Simulator: a plugin by id, and the worlds that it makes.
+// Simulator: a plugin by id, and its worlds.
 #include "dismantle/simulator.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 namespace dismantle::python {
 namespace {
 
-/// A simulator by id, and what it has prepared last.
+/// A simulator by id, and the assembly that it prepared last.
 class HeldSimulator {
  public:
   HeldSimulator(const std::string& id, const py::dict& parameters) : registry_(make_registry()), id_(id) {
@@ -59,7 +59,7 @@ class HeldSimulator {
     check_once(scene, assembly);
     const CancelToken cancel;
     return run_interruptible(cancel, py::none(), OnInterrupt::raise, [&] {
-      // The plugin's code stays loaded, and what it prepared alive, as long as the world.
+      // The captures keep the plugin loaded and the prepared assembly alive as long as the world.
       const auto make = [registry = registry_, simulator = simulator_, kept = loaded.assembly,
                          prepared = prepare(loaded.assembly, tolerance, cancel), scene,
                          motion] { return simulator->world(*kept, *prepared, scene, motion); };
@@ -77,7 +77,7 @@ class HeldSimulator {
       }
   }
 
-  /// Fields and hulls are made once for many worlds of one assembly.
+  /// Prepares fields and hulls once for many worlds of one assembly.
   std::shared_ptr<const PreparedAssembly> prepare(const std::shared_ptr<const Assembly>& assembly, double tolerance,
                                                   const CancelToken& cancel) {
     const std::lock_guard lock(mutex_);

@@ -10,7 +10,7 @@
 namespace dismantle::python {
 namespace {
 
-/// Numbers of a body in a row: position (3), quaternion (4), velocity (3), angular velocity (3).
+/// Numbers per body: position (3), quaternion (4), velocity (3), angular velocity (3).
 constexpr std::size_t kStateColumns = 13;
 
 [[noreturn]] void closed() { throw Error("this world belongs to a query that is over"); }

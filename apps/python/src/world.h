@@ -1,4 +1,4 @@
-/// A simulated scene, as Python sees it.
+/// Python view of a simulated scene.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -14,12 +14,12 @@
 
 namespace dismantle::python {
 
-/// Work that worlds have done for one query.
+/// The effort of worlds for one query.
 struct Work {
   std::uint64_t steps = 0, state_checks = 0;
 };
 
-/// Answer of HeldWorld::step().
+/// Result of HeldWorld::step().
 struct StepOutcome {
   StepReport report;
   Trace trace;
@@ -30,16 +30,16 @@ struct ContactList {
   std::vector<Contact> contacts;
 };
 
-/// A world with a current state. A World remembers what it measured, which changes later answers in their last bits:
-/// here each reset() and each state that is set begins with a new one, so that the same calls give the same bits.
-/// Called with the interpreter's lock, which is released for long work; the mutex then keeps other threads out.
+/// A world with a current state. A World caches measurements, which changes the last bits of later answers. Therefore
+/// reset() and setting a state begin with a new World, so that equal calls give equal bits.
+/// Call it with the interpreter's lock. Long work releases that lock; the mutex then excludes other threads.
 class HeldWorld {
  public:
   using Make = std::function<std::unique_ptr<World>()>;
-  /// `make`: makes the world anew, always the same; keeps alive what the world refers to. `work` may be null.
-  /// May be called without the interpreter's lock.
+  /// `make`: makes an identical new world and keeps alive all that it refers to. `work` may be null. May be called
+  /// without the interpreter's lock.
   HeldWorld(std::shared_ptr<const Assembly> assembly, Make make, std::shared_ptr<Work> work);
-  /// From now on every use raises: the query that the world was made for is over.
+  /// Makes every later use raise, because the query of this world has ended.
   void close();
 
   const Assembly& assembly() const { return *assembly_; }
@@ -49,7 +49,7 @@ class HeldWorld {
   void set_poses(const Array& rows);
   void reset();
   Array state_rows() const;
-  /// `wrench`: (6,) for one moving part, (M, 6).
+  /// `wrench`: (M, 6), or (6,) for one moving part.
   StepOutcome step(const Array& wrench, double duration, bool in_body_frame);
   double penetration(const py::object& poses);
   ContactList contacts(const py::object& poses);
@@ -58,7 +58,7 @@ class HeldWorld {
   void project_to_clearance(double clearance);
   void add_contact_sample(PartId part, PartId other, const Eigen::Vector3d& point);
   void allow_overlap_everywhere();
-  /// For what is quick. @throws Error when closed.
+  /// The world, for fast calls that keep the interpreter's lock. @throws Error when closed.
   World& world();
   /// As world(). @throws py::index_error.
   World& world_with_body(std::size_t body);
@@ -80,7 +80,7 @@ class HeldWorld {
   std::shared_ptr<Work> work_;
   std::size_t bodies_;
   State state_;
-  std::vector<Sample> samples_;  ///< that were added, for the next world
+  std::vector<Sample> samples_;  ///< samples added so far, to be added to each new world
   bool overlap_everywhere_ = false;
   std::mutex mutex_;
 };

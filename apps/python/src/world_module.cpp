@@ -1,4 +1,4 @@
-// World, StepReport, Contacts: what Python sees of a scene.
+// World, StepReport, Contacts: the Python interface of a scene.
 #include <pybind11/stl.h>
 
 #include "bindings.h"

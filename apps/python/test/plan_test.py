@@ -9,7 +9,7 @@ import pytest
 import dismantle
 from planners_for_tests import LINES
 
-# Searches that end soon, nothing proved.
+# Short searches without proofs.
 QUICK = {**LINES, "immobility": {"provers": []}}
 
 
@@ -77,7 +77,7 @@ def test_forced_steps_are_told_and_are_not_valid_motions():
     check = dismantle.verify(plan, clip)
     assert check.valid and not check.complete and check.forced == len(plan.forced)
     assert dismantle.run(clip, config=QUICK, set={"run.force": "off"}).status == "partial"
-    # A lie about the depth is found.
+    # A wrong depth is detected.
     lie = json.loads(plan.to_json())
     for step in lie["disassembly"]:
         if "forced" in step:
@@ -157,7 +157,7 @@ def test_interpolation_is_a_screw_motion():
         assert np.allclose(dismantle.interpolate(a, b, 0), a)
         end = dismantle.interpolate(a, b, 1)
         assert np.allclose(end[:3], b[:3]) and abs(abs(end[3:] @ b[3:]) - 1) < 1e-12
-        # The motion is the same from either end.
+        # The reverse motion passes through the same poses.
         u = rng.uniform()
         there, back = dismantle.interpolate(a, b, u), dismantle.interpolate(b, a, 1 - u)
         assert np.allclose(there[:3], back[:3]) and abs(abs(there[3:] @ back[3:]) - 1) < 1e-9

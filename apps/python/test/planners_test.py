@@ -130,7 +130,7 @@ def test_a_simulator_that_lacks_what_is_needed(peg):
         def plan(self, query, context):
             raise AssertionError("the simulator cannot do what is needed")
 
-    # fcl checks states and has no dynamics: the configuration says so before anything is planned.
+    # fcl checks states and has no dynamics; reading the configuration reports that before planning.
     with pytest.raises(dismantle.ConfigError, match="dynamics"):
         dismantle.run(peg, config={"path_planner": {"type": "test.dynamics"}, "simulator": {"type": "fcl"}})
 

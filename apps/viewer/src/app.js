@@ -1,8 +1,8 @@
-// The state of the page, and what it means for the scene. Whatever changes it tells the listeners what changed.
+// The state of the page, and its effect on the scene. Every change of the state notifies the listeners.
 import {screwInterpolate} from './plan/screw.js';
 import {Parts} from './scene/parts.js';
 
-const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, to the pose that came furthest
+const AMBER = '#f59e0b', BEST_TIME = 1.6;  // s, duration of the motion to an unsolved part's furthest pose
 const SEEN_THROUGH = 0.5;
 
 export class App {
@@ -21,7 +21,7 @@ export class App {
     this.hidden = new Set();
     this.clear = new Set();  // made transparent
     this.isolated = null;    // a Set, or null
-    this.best = null;        // {index, u}: an unsolved part on its way to the pose that came furthest
+    this.best = null;        // {index, u}: an unsolved part on the motion to its furthest pose
     this.step = -1;
     this.listeners = [];
     this.stale = true;
@@ -83,7 +83,7 @@ export class App {
     if (play) this.play(true);
   }
 
-  /** To the end of this step, or to the beginning of this one or the one before. */
+  /** Seeks forwards to the end of this step, or backwards to the beginning of this or the previous step. */
   stepBy(direction) {
     this.play(false);
     const {steps, duration} = this.line, now = this.time;
@@ -104,7 +104,6 @@ export class App {
   setMode(mode) {
     if (mode === this.mode || this.model.lines[mode].duration === 0) return;
     this.leaveBest();
-    // Stay at the same moment of the same step if both have it backwards; else begin.
     this.mode = mode;
     this.time = 0;
     this.step = -2;
@@ -115,7 +114,7 @@ export class App {
     this.home(true);
   }
 
-  // What is seen
+  // Visibility
 
   setExplode(share) {
     this.explode = Math.min(1, Math.max(0, share));
@@ -148,7 +147,7 @@ export class App {
     this.tell('display');
   }
 
-  /** A set of part indices turned on or off: 'hidden' or 'clear'. */
+  /** Adds a part index to the set `which` ('hidden' or 'clear'), or removes it. */
   toggle(which, index) {
     if (!this[which].delete(index)) this[which].add(index);
     this.#seenChanged();
@@ -188,7 +187,7 @@ export class App {
     this.stage?.invalidate();
   }
 
-  /** Shows the pose that an unsolved part got furthest with, what blocked it beside it, the rest seen through. */
+  /** Shows the furthest pose of an unsolved part with the parts that blocked it; all other parts are transparent. */
   showBest(index) {
     this.play(false);
     this.seek(this.line.duration);
@@ -197,10 +196,10 @@ export class App {
     this.#timeChanged();
     const unsolved = this.model.unsolved.get(index);
     const blockers = new Set(unsolved.blocked_by.map(name => this.model.index.get(name)));
-    // Of the part and what blocked it, one may be inside the other: the larger is seen through.
+    // The part may be inside a blocking part or around it, so the larger of the two is transparent.
     const size = i => this.model.parts[i].radius, through = new Set([...blockers].filter(i => size(i) > size(index)));
     if (through.size < blockers.size) through.add(index);
-    // From where the part is left by the plan: it may have come out with others that it then stayed with.
+    // Begin at the part's last pose in the plan: it may have left together with other parts.
     const from = this.model.poseOf(index, this.mode, this.time, new Float64Array(7));
     this.best = {index, unsolved, blockers, through, from, u: 1};
     this.stale = true;
@@ -240,7 +239,7 @@ export class App {
     return through ? Parts.ghostly(presence) : presence;
   }
 
-  /** Puts each part where it is now. Called for each frame that changed something; allocates nothing. */
+  /** Moves each part to its current pose. Called for each changed frame; allocates nothing. */
   place() {
     const {parts, model, best} = this;
     if (!parts) return;
@@ -298,7 +297,7 @@ export class App {
     if (this.stale) this.place();
   }
 
-  /** Ground and light for the assembly and, when it is put together, for what lies around it. */
+  /** Fits ground and light to the assembly and, in assembly mode, to the parts around it. */
   settle() {
     if (!this.stage) return;
     this.stage.settle(this.parts.boxes(() => true));
@@ -308,7 +307,7 @@ export class App {
     this.stage?.fit(this.parts.boxes(i => this.opacity(i) > 0), {fly, margin, from});
   }
 
-  /** The first view: the assembly, with room for what comes out, or for all that lies around and passes overhead. */
+  /** The initial view: the assembly, with space for parts that leave it, or for the parts around it and their transfers. */
   home(fly) {
     if (!this.stage) return;
     const {time} = this, shares = this.mode === 'assembly' ? [0, 0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 1] : this.fading ? [0] : [0, 1];

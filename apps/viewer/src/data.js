@@ -1,4 +1,4 @@
-// What stands in the page: the plan as in plan.json, and the surfaces of the parts.
+// Reads the data in the page: the plan as in plan.json, and the surfaces of the parts.
 
 function bytesOf(base64) {
   if (typeof Uint8Array.fromBase64 === 'function') return Uint8Array.fromBase64(base64);
@@ -19,7 +19,7 @@ function readShape(shape) {
   };
 }
 
-/** @returns {plan, parts, shapes}; null if this is the template, without a plan. @throws Error on what it cannot read. */
+/** @returns {plan, parts, shapes}; null if this is the template, without a plan. @throws Error if the data cannot be read. */
 export function readPage(document) {
   const text = document.getElementById('dismantle-data').textContent.trim();
   if (text === '' || text[0] === '@') return null;

@@ -1,4 +1,4 @@
-// window.dismantle: what tests and scripts may use. Names are part names, times are seconds, points are input coordinates.
+// window.dismantle: the interface for tests and scripts. Names are part names, times are seconds, points are input coordinates.
 export function expose(app, display) {
   const {model} = app;
   const index = name => {
@@ -14,11 +14,11 @@ export function expose(app, display) {
     loadedAfter: null,  // ms from the start of navigation to the first picture
     partNames: () => model.parts.map(p => p.name),
     duration: (mode = app.mode) => model.lines[mode].duration,
-    /** When pose `k` of step `step` (index in the plan) is reached. */
+    /** Time at which pose `k` of step `step` (index in the plan) is reached. */
     timeOf: (mode, step, k) => model.lines[mode].steps.find(s => s.step === stepsOf(mode)[step]).times[k],
-    /** Pose [x, y, z, qw, qx, qy, qz] as docs/plan-format.md has it. */
+    /** Pose [x, y, z, qw, qx, qy, qz] as defined in docs/plan-format.md. */
     poseOf: (name, time, mode = app.mode) => Array.from(model.poseOf(index(name), mode, time, new Float64Array(7))),
-    /** Where a point of a part is drawn now. */
+    /** Position at which a point of a part is drawn now. */
     shownPoint: (name, point) => { now(); return app.parts.shownPoint(index(name), point); },
     opacity: name => app.opacity(index(name)),
     colour: name => model.colour(index(name), app.colours),
@@ -43,6 +43,6 @@ export function expose(app, display) {
     window.dismantle.drawn = true;
     window.dismantle.loadedAfter = performance.now();
   };
-  // The first picture is drawn in the next frame; it is there when the one after begins.
+  // The first picture is drawn in the next frame and is visible when the following frame begins.
   requestAnimationFrame(() => requestAnimationFrame(done));
 }

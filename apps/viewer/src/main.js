@@ -1,4 +1,4 @@
-// The page: reads what stands in it, builds the parts of the page, and starts.
+// Entry point: reads the data in the page, builds the user interface, and starts.
 import {App} from './app.js';
 import {readPage} from './data.js';
 import {expose} from './expose.js';
@@ -24,7 +24,7 @@ function fail(title, ...words) {
   document.body.replaceChildren(element('main.failure', {}, element('h1', {}, title), words.map(w => element('p', {}, w))));
 }
 
-/** The scene, or null and why when the browser cannot draw it. */
+/** Makes the scene; null, and a message, when the browser cannot draw it. */
 function makeScene(app, view) {
   let stage;
   try {

@@ -1,4 +1,4 @@
-// All that the page knows of the plan, worked out once: who is where when, in which colour, and who did not come out.
+// The page's model of the plan, computed once: poses over time, colours, and the parts that did not come out.
 import {byOrder, given, STAYS, TROUBLE} from './plan/colours.js';
 import {explode} from './plan/explode.js';
 import {followGroups} from './plan/groups.js';
@@ -6,7 +6,7 @@ import {transform} from './plan/screw.js';
 import {layOut, stepAt} from './plan/timeline.js';
 import {sizeOf} from './plan/words.js';
 
-const FADE = 0.3;  // s, as long as the pause between steps allows
+const FADE = 0.3;  // s, limited by the pause between steps
 
 export class Model {
   constructor({plan, parts, shapes}) {
@@ -33,7 +33,7 @@ export class Model {
     this.#findTimes();
   }
 
-  /** When parts that are out fade (disassembly), and when those that come from nowhere appear (assembly). */
+  /** Times at which removed parts fade (disassembly) and parts without a transfer appear (assembly). */
   #findTimes() {
     const {disassembly, assembly} = this.lines;
     const endOf = new Map(disassembly.steps.map(s => [s.step, s.end]));
@@ -50,7 +50,7 @@ export class Model {
       }
   }
 
-  /** 1: there, 0: gone; `fading` as chosen by the user. */
+  /** 1: visible, 0: faded out; `fading`: as chosen by the user. */
   presence(i, mode, time, fading) {
     if (!fading) return 1;
     if (mode === 'disassembly') return 1 - Math.min(1, Math.max(0, (time - this.goneAt[i]) / FADE));
@@ -79,7 +79,7 @@ export class Model {
   }
 
   /**
-   * How far the best pose of an unsolved part is from where the plan leaves it: `length` by which its middle has moved (input
+   * Displacement of an unsolved part's best pose from its last pose in the plan: `length` by which its centre has moved (input
    * units), `angle` (degrees), and whether it moved at all.
    */
   furthest(i) {
@@ -92,7 +92,7 @@ export class Model {
     return {length, angle, moved: length > 1e-9 * this.size || angle > 1e-3};
   }
 
-  /** Index of the step that takes this part out for good, -1 if none does. */
+  /** Index of the step that finally removes this part, -1 if none does. */
   stepOf(i) {
     return this.leftIn[i] < 0 ? -1 : this.lines.disassembly.steps.findIndex(s => s.step === this.plan.disassembly[this.leftIn[i]]);
   }

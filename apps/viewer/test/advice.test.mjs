@@ -1,4 +1,4 @@
-// Advice fits what happened, and its commands survive the names of files.
+// Advice matches the outcome, and its commands work for unusual file names.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import test from 'node:test';

@@ -25,13 +25,13 @@ export const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * 
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
-/** A point turned about an axis through `through` (Rodrigues) and shifted along it: what a screw does. */
+/** Applies a screw to a point: rotation about an axis through `through` (Rodrigues) and translation along it. */
 export function screwed(p, axis, through, angle, along) {
   const r = p.map((x, k) => x - through[k]), c = cross(axis, r), s = dot(axis, r) * (1 - Math.cos(angle));
   return r.map((x, k) => through[k] + x * Math.cos(angle) + c[k] * Math.sin(angle) + axis[k] * (s + along));
 }
 
-/** A point where a pose takes it, by the rotation matrix: not the code under test. */
+/** Applies a pose to a point by the rotation matrix, independently of the code under test. */
 export function placed(pose, p) {
   const [x, y, z, w, i, j, k] = pose;
   return [
@@ -41,7 +41,7 @@ export function placed(pose, p) {
   ];
 }
 
-/** The pose that does what `first` does and then the screw. */
+/** The pose `first`, followed by the screw. */
 export function afterScrew(first, axis, through, angle, along) {
   const t = screwed(first.slice(0, 3), axis, through, angle, along), [w, x, y, z] = first.slice(3);
   const [a, b, c, d] = [Math.cos(angle / 2), ...axis.map(n => n * Math.sin(angle / 2))];

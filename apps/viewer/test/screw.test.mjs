@@ -1,4 +1,4 @@
-// Between two poses a part moves by the constant screw motion: against the closed form, on random screws.
+// Compares the constant screw motion between two poses with the closed form, on random screws.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {screwInterpolate, screwTravel, transform} from '../src/plan/screw.js';

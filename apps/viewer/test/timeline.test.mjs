@@ -1,4 +1,4 @@
-// Steps laid out in time: every pose of the plan is reached, in order, and parts rest where they were left.
+// Steps laid out in time: every pose of the plan is reached, in order, and parts keep their last pose.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {layOut, stepAt} from '../src/plan/timeline.js';
@@ -30,7 +30,7 @@ test('at the time of a pose the part is at that pose', () => {
       for (const {part, poses} of step.moves)
         poses.forEach((pose, k) => {
           const seen = line.tracks[bodies.get(part).index].poseAt(times[k], new Float64Array(7));
-          // Several poses at one instant: the last of them holds.
+          // Of several poses at the same time the last one counts.
           const last = poses.findLastIndex((_, j) => times[j] === times[k]);
           for (let n = 0; n < 7; ++n) assert.ok(Math.abs(seen[n] - poses[last][n]) < 1e-9, `seed ${seed}, step ${step.step}, pose ${k}`);
         });

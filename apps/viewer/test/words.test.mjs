@@ -1,4 +1,4 @@
-// Colours that can be told apart from trouble, and numbers that people can read.
+// Colours differ from the red for problems, and numbers are readable.
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {byOrder, given, hex} from '../src/plan/colours.js';

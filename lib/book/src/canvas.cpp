@@ -17,14 +17,14 @@ struct CairoDeleter {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
 };
 
-/// `points` as a line with an arrow head, in white and then in colour so that it shows on everything.
+/// Draws `points` as a line with an arrow head, first in white, then in colour, to be visible on any background.
 void stroke_arrow(cairo_t* page, const std::vector<Eigen::Vector2d>& points, double thick) {
   double length = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
-  if (length < 6 * thick) return;  // towards the viewer, or on the spot
+  if (length < 6 * thick) return;  // the motion is along the line of sight, or too short
   const double tip_length = 13 * thick;
   const Eigen::Vector2d tip = points.back();
-  std::size_t before = points.size() - 1;  // where the head's direction is taken from
+  std::size_t before = points.size() - 1;  // point that gives the direction of the head
   while (before > 0 && (tip - points[before]).norm() < tip_length) --before;
   const Eigen::Vector2d along = (tip - points[before]).normalized(), across(-along.y(), along.x());
   const auto line = [&] {
@@ -81,7 +81,7 @@ void paint_picture(cairo_t* page, const Picture& picture, double x, double y, do
   cairo_surface_flush(surface.get());
   unsigned char* data = cairo_image_surface_get_data(surface.get());
   const int stride = cairo_image_surface_get_stride(surface.get());
-  // On white, without transparency: files are half as large and quicker to write.
+  // On white, without transparency: files are half as large and faster to write.
   for (int row = 0; row < image.height; ++row) {
     auto* line = reinterpret_cast<std::uint32_t*>(data + static_cast<std::ptrdiff_t>(row) * stride);
     for (int column = 0; column < image.width; ++column) {

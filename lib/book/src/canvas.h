@@ -1,4 +1,4 @@
-/// Pictures through cairo: as PNG, and painted on a page.
+/// Writes pictures as PNG and paints them on a page, with cairo.
 #pragma once
 
 #include <cairo.h>
@@ -13,10 +13,10 @@ namespace dismantle {
 /// @throws Error naming `doing` when cairo reports one.
 void check_cairo(cairo_status_t status, const char* doing);
 
-/// The picture with its lines at (x, y), `scale` units of the page per pixel.
+/// Paints the picture with its lines at (x, y), `scale` units of the page per pixel.
 void paint_picture(cairo_t* page, const Picture& picture, double x, double y, double scale);
 
-/// The same bytes for the same picture with one version of cairo and zlib.
+/// Deterministic for given versions of cairo and zlib.
 std::vector<std::uint8_t> png_of(const Picture& picture);
 
 }  // namespace dismantle

@@ -16,7 +16,7 @@
 namespace dismantle {
 namespace {
 
-/// "bolt" of "bolt_1", "bolt_2"; the first name when they have too little in common.
+/// "bolt" for "bolt_1", "bolt_2"; the first name when the common beginning is too short.
 std::string common_name(const std::vector<std::string>& names) {
   std::string stem = names.front();
   for (const std::string& name : names)
@@ -25,7 +25,7 @@ std::string common_name(const std::vector<std::string>& names) {
   while (!stem.empty() && (std::isdigit(static_cast<unsigned char>(stem.back())) ||
                            std::string_view(" _-.#:(").find(stem.back()) != std::string_view::npos))
     stem.pop_back();
-  while (!stem.empty() && (static_cast<unsigned char>(stem.back()) & 0x80) != 0) stem.pop_back();  // half a character
+  while (!stem.empty() && (static_cast<unsigned char>(stem.back()) & 0x80) != 0) stem.pop_back();  // cut character
   return stem.size() >= 3 ? stem : names.front();
 }
 
@@ -131,14 +131,14 @@ class ContentWriter {
   }
 
   static std::string listed(std::vector<std::string> names) {
-    const std::size_t most = 8;  // names that one sentence can hold
+    const std::size_t most = 8;  // largest number of names in a sentence
     if (names.size() <= most) return text::joined(names);
     const std::size_t more = names.size() - most + 1;
     names.resize(most - 1);
     return fmt::format("{} and {} more", text::joined(names), more);
   }
 
-  /// The sub-assembly that is these parts, if a chapter is about one.
+  /// The chapter of the sub-assembly that consists of these parts, or null.
   const BookChapter* chapter_of(const std::vector<std::size_t>& parts) const {
     for (const BookChapter& chapter : content_.chapters)
       if (chapter.letter >= 0 && chapter.parts == parts) return &chapter;

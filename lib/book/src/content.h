@@ -1,4 +1,4 @@
-/// What stands in a book, before it is HTML or PDF.
+/// The content of a book, independent of HTML and PDF.
 #pragma once
 
 #include <string>
@@ -16,9 +16,9 @@ using Facts = std::vector<std::pair<std::string, std::string>>;  // name, value
 /// Parts of one shape.
 struct BookItem {
   std::size_t number = 0;  ///< from 1
-  std::string name;        ///< of the first, or what all names begin with
+  std::string name;        ///< common beginning of all names, or the first name
   std::vector<std::size_t> parts;
-  std::string size;  ///< of the box, in the unit
+  std::string size;  ///< of the bounding box, with unit
 };
 
 struct BookPage {
@@ -27,8 +27,8 @@ struct BookPage {
   std::size_t number = 0, count = 0;                        ///< of the pages of steps
   std::vector<std::pair<std::size_t, std::string>> moving;  ///< item number, "2 x bolt"
   std::string verb;                                         ///< "Put in", "Take out", "Move aside"
-  std::vector<std::string> motions;                         ///< a line for each mover
-  std::string warning;                                      ///< the step is forced; else empty
+  std::vector<std::string> motions;                         ///< one line per mover
+  std::string warning;                                      ///< not empty if the step is forced
   Facts facts;
   const BookStep* step = nullptr;
 };

@@ -13,7 +13,7 @@
 namespace dismantle {
 namespace {
 
-/// Paler, so that what moves stands out.
+/// Paler colour for parts that do not move, so that moving parts stand out.
 Eigen::Vector3f pale(const Eigen::Vector3f& c) { return 0.55f * c + Eigen::Vector3f::Constant(0.45f); }
 
 }  // namespace
@@ -37,11 +37,11 @@ Illustrator::Illustrator(const Assembly& assembly, bool y_up)
       for (auto& v : local.vertices) v = assembly.normalization.to_input(v) - centers_[i];
       meshes_.back() = shade(local);
     }
-    // A CAD program that gives every part the same colour has given none.
+    // If all parts have the same colour, the CAD program has probably not assigned any.
     Eigen::Vector3f colour(0.62f, 0.68f, 0.75f);
     if (part.colour && different.size() > 1)
       colour = Eigen::Vector3f(part.colour->r, part.colour->g, part.colour->b) / 255.0f;
-    colours_.push_back(0.8f * colour + Eigen::Vector3f::Constant(0.14f));  // edges show on black parts too
+    colours_.push_back(0.8f * colour + Eigen::Vector3f::Constant(0.14f));  // keeps edges visible on black parts
   }
 }
 
@@ -133,7 +133,7 @@ Viewpoint Illustrator::best_view(const BookStep& step, const std::vector<PlacedP
     for (const PlacedPart& p : step.standing) bodies.push_back(body_of(p, false));
     for (const PlacedPart& p : movers) bodies.push_back(body_of(p, true));
     for (const PlacedPart& p : movers) alone.push_back(body_of(p, true));
-    // Near the moving parts: in a picture of the whole, a screw is less than a pixel.
+    // Zoom in on the moving parts: in a picture of the whole assembly, a screw is smaller than a pixel.
     const Camera camera = camera_for(corners(movers), axes_of(view), width, height);
     const std::size_t whole = visible_pixels(alone, camera, width, height);
     return whole == 0 ? 0.0 : double(visible_pixels(bodies, camera, width, height)) / double(whole);
@@ -157,7 +157,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
   const auto scaled = [scale](int pixels) { return static_cast<int>(scale * pixels); };
   const int width = scaled(style_.step.width), height = scaled(style_.step.height);
   const int small_width = scaled(style_.placed.width), small_height = scaled(style_.placed.height);
-  // Which pose shows a part in its place, and which away from it: the end of its path unless that is very far.
+  // Choose the poses that show each mover in its place and away from it: the ends of its path, unless the path is long.
   std::vector<std::size_t> at_place, at_away;
   double extent = 0;
   Aabb standing;
@@ -174,7 +174,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
     const std::size_t last = mover.poses.size() - 1, place = disassembly ? 0 : last;
     std::size_t away = disassembly ? last : 0;
     const Eigen::Vector3d goal = mover.poses[place] * mover.center;
-    for (std::size_t k = 0; k <= last; ++k) {  // from the place outwards
+    for (std::size_t k = 0; k <= last; ++k) {  // from its place along the path
       const std::size_t at = disassembly ? k : last - k;
       if ((mover.poses[at] * mover.center - goal).norm() < style_.furthest * extent) continue;
       away = at;
@@ -201,7 +201,7 @@ StepPictures Illustrator::step(const BookStep& step, bool disassembly, double sc
     return bodies;
   };
 
-  // All that stands and all that moves, or nearer where what moves would be a speck.
+  // Show all parts. Zoom in if the moving parts would be too small.
   std::vector<Eigen::Vector3d> moving = corners(away);
   const auto there = corners(placed);
   moving.insert(moving.end(), there.begin(), there.end());

@@ -1,4 +1,4 @@
-/// Pictures of parts: what to look at from where, and the line along which they move.
+/// Composes pictures of parts: content, viewpoint and the line of motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,28 +15,28 @@
 
 namespace dismantle {
 
-/// A drawing with lines over it, in pixels of the image.
+/// A drawing with overlaid lines, in pixels of the image.
 struct Picture {
   Image image;
-  /// Dashed; the last point has an arrow head. Empty: none.
+  /// Dashed lines with an arrow head at the last point. Empty: none.
   std::vector<std::vector<Eigen::Vector2d>> arrows;
-  /// Middle and radius of circles around what would be overlooked.
+  /// Centre and radius of circles around details that would be overlooked.
   std::vector<std::pair<Eigen::Vector2d, double>> rings;
 };
 
-/// A corner of the box around the assembly from which it is looked at.
+/// Corner of the box around the assembly from which the viewer looks at it.
 struct Viewpoint {
   bool left = false, back = false, below = false;
   bool usual() const { return !left && !back && !below; }
-  /// "from the back left, below"
+  /// "from the back left, from below"
   std::string words() const;
 };
 
 struct StepPictures {
-  Picture apart;   ///< the moving parts away from their place, and the line between
-  Picture placed;  ///< in their place
+  Picture apart;   ///< the moving parts away from their place, with the line of motion
+  Picture placed;  ///< the moving parts in their place
   Viewpoint view;
-  bool stretched = false;  ///< parts are drawn further from their place than the plan takes them
+  bool stretched = false;  ///< parts are drawn further from their place than in the plan
 };
 
 /// "seen from the back left; drawn further apart than needed", or nothing.
@@ -44,7 +44,7 @@ std::string caption_of(const StepPictures& pictures);
 
 class Illustrator;
 
-/// Of the title page.
+/// Pictures of the title page.
 struct BookPictures {
   Picture whole, exploded;
 };
@@ -55,16 +55,16 @@ class Illustrator {
  public:
   Illustrator(const Assembly& assembly, bool y_up);
 
-  /// The parts at these places, from the usual side.
+  /// The parts at the given poses, from the usual viewpoint.
   Picture scene(const std::vector<PlacedPart>& parts, const PictureSize& size) const;
   /// One part as assembled.
   Picture part(std::size_t index) const;
-  /// Two parts as assembled and a ring around a place, input coordinates.
+  /// Two parts as assembled and a ring around the place `at`, input coordinates.
   Picture pair(PartId other, PartId marked, const Eigen::Vector3d& at) const;
-  /// `scale`: of the style's sizes in pixels.
+  /// `scale`: factor for the style's sizes in pixels.
   StepPictures step(const BookStep& step, bool disassembly, double scale = 1) const;
   const PictureStyle& style() const { return style_; }
-  /// By part: the first part of its shape.
+  /// By part: the first part of the same shape.
   const std::vector<ShapePlacement>& shapes() const { return placements_; }
 
  private:
@@ -73,10 +73,10 @@ class Illustrator {
   Camera camera_for(const std::vector<Eigen::Vector3d>& points, const Eigen::Matrix3d& axes, int width,
                     int height) const;
   std::vector<Eigen::Vector3d> corners(const std::vector<PlacedPart>& parts) const;
-  /// Circles around those of `parts` that are specks in a picture of this width.
+  /// Adds a circle around `parts` if together they are only a speck in the picture.
   void ring_specks(Picture& picture, const std::vector<PlacedPart>& parts, const Camera& camera) const;
   std::vector<PlacedPart> movers_at(const BookStep& step, const std::vector<std::size_t>& pose_indices) const;
-  /// How much further than at pose `away` a mover has to be drawn for its motion from `place` to show, input units.
+  /// Shift beyond pose `away` that makes a short motion from pose `place` visible, input units.
   Eigen::Vector3d stretch(const BookMover& mover, std::size_t away, std::size_t place, double extent) const;
   Viewpoint best_view(const BookStep& step, const std::vector<PlacedPart>& away,
                       const std::vector<PlacedPart>& placed) const;
@@ -85,8 +85,8 @@ class Illustrator {
   PictureStyle style_;
   bool y_up_;
   std::vector<ShapePlacement> placements_;
-  std::vector<ShadedMesh> meshes_;        // by part; empty but for originals
-  std::vector<Eigen::Vector3d> centers_;  // by part: what its mesh counts from, input units
+  std::vector<ShadedMesh> meshes_;        // by part; empty unless it is the first part of its shape
+  std::vector<Eigen::Vector3d> centers_;  // by part: origin of its mesh, input units
   std::vector<Eigen::Vector3f> colours_;  // by part, sRGB
 };
 

@@ -54,7 +54,7 @@ class InstructionWriter {
     return out;
   }
 
-  /// Goes through the plan: the steps of each group, and the tree of groups.
+  /// Replays the plan to collect the steps of each group and the tree of groups.
   void follow() {
     std::vector<std::size_t> all;
     for (const PlanPart& part : plan_.assembly.parts) all.push_back(index_of(part.name));
@@ -87,7 +87,7 @@ class InstructionWriter {
     }
   }
 
-  /// The step as seen from the largest part of `staying`, one that does not move if there is one.
+  /// The step relative to the largest part of `staying`; parts that do not move are preferred.
   BookStep page(const PlanStep& step, const std::vector<std::size_t>& whole, const std::vector<std::size_t>& staying) {
     std::map<std::size_t, const std::vector<Pose>*> moved;
     for (const PlanMove& move : step.moves) moved[index_of(move.part)] = &move.poses;
@@ -159,7 +159,7 @@ class InstructionWriter {
   std::map<std::string, std::size_t> index_;
   std::vector<Eigen::Vector3d> centers_;
   std::vector<double> radii_;
-  double still_ = 0;  // input units: what moves less relative to the base does not move
+  double still_ = 0;  // input units: smaller motions relative to the base are ignored
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;
   std::vector<Pose> now_;

@@ -1,4 +1,4 @@
-/// What the pages of a book show: steps in the order of the work, sub-assemblies apart, seen from the part that stays.
+/// Steps of a book in the order of the work: one chapter per sub-assembly, poses relative to the part that stays.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@
 
 namespace dismantle {
 
-/// Parts that move as one.
+/// Parts that move as one rigid body.
 struct BookMover {
   std::vector<std::size_t> parts;                    ///< indices into Assembly::parts, ascending
   std::vector<Pose> poses;                           ///< in the order of the work; input units
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of their boxes, assembled; input units
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of their common box, assembled; input units
 };
 
 struct PlacedPart {
@@ -24,24 +24,24 @@ struct PlacedPart {
   Pose pose;             ///< input units
 };
 
-/// One step of the work. Poses are relative to the largest part that stays, which stands as assembled, so that
-/// directions are those of the assembly however far a sub-assembly had been moved before it came apart.
+/// One step of the work. Poses are relative to the largest part that stays, whose pose is the assembled one. Directions
+/// are thus those of the assembly, wherever a sub-assembly had been moved before it was disassembled.
 struct BookStep {
   unsigned plan_step = 0;            ///< number of the disassembly step
-  std::vector<PlacedPart> standing;  ///< what does not move
+  std::vector<PlacedPart> standing;  ///< the parts that do not move
   std::vector<BookMover> movers;
-  bool shifts_only = false;  ///< nothing joins or leaves: parts make room
+  bool shifts_only = false;  ///< no part joins or leaves: the parts only move aside
 };
 
 struct BookChapter {
   std::vector<std::size_t> parts;  ///< ascending
-  std::vector<std::size_t> base;   ///< of these, what is never taken from them
+  std::vector<std::size_t> base;   ///< those of `parts` that are never taken out
   std::vector<BookStep> steps;     ///< not empty
-  int letter = -1;                 ///< of a sub-assembly, from 0 in the order of the chapters; -1: the whole
+  int letter = -1;  ///< number of the sub-assembly in the order of the chapters, from 0; -1: the whole assembly
 };
 
-/// Assembling: a sub-assembly has its chapter before that of what it becomes part of. Taking apart: after. Within a
-/// chapter the order is that of the plan, or its reverse.
+/// For assembly, the chapter of a sub-assembly precedes that of the group that it joins; for disassembly, it follows.
+/// Within a chapter, steps are in the order of the plan (disassembly) or in reverse order (assembly).
 /// @throws InputError when the plan names a part that the assembly does not have, or a step takes parts from two
 /// groups.
 std::vector<BookChapter> instructions(const Plan& plan, const Assembly& assembly, bool disassembly);

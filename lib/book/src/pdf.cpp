@@ -18,13 +18,13 @@ cairo_status_t append_pdf(void* bytes, const unsigned char* data, unsigned lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// A page after the other.
+/// Writes the pages one after the other.
 class PdfPages {
  public:
   explicit PdfPages(const std::string& title)
       : surface_(cairo_pdf_surface_create_for_stream(append_pdf, &bytes_, style_.width, style_.height)),
         page_(cairo_create(surface_)) {
-    // Without a date: the same plan gives the same file.
+    // Without a date, so that the same plan gives the same file.
     cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_TITLE, title.c_str());
     cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATOR, "dismantle");
     cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE, "");
@@ -36,7 +36,7 @@ class PdfPages {
   PdfPages(const PdfPages&) = delete;
   PdfPages& operator=(const PdfPages&) = delete;
 
-  /// Text in a column of `width`, at most `most` high (the rest becomes an ellipsis). Returns its height.
+  /// Draws text in a column of `width`, at most `most` high (an ellipsis replaces the rest). Returns its height.
   double text(double x, double y, double width, const std::string& words, double size, const Eigen::Vector3d& colour,
               bool bold = false, double most = 400) {
     const std::unique_ptr<PangoLayout, decltype(&g_object_unref)> layout(pango_cairo_create_layout(page_),
@@ -59,7 +59,7 @@ class PdfPages {
     return double(height) / PANGO_SCALE;
   }
 
-  /// A list of facts. Returns its height; nothing is written below `bottom`.
+  /// Draws a list of facts, nothing of it below `bottom`. Returns its height.
   double facts(double x, double y, double width, const Facts& facts, double size, double bottom) {
     const double begin = y, column = 6.6 * size;
     for (const auto& [name, value] : facts) {
@@ -72,7 +72,7 @@ class PdfPages {
     return y - begin;
   }
 
-  /// In the middle of a box, as large as fits.
+  /// Draws the picture centred in a box, as large as possible.
   void picture(const Picture& p, double x, double y, double width, double height) {
     const double scale = std::min(width / p.image.width, height / p.image.height);
     paint_picture(page_, p, x + 0.5 * (width - scale * p.image.width), y + 0.5 * (height - scale * p.image.height),

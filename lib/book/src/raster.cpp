@@ -77,12 +77,12 @@ Layer render(const std::vector<DrawnBody>& bodies, const Camera& camera, int wid
   return layer;
 }
 
-/// How dark the line between two neighbouring samples is, 0 for none.
+/// Opacity of the line between two neighbouring samples, 0 for none.
 float edge_between(const Layer& layer, std::size_t a, std::size_t b, int axis, float distance, const LineStyle& style) {
   if (layer.body[a] != layer.body[b]) return style.outline;
   if (layer.body[a] < 0) return 0;
   const Eigen::Vector3f &m = layer.normal[a], &n = layer.normal[b];
-  // Where the surface goes on as its normal says, depth changes by this much.
+  // Change of depth if the surface continues according to its normal.
   const auto slope = [&](const Eigen::Vector3f& v) {
     return (axis == 0 ? -v.x() : v.y()) / std::max(v.z(), 0.05f) * distance;
   };

@@ -1,8 +1,8 @@
-/// Line drawings with shaded faces of triangle meshes: a z-buffer in software.
+/// Draws triangle meshes with shaded faces and edge lines: a software z-buffer.
 ///
-/// Why not a library: the same plan has to give the same bytes on every machine, with and without a display. VTK in
-/// Debian draws through an X server; what OpenGL draws (OSMesa, EGL) depends on the driver that the machine has, and
-/// Mesa has given OSMesa up (25.1).
+/// No library is used because the same plan must give the same bytes on every machine, with and without a display. VTK
+/// in Debian needs an X server. Pictures of OpenGL (OSMesa, EGL) depend on the machine's driver, and Mesa has removed
+/// OSMesa (25.1).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,7 +18,7 @@ namespace dismantle {
 /// Orthographic. Rows of `axes`: right, up, towards the viewer; unit vectors.
 struct Camera {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< is in the middle of the picture
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< point at the centre of the picture
   double scale = 1;                                  ///< pixels per unit of length
 
   /// Pixels from the left and the top edge, and the height above the target towards the viewer in pixels.
@@ -30,22 +30,22 @@ struct Camera {
 
 struct DrawnBody {
   const ShadedMesh* mesh = nullptr;
-  Pose pose;               ///< takes the mesh to where it is drawn
+  Pose pose;               ///< pose at which the mesh is drawn
   Eigen::Vector3f colour;  ///< sRGB, [0, 1]
-  bool marked = false;     ///< shimmers through what is before it
+  bool marked = false;     ///< drawn translucently through bodies in front of it
 };
 
-/// Premultiplied ARGB in native byte order (cairo's ARGB32), `width` per row. Transparent where nothing is.
+/// Premultiplied ARGB in native byte order (cairo's ARGB32), `width` per row. The background is transparent.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint32_t> pixels;
 };
 
-/// Edges are drawn where parts, depths or normals break.
+/// Draws edges where the part, the depth or the normal is discontinuous.
 Image draw(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height,
            const LineStyle& style = {});
 
-/// Pixels in which a marked body is the front one. Coarser pictures answer faster.
+/// Number of pixels in which a marked body is the front one. Smaller pictures are faster.
 std::size_t visible_pixels(const std::vector<DrawnBody>& bodies, const Camera& camera, int width, int height);
 
 }  // namespace dismantle

@@ -1,4 +1,4 @@
-/// How pictures and pages of a book look. Numbers of layout and taste; none of them changes what a book says.
+/// Appearance of the pictures and pages of a book. None of these numbers changes the content of a book.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ struct LineStyle {
   float crease_cosine = 0.82f;  ///< an edge is drawn where normals of neighbouring samples differ by more
   float outline = 0.8f;         ///< opacity of the edge between bodies or depths
   float crease = 0.4f;          ///< opacity of an edge within a surface, and of hidden outlines
-  float shimmer = 0.28f;        ///< opacity of a marked body behind others
+  float shimmer = 0.28f;        ///< opacity of a marked body that is behind others
   Eigen::Vector3f ink{0.13f, 0.15f, 0.19f};
 };
 
@@ -26,14 +26,14 @@ struct PictureStyle {
   PictureSize placed{360, 240};     ///< the parts in their place
   PictureSize item{200, 140};       ///< one part in the bill of materials
   PictureSize front{520, 420};      ///< the title page
-  double margin = 1.12;             ///< size of the picture, relative to what is shown
-  double smallest = 0.14;           ///< share of the picture that the moving parts fill, at least
+  double margin = 1.12;             ///< size of the picture, relative to the bodies shown
+  double smallest = 0.14;           ///< smallest share of the picture that the moving parts fill
   double furthest = 1.1;            ///< largest distance of a part from its place, relative to the fixed parts
   double nearest = 0.16;            ///< smallest distance, relative to the fixed parts
   double speck = 0.07;              ///< parts smaller than this share of the picture's width get a ring
   double ring = 0.045;              ///< radius of the ring around a place, relative to the width
-  double better_view = 1.5;         ///< the side changes when that many times more of the part is visible
-  PictureSize view_test{160, 120};  ///< of the drawings by which views are compared
+  double better_view = 1.5;         ///< another viewpoint is chosen if this many times more of the part is visible
+  PictureSize view_test{160, 120};  ///< size of the drawings for comparing viewpoints
   Eigen::Vector3f accent{0.98f, 0.62f, 0.10f};  ///< of moving parts
   LineStyle lines;
 };

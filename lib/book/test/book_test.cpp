@@ -1,4 +1,4 @@
-// Instructions put every part in once, sub-assemblies first, and end as assembled; the pages say it in HTML and PDF.
+// Instructions put every part in once, sub-assemblies first, and end in the assembled position; also in HTML and PDF.
 #include "dismantle/book/book.h"
 
 #include <gtest/gtest.h>

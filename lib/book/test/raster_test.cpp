@@ -1,4 +1,4 @@
-// The z-buffer: silhouettes have the area that geometry says, the nearer part is seen, a mark shimmers through.
+// The z-buffer: silhouettes have the computed area, the nearer part is visible, marked bodies show through others.
 #include "raster.h"
 
 #include <gtest/gtest.h>

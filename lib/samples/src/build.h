@@ -1,4 +1,4 @@
-/// What the sample makers share: parameter declarations and the making of models.
+/// Shared by the sample makers: parameter declarations and helpers for models.
 #pragma once
 
 #include <cstdint>
@@ -41,17 +41,17 @@ std::vector<Maker> turning_makers();    // turning.cpp: threads and rings
 std::vector<Maker> leg_makers();        // legs.cpp: furniture with threaded legs
 std::vector<Maker> interlock_makers();  // interlock.cpp
 std::vector<Maker> machine_makers();    // machine.cpp
-std::vector<Maker> pressed_makers();    // pressed.cpp: pins, screws and seals that overlap all around
-std::vector<Maker> flexible_makers();   // flexible.cpp: clips, springs, gears
-std::vector<Maker> doubled_makers();    // doubled.cpp: two solids in one place
+std::vector<Maker> pressed_makers();  // pressed.cpp: pins, screws and seals with overlap around the whole circumference
+std::vector<Maker> flexible_makers();  // flexible.cpp: clips, springs, gears
+std::vector<Maker> doubled_makers();   // doubled.cpp: two solids that fill the same space
 
-/// Adds a part, checked, and returns its name.
+/// Adds a part after checking that it is a solid. Returns its name.
 std::string add_part(Model& model, std::string name, Mesh mesh);
 
-/// A straight slide of one part; `out` says that this frees it.
+/// A straight slide of one part; `out`: the part is then separated.
 TruthStep slide(const std::string& part, const Point& way, bool out);
 
-/// The straight motion that slide() makes.
+/// The translation of slide() as a screw.
 Screw along(const Point& travel);
 
 /// Adds `clearance` with the doc that all samples share.
@@ -64,7 +64,7 @@ void add_clearance(Schema<Params>& s, double min, double max) {
 template <class Params>
 void add_segments(Schema<Params>& s) {
   s.add("segments", &Params::segments,
-        {.unit = "1", .min = 8, .max = 512, .doc = "Flat faces that stand for a full turn of a round surface."});
+        {.unit = "1", .min = 8, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
 }
 
 }  // namespace dismantle::samples

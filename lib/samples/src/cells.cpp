@@ -10,7 +10,7 @@
 namespace dismantle::samples {
 namespace {
 
-/// The planes of a grid along one axis, ascending; coordinates that differ by rounding only are one plane.
+/// The planes of a grid along one axis, ascending; coordinates that differ only by rounding give one plane.
 class Planes {
  public:
   explicit Planes(std::vector<double> all) : planes_(std::move(all)) {

@@ -1,4 +1,4 @@
-/// Places that two solids claim: a part that is there twice, a part inside the solid of another.
+/// Two solids that fill the same space: a duplicate part, and a part inside the solid of another.
 #include <algorithm>
 #include <stdexcept>
 
@@ -42,7 +42,7 @@ struct InSolidParams {
           {.unit = "mm",
            .min = 0,
            .max = 200,
-           .doc = "How far the cube is from the middle of the block; it must stay in the block."});
+           .doc = "Distance of the cube from the centre of the block; the cube must stay in the block."});
   }
 };
 

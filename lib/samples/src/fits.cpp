@@ -21,7 +21,7 @@ struct PegParams {
     s.add("size", &PegParams::size, {.unit = "mm", .min = 5, .max = 500, .doc = "Diameter or edge of the peg."});
     s.add("length", &PegParams::length, {.unit = "mm", .min = 5, .max = 500, .doc = "Length of the peg."});
     add_clearance(s, 0.001, 0.5);
-    s.add("blind", &PegParams::blind, {.doc = "The hole has a floor; otherwise it goes through."});
+    s.add("blind", &PegParams::blind, {.doc = "Blind hole; otherwise a through hole."});
     add_segments(s);
   }
 };
@@ -56,7 +56,7 @@ struct SleeveParams {
   static void describe(Schema<SleeveParams>& s) {
     s.add("diameter", &SleeveParams::diameter, {.unit = "mm", .min = 2, .max = 200, .doc = "Diameter of the shaft."});
     s.add("ratio", &SleeveParams::ratio,
-          {.unit = "1", .min = 0.5, .max = 50, .doc = "Length of the sleeve over the diameter of the shaft."});
+          {.unit = "1", .min = 0.5, .max = 50, .doc = "Length of the sleeve, divided by the diameter of the shaft."});
     add_clearance(s, 0.0001, 0.5);
     add_segments(s);
   }

@@ -1,4 +1,4 @@
-/// Parts that bend or touch in few places: clips, springs, gears that cut into each other.
+/// Parts that bend in reality, or overlap in few places: clips, springs, gears that cut into each other.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -25,7 +25,7 @@ struct SnapFitParams {
                 "`width`."});
     add_clearance(s, 0.02, 0.2);
     s.add("overlap", &SnapFitParams::overlap,
-          {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "How deep the hook cuts into the ledge that it is behind."});
+          {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "How deep the hook cuts into the ledge that holds it."});
   }
 };
 
@@ -108,17 +108,17 @@ struct GearParams {
     s.add("teeth_a", &GearParams::teeth_a, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the first gear."});
     s.add("teeth_b", &GearParams::teeth_b, {.unit = "1", .min = 18, .max = 80, .doc = "Teeth of the second gear."});
     s.add("module", &GearParams::module,
-          {.unit = "mm", .min = 0.5, .max = 5, .doc = "Pitch diameter over the number of teeth."});
+          {.unit = "mm", .min = 0.5, .max = 5, .doc = "Pitch diameter, divided by the number of teeth."});
     s.add("width", &GearParams::width, {.unit = "mm", .min = 2, .max = 60, .doc = "Length of the teeth."});
     s.add("cut", &GearParams::cut,
           {.unit = "mm",
            .min = 0.05,
            .max = 0.5,
-           .doc = "How much too near to each other the axes are; at most a sixth of `module`."});
+           .doc = "Reduction of the distance between the axes; at most a sixth of `module`."});
   }
 };
 
-/// Of involute teeth, rad: the usual one (ISO 53).
+/// Standard pressure angle of involute teeth (ISO 53), rad.
 constexpr double kPressureAngle = 20 * pi / 180;
 
 /// Section of a spur gear with involute teeth (20 degrees) about the z axis, a tooth at angle `phase`; height z.
@@ -133,7 +133,7 @@ Loop gear_section(int teeth, double module, double phase, double z) {
   const double pitch_involute = std::tan(kPressureAngle) - kPressureAngle;
   const auto half_angle = [&](double r) { return pi / (2 * teeth) + pitch_involute - involute(r); };
   std::vector<std::pair<double, double>> flank;  // radius, angle from the middle of the tooth
-  // Below the base circle the flank leans a little: radial lines would have no area seen from the axis.
+  // Below the base circle the flank is slightly inclined: radial lines would have no area seen from the axis.
   if (root < base - 1e-6 * module) flank.emplace_back(root, half_angle(base) + 0.1 * (base - root) / base);
   const double from = std::sqrt(std::max(0.0, foot * foot / (base * base) - 1));
   const double to = std::sqrt(tip * tip / (base * base) - 1);
@@ -167,7 +167,7 @@ Model gear_pair(const GearParams& p) {
   const Point travel(0, 0, 1.2 * p.width);
   model.truth.base = "gear_a";
   model.truth.steps.push_back(slide("gear_b", travel, true));
-  // Involutes that come nearer by `cut` approach by this along the line of action, at every tooth in contact.
+  // If the axes are nearer by `cut`, involutes overlap by this along the line of action, at every tooth in contact.
   const double depth = p.cut * std::sin(kPressureAngle);
   model.truth.contacts.push_back(
       {"gear_b", "gear_a", ContactClass::local_interference, depth, 0.25 * depth + 0.002 * p.module, along(travel)});

@@ -1,4 +1,4 @@
-/// Three parts of which two must move at the same time, in different ways (figure 9).
+/// Three parts of which two must move simultaneously, along different paths (figure 9).
 #include <cmath>
 #include <numbers>
 
@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 /// Resolution of a twisted bar.
 struct TwistMesh {
-  int pieces = 12;                // of each side of the square
+  int pieces = 12;                // per side of the square
   double layer = 2.5 * pi / 180;  // turn from layer to layer, rad
 };
 
@@ -20,12 +20,12 @@ struct InterlockParams {
     s.add("size", &InterlockParams::size,
           {.unit = "mm", .min = 8, .max = 100, .doc = "Edge of the twisted square bar."});
     s.add("turn", &InterlockParams::turn,
-          {.unit = "deg", .min = 45, .max = 360, .doc = "Turn of the spindle that lifts the block off its bar."});
+          {.unit = "deg", .min = 45, .max = 360, .doc = "Rotation of the spindle that lifts the block off its bar."});
     add_clearance(s, 0.02, 0.5);
   }
 };
 
-/// Square of half edge `half`, turned by `angle`, every side in pieces.
+/// Square of half edge `half`, rotated by `angle`, with every side divided into pieces.
 Loop twisted_square(double half, double angle, double z) {
   Loop loop;
   const int pieces = TwistMesh{}.pieces;
@@ -37,7 +37,7 @@ Loop twisted_square(double half, double angle, double z) {
   return loop;
 }
 
-/// Layers of a bar that turns `rate` rad / mm and starts untwisted at z = start.
+/// Adds the layers of a bar with twist `rate` (rad/mm) that is untwisted at z = start.
 void twist(Loft& loft, double half, double rate, double start, double from, double to) {
   const int layers = static_cast<int>(std::ceil(std::abs(to - from) * rate / TwistMesh{}.layer));
   for (int i = 0; i <= layers; ++i) {
@@ -65,8 +65,8 @@ Model interlock3(const InterlockParams& p) {
   twist(spindle, half, rate, start, start, bar_top);
   add_part(model, "spindle", spindle.capped());
 
-  // The hole's sides stand off by the clearance measured square to the helical surface, and by what the flat
-  // triangles of both surfaces stray from it.
+  // Distance of the hole's sides: the clearance perpendicular to the helical surface, plus the deviation of the
+  // flat triangles of both surfaces from it.
   const TwistMesh mesh;
   const double stray = 2 * (s / mesh.pieces) * mesh.layer / 4 + 2 * corner * (1 - std::cos(mesh.layer / 2));
   const double hole = half + 1.02 * c * std::hypot(1.0, rate * corner * 1.2) + stray;

@@ -16,9 +16,9 @@ struct LegParams {
   int legs = 4, segments = 32;
   double diameter = 16, pitch = 4, length = 60, clearance = 0.15;
   static void describe(Schema<LegParams>& s) {
-    s.add("legs", &LegParams::legs, {.unit = "1", .min = 1, .max = 16, .doc = "Legs, in rows below the top."});
+    s.add("legs", &LegParams::legs, {.unit = "1", .min = 1, .max = 16, .doc = "Number of legs below the top."});
     s.add("diameter", &LegParams::diameter,
-          {.unit = "mm", .min = 4, .max = 100, .doc = "Major diameter of the threads; they are as long."});
+          {.unit = "mm", .min = 4, .max = 100, .doc = "Major diameter of the threads, and their length."});
     s.add("pitch", &LegParams::pitch,
           {.unit = "mm",
            .min = 0.5,
@@ -31,12 +31,12 @@ struct LegParams {
            .max = 0.5,
            .doc = "Distance between the flanks of leg and top; at most a tenth of `pitch`."});
     s.add("segments", &LegParams::segments,
-          {.unit = "1", .min = 24, .max = 512, .doc = "Flat faces that stand for a full turn of a round surface."});
+          {.unit = "1", .min = 24, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
-/// Square tiles in rows and columns, joined to one solid: they share their corners, and what would be a wall between
-/// two of them is left out.
+/// Square tiles in rows and columns, joined to one solid: neighbours share their corners, and the walls between them
+/// are left out.
 class Tiles {
  public:
   Tiles(int columns, int rows, double half) : columns_(columns), rows_(rows), half_(half) {}
@@ -45,7 +45,7 @@ class Tiles {
     return {(2 * column - columns_ + 1) * half_, (2 * row - rows_ + 1) * half_, 0};
   }
 
-  /// `tile` is about the z axis, and has corners at (+-half, +-half).
+  /// `tile` is centred on the z axis and has corners at (+-half, +-half).
   void put(const Mesh& tile, int column, int row) {
     std::vector<std::uint32_t> ids;
     std::vector<Corner> corners;
@@ -70,12 +70,12 @@ class Tiles {
 
  private:
   struct Corner {
-    int column, row;  ///< -1: no corner of a tile
+    int column, row;  ///< -1: not a corner of a tile
     double z;
     auto operator<=>(const Corner&) const = default;
   };
 
-  /// Is the triangle in a plane between two tiles?
+  /// True if the triangle lies in a plane between two tiles.
   bool between(const std::array<Corner, 3>& c) const {
     const bool same_column = c[0].column == c[1].column && c[1].column == c[2].column;
     const bool same_row = c[0].row == c[1].row && c[1].row == c[2].row;
@@ -104,7 +104,7 @@ Model threaded_legs(const LegParams& p) {
 
   const double gap = std::max(p.clearance, 0.05 * d), bore = d + gap, thickness = 1.5 * d, half = 1.5 * d;
   const ThreadWall leg_wall = thread_wall(external, 0, d, p.segments);
-  // As in bolt_and_nut: flanks lean 30 degrees, and straight faces between the points of the helix cut into the bore.
+  // As in bolt_and_nut: flanks are inclined by 30 degrees, and flat faces between the helix points cut into the bore.
   const double lead = std::atan2(p.pitch, 2 * pi * external.root_radius);
   const double shift = 2.02 * p.clearance / std::cos(lead) + 0.002 * p.pitch;
   const double half_gap = thread_wall(external, 0, bore, p.segments).half_gap;

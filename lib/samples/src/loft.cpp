@@ -8,7 +8,7 @@
 namespace dismantle::samples {
 namespace {
 
-/// Angles about the z axis, each within half a turn of the one before, so that they only grow.
+/// Increasing angles about the z axis, each within half a turn of the one before.
 std::vector<double> unrolled_angles(const Mesh& mesh, const std::vector<std::uint32_t>& loop) {
   std::vector<double> angles;
   for (const std::uint32_t id : loop) {
@@ -64,8 +64,8 @@ void Loft::join(const Ids& a, const Ids& b) {
 }
 
 void Loft::join_by_angle(const Ids& a, const Ids& b) {
-  // Each edge of one loop is joined to the point of the other that lies across its middle: the corner of
-  // a square then never reaches around the circle inside it.
+  // Each edge of one loop is joined to the point of the other that is opposite its midpoint, so that no triangle at
+  // the corner of a square crosses the circle inside it.
   const double turn = 2 * std::numbers::pi;
   const auto angle_a = unrolled_angles(mesh_, a);
   auto angle_b = unrolled_angles(mesh_, b);

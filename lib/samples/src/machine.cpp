@@ -1,4 +1,4 @@
-/// A machine of any number of parts: modules on a base plate, all of it coming apart by straight slides.
+/// A machine with any number of parts: modules on a base plate. All parts leave by straight slides.
 #include <algorithm>
 #include <cmath>
 
@@ -19,12 +19,12 @@ struct MachineParams {
   }
 };
 
-/// What all modules have in common, mm.
+/// Dimensions that all modules share, mm.
 struct ModuleShape {
-  double tile = 24;  // edge of the square on the base that a module has for itself
+  double tile = 24;  // edge of a module's square on the base
   double root = 3;   // half width of its square foot
   double deep = 6;   // depth of the foot in the base
-  double lift = 80;  // takes any part of a module above every other part
+  double lift = 80;  // height that lifts any part of a module above every other part
 };
 
 enum class ModuleKind { stack, pinned, fork };
@@ -34,7 +34,7 @@ struct Module {
   int parts = 1;
 };
 
-/// Makes one module around the origin of its tile, z = 0 on the base's top, and moves it to its place.
+/// Makes one module around the origin of its tile, z = 0 at the top of the base, and moves it to its place.
 class ModuleMaker {
  public:
   ModuleMaker(Model& model, const MachineParams& p, const Point& place, int number, double outward)
@@ -93,7 +93,7 @@ class ModuleMaker {
     unstack(names, fork_name);
   }
 
-  /// The parts of a stack leave upwards from the top, then what carries them.
+  /// The parts of a stack leave upwards, the top one first and the carrier last.
   void unstack(const std::vector<std::string>& names, const std::string& carrier) {
     for (std::size_t k = names.size(); k-- > 0;) {
       before(names[k], k > 0 ? names[k - 1] : carrier);
@@ -102,7 +102,7 @@ class ModuleMaker {
     remove(carrier, Point(0, 0, shape_.lift));
   }
 
-  /// A tower, a cap over it and a pin with a head through both, which leaves to the outside.
+  /// A tower, a cap over it and a pin with a head through both. The pin leaves outwards.
   void pinned() {
     const double out = outward_;
     const auto box = [&](Cells& cells, bool solid, Point lo, Point hi) {
@@ -142,8 +142,8 @@ class ModuleMaker {
   ModuleShape shape_;
 };
 
-/// Modules that use up `parts` parts. Pinned towers stand in the first and last row only, where their pins
-/// have somewhere to go.
+/// Modules with `parts` parts in total. Pinned towers are only in the first and last row, where their pins
+/// can leave.
 std::vector<Module> modules_for(int parts) {
   std::vector<Module> modules;
   int turn = 0;
@@ -167,7 +167,7 @@ Model machine(const MachineParams& p) {
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(modules.size()))));
   const int rows = (static_cast<int>(modules.size()) + columns - 1) / columns;
   const auto row_of = [columns](std::size_t i) { return static_cast<int>(i) / columns; };
-  // A pinned tower of an inner row changes its place with another module of an outer row, or becomes a stack.
+  // A pinned tower of an inner row is swapped with another module of an outer row, or becomes a stack.
   for (std::size_t i = 0; i < modules.size(); ++i) {
     if (modules[i].kind != ModuleKind::pinned || row_of(i) == 0 || row_of(i) == rows - 1) continue;
     const auto outer = std::find_if(modules.begin(), modules.end(), [&](const Module& m) {

@@ -14,7 +14,7 @@ std::string obj_text(const RawPart& part) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "o {}\n", part.name);
-  // Adding zero turns -0 into 0, so that mirrored parts do not differ in the sign of nothing.
+  // Adding zero turns -0 into 0, so that mirrored parts do not differ in the sign of a zero.
   for (const auto& v : part.mesh.vertices) fmt::format_to(out, "v {} {} {}\n", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
   for (const auto& t : part.mesh.triangles) fmt::format_to(out, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
   return text;

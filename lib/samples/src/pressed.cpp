@@ -1,4 +1,4 @@
-/// Round parts that are larger than the room they are in: pressed pins, screws in plain bores, seals.
+/// Round parts that are larger than their bore or groove: pressed pins, screws in plain bores, seals.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -18,7 +18,7 @@ struct PressedPinParams {
     s.add("length", &PressedPinParams::length,
           {.unit = "mm", .min = 6, .max = 300, .doc = "Length of the pin; half of it is in the plate."});
     s.add("interference", &PressedPinParams::interference,
-          {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "Diameter of the pin minus diameter of its hole."});
+          {.unit = "mm", .min = 0.05, .max = 0.2, .doc = "Diameter of the pin minus the diameter of its hole."});
     add_segments(s);
   }
 };
@@ -62,9 +62,9 @@ struct PlainBoreParams {
           {.unit = "mm",
            .min = 0.05,
            .max = 0.5,
-           .doc = "Radius of the screw minus radius of the bore; at most 0.4 of `pitch`."});
+           .doc = "Radius of the screw minus the radius of the bore; at most 0.4 of `pitch`."});
     s.add("segments", &PlainBoreParams::segments,
-          {.unit = "1", .min = 24, .max = 256, .doc = "Flat faces that stand for a full turn of a round surface."});
+          {.unit = "1", .min = 24, .max = 256, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
@@ -121,7 +121,7 @@ struct ORingParams {
            .doc = "How far the ring cuts into the groove's floor and into the bore; at most an eighth of `section`."});
     add_clearance(s, 0.01, 0.3);
     s.add("segments", &ORingParams::segments,
-          {.unit = "1", .min = 32, .max = 256, .doc = "Flat faces that stand for a full turn of a round surface."});
+          {.unit = "1", .min = 32, .max = 256, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 

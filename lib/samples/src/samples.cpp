@@ -18,7 +18,7 @@ ParamSpec rotate_seed_spec() {
   spec.unit = std::string("1");
   spec.fallback = std::int64_t{0};
   spec.min = 0;
-  spec.doc = "0: as built; otherwise the whole assembly is turned by the random rotation of this seed.";
+  spec.doc = "Seed of a random rotation of the whole assembly; 0 = no rotation.";
   return spec;
 }
 

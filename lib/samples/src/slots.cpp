@@ -1,4 +1,4 @@
-/// Rectilinear samples: slots that need several slides, boxes that hold things.
+/// Rectilinear samples: slots that need several slides, and boxes with parts inside.
 #include <cmath>
 
 #include "build.h"
@@ -9,10 +9,10 @@ namespace {
 struct LSlotParams {
   double length = 15, width = 10, height = 8, travel = 20, wall = 5, clearance = 0.2;
   static void describe(Schema<LSlotParams>& s) {
-    s.add("length", &LSlotParams::length, {.unit = "mm", .min = 5, .max = 200, .doc = "Slider along x."});
-    s.add("width", &LSlotParams::width, {.unit = "mm", .min = 5, .max = 200, .doc = "Slider along y."});
-    s.add("height", &LSlotParams::height, {.unit = "mm", .min = 5, .max = 200, .doc = "Slider along z."});
-    s.add("travel", &LSlotParams::travel, {.unit = "mm", .min = 4, .max = 200, .doc = "First move, along +x."});
+    s.add("length", &LSlotParams::length, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along x."});
+    s.add("width", &LSlotParams::width, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along y."});
+    s.add("height", &LSlotParams::height, {.unit = "mm", .min = 5, .max = 200, .doc = "Size of the slider along z."});
+    s.add("travel", &LSlotParams::travel, {.unit = "mm", .min = 4, .max = 200, .doc = "First slide, along +x."});
     s.add("wall", &LSlotParams::wall, {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of walls and roof."});
     add_clearance(s, 0.001, 0.5);
   }
@@ -37,10 +37,10 @@ struct ZigzagParams {
   int bends = 2;
   static void describe(Schema<ZigzagParams>& s) {
     s.add("bends", &ZigzagParams::bends,
-          {.unit = "1", .min = 1, .max = 8, .doc = "Slides to the side; two moves for each."});
+          {.unit = "1", .min = 1, .max = 8, .doc = "Number of bends; each needs two slides."});
     s.add("size", &ZigzagParams::size, {.unit = "mm", .min = 5, .max = 200, .doc = "Edge of the sliding block."});
     s.add("wall", &ZigzagParams::wall,
-          {.unit = "mm", .min = 0.5, .max = 50, .doc = "Wall between two stretches of the slot."});
+          {.unit = "mm", .min = 0.5, .max = 50, .doc = "Thickness of the wall between two sections of the slot."});
     add_clearance(s, 0.001, 0.5);
   }
 };
@@ -75,7 +75,7 @@ struct StackedBoxParams {
   int count = 3;
   double size = 60, plate = 6, wall = 4, clearance = 0.3;
   static void describe(Schema<StackedBoxParams>& s) {
-    s.add("count", &StackedBoxParams::count, {.unit = "1", .min = 1, .max = 100, .doc = "Plates in the box."});
+    s.add("count", &StackedBoxParams::count, {.unit = "1", .min = 1, .max = 100, .doc = "Number of plates."});
     s.add("size", &StackedBoxParams::size, {.unit = "mm", .min = 10, .max = 500, .doc = "Inner width of the box."});
     s.add("plate", &StackedBoxParams::plate, {.unit = "mm", .min = 3, .max = 50, .doc = "Thickness of a plate."});
     s.add("wall", &StackedBoxParams::wall,
@@ -98,7 +98,7 @@ Model stacked_box(const StackedBoxParams& p) {
     cells.add(low(h, z), square(h, z + height)).cut(low(boss_half + c, z), square(boss_half + c, z + boss));
     return cells;
   };
-  const double stack_top = p.count * (t + c);  // top of the last plate, its boss aside; the floor's top is at 0
+  const double stack_top = p.count * (t + c);  // top of the last plate without its boss; the top of the floor is at 0
   const double plug = boss + 0.2 * t, rim = stack_top + plug;
   Cells box;
   box.add(low(half + p.wall, -p.wall), square(half + p.wall, rim)).cut(low(half, 0), square(half, rim));
@@ -135,7 +135,7 @@ struct ClosedBoxParams {
           {.unit = "1",
            .min = 1e-5,
            .max = 0.2,
-           .doc = "Thickness of all walls over `size`; 0.003 is 0.03 assembly units."});
+           .doc = "Thickness of all walls, divided by `size`; 0.003 is 0.03 assembly units."});
     add_clearance(s, 0.001, 1.0);
   }
 };

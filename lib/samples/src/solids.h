@@ -13,7 +13,7 @@ namespace dismantle::samples {
 using Point = Eigen::Vector3d;
 using Loop = std::vector<Point>;  ///< closed polygon, counter-clockwise about the direction of travel
 
-/// Union of boxes minus boxes, applied in the order of the calls. Boundary faces of the grid that all box
+/// Boxes added and cut in the order of the calls. The mesh consists of boundary faces of the grid that all box
 /// coordinates span, so that neighbouring faces share whole edges.
 class Cells {
  public:
@@ -36,7 +36,7 @@ class Loft {
   /// Adds a loop and joins it to the one before: by index when both have equally many points, otherwise
   /// by angle about the z axis (both loops must then be star-shaped about it).
   Loft& to(const Loop& loop);
-  /// Adds a strip that was triangulated elsewhere, from its first to its last loop.
+  /// Adds an already triangulated strip from loop `first` to loop `last`.
   Loft& strip(const Mesh& mesh, const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& last);
   Mesh capped();  ///< closes the first and the last loop by fans about their centroids
   Mesh ring();    ///< joins the last loop to the first
@@ -56,10 +56,10 @@ Loop circle(double r, double z, int segments);
 Loop rectangle(double half_x, double half_y, double z);
 /// Regular hexagon with the given distance between opposite sides.
 Loop hexagon(double across_flats, double z);
-/// Circle of radius r about the point at `angle` (rad) of a circle of radius `bend_radius` around the z axis, square to
-/// it; counter-clockwise about the direction of growing angles.
+/// Circle of radius r, centred at `angle` (rad) on a circle of radius `bend_radius` around the z axis and perpendicular
+/// to that circle; counter-clockwise about the direction of increasing angles.
 Loop tube_section(double bend_radius, double r, double angle, int segments);
-/// Radius of a polygon of that many segments that contains the circle of radius r.
+/// Circumradius of the regular polygon with `segments` corners that contains the circle of radius r.
 double around(double r, int segments);
 
 /// Axial section of a thread, period `pitch`: radius at the crest, root and on the straight flanks between.

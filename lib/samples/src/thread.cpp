@@ -14,8 +14,8 @@ std::array<double, 4> corners(const ThreadProfile& p) {
   return {-p.pitch / 2 + p.root_flat / 2, -p.crest_flat / 2, p.crest_flat / 2, p.pitch / 2 - p.root_flat / 2};
 }
 
-/// Uniform angles, with those added at which a corner of the profile leaves through an end plane, so that the
-/// end loops are exact. Uniform ones too close to an added one would make slivers and are left out.
+/// Uniform angles, plus those at which a corner of the profile crosses an end plane, so that the end loops are
+/// exact. Uniform angles close to an added one would give slivers and are left out.
 std::vector<double> column_angles(const ThreadProfile& profile, double z0, double z1, int segments) {
   const double step = 2 * pi / segments;
   std::vector<double> exact;
@@ -73,7 +73,7 @@ ThreadWall thread_wall(const ThreadProfile& profile, double z0, double z1, int s
       for (const double corner : corners(profile)) {
         const double phase = corner + pitch * static_cast<double>(turn);
         const double z = phase + climb;
-        // A corner that meets an end plane in this column is that plane's own point.
+        // A corner that meets an end plane in this column coincides with the point on that plane.
         if (z > z0 + 1e-5 * pitch && z < z1 - 1e-5 * pitch) put(phase, z);
       }
     put(z1 - climb, z1);
@@ -85,7 +85,7 @@ ThreadWall thread_wall(const ThreadProfile& profile, double z0, double z1, int s
     const bool wraps = c + 1 == columns.size();
     const auto& left = columns[c];
     const auto& right = columns[wraps ? 0 : c + 1];
-    const double shift = wraps ? -pitch : 0.0;  // the right column is met one turn further up
+    const double shift = wraps ? -pitch : 0.0;  // the right column continues one turn further up
     const double gap = wraps ? angles.front() + 2 * pi - angles.back() : angles[c + 1] - angles[c];
     wall.half_gap = std::max(wall.half_gap, gap / 2);
     std::size_t l = 0, r = 0;

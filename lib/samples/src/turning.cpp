@@ -1,4 +1,4 @@
-/// Samples that cannot come apart without turning.
+/// Samples that cannot be disassembled without rotation.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -22,14 +22,14 @@ struct BoltParams {
            .max = 10,
            .doc = "Pitch of the right-handed, single-start thread; at most a quarter of `diameter`."});
     s.add("turns", &BoltParams::turns,
-          {.unit = "1", .min = 0, .max = 50, .doc = "Turns until the nut begins to leave the end of the bolt."});
+          {.unit = "1", .min = 0, .max = 50, .doc = "Turns until the nut begins to leave the bolt."});
     s.add("clearance", &BoltParams::clearance,
           {.unit = "mm",
            .min = 0.001,
            .max = 0.5,
            .doc = "Distance between the flanks of bolt and nut; at most a tenth of `pitch`."});
     s.add("segments", &BoltParams::segments,
-          {.unit = "1", .min = 24, .max = 512, .doc = "Flat faces that stand for a full turn of a round surface."});
+          {.unit = "1", .min = 24, .max = 512, .doc = "Number of flat faces per full turn of a round surface."});
   }
 };
 
@@ -55,8 +55,8 @@ Model bolt_and_nut(const BoltParams& p) {
   bolt.to(circle(shank_radius, 0, p.segments)).to(circle(shank_radius, shank, p.segments));
   add_part(model, "bolt", bolt.strip(bolt_wall.mesh, bolt_wall.bottom, bolt_wall.top).capped());
 
-  // Flanks lean 30 degrees, so a radial shift s moves them apart by s / 2; the lead angle costs a little more,
-  // and straight faces between the points of the helix cut into the nut's bore.
+  // Flanks are inclined by 30 degrees, so a radial shift s separates them by s / 2. The lead angle reduces this
+  // slightly, and flat faces between the points of the helix cut into the nut's bore.
   const double lead = std::atan2(p.pitch, 2 * pi * external.root_radius);
   const double shift = 2.02 * p.clearance / std::cos(lead) + 0.002 * p.pitch;
   const double nut_bottom = shank + gap, nut_top = nut_bottom + nut_height;
@@ -81,9 +81,9 @@ struct RingParams {
     s.add("bend_radius", &RingParams::bend_radius,
           {.unit = "mm", .min = 20, .max = 300, .doc = "Radius of the tube's centre line."});
     s.add("diameter", &RingParams::diameter, {.unit = "mm", .min = 3, .max = 10, .doc = "Diameter of the tube."});
-    s.add("arc", &RingParams::arc, {.unit = "deg", .min = 90, .max = 150, .doc = "How far the tube goes around."});
+    s.add("arc", &RingParams::arc, {.unit = "deg", .min = 90, .max = 150, .doc = "Angle that the tube spans."});
     s.add("sleeve_arc", &RingParams::sleeve_arc,
-          {.unit = "deg", .min = 20, .max = 60, .doc = "How much of the tube the ring covers."});
+          {.unit = "deg", .min = 20, .max = 60, .doc = "Angle of the tube that the ring covers."});
     add_clearance(s, 0.001, 0.5);
     add_segments(s);
   }
@@ -101,7 +101,7 @@ Model ring_on_curved_tube(const RingParams& p) {
   model.clearance = p.clearance;
   const double degree = pi / 180, arc = p.arc * degree, sleeve_arc = p.sleeve_arc * degree;
   const double r = p.diameter / 2;
-  // Straight pieces stray from the centre line by up to `sag`, the tube's towards the inside of the bend.
+  // Straight pieces deviate from the centre line by up to `sag`, those of the tube towards the inside of the bend.
   const double sag = p.bend_radius * (1 - std::cos(0.75 * degree));
   const double bore = around(r + p.clearance + 2.5 * sag, p.segments), outer = bore + 0.4 * r, knob = 2 * r;
   const double begin = 1.1 * p.clearance / (p.bend_radius - outer) + 0.2 * degree;  // beyond the knob's face at 0

@@ -128,7 +128,7 @@ inline double sampled_depth(const Probe& a, const Pose& pose_a, const Probe& b, 
   return std::max(detail::deepest_point(a, pose_a, b, pose_b), detail::deepest_point(b, pose_b, a, pose_a));
 }
 
-/// What the truth says of the two; null: that they keep the clearance.
+/// The contact that the truth states for two parts; null: they keep the clearance.
 inline const TruthContact* contact_of(const Model& model, const std::string& a, const std::string& b) {
   for (const TruthContact& c : model.truth.contacts)
     if ((c.a == a && c.b == b) || (c.a == b && c.b == a)) return &c;

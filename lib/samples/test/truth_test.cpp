@@ -1,4 +1,4 @@
-/// The truth of each sample, replayed: what it says comes out comes out, what it says is blocked is blocked.
+/// Replays the truth of each sample: its steps are free of collisions, and motions that it calls blocked collide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool moves_in(const TruthStep& step, const std::string& part) {
   return std::any_of(step.motions.begin(), step.motions.end(), [&](const auto& m) { return m.part == part; });
 }
 
-/// Room for the rounding of coordinates, mm.
+/// Margin for the rounding of coordinates, mm.
 constexpr double kRounding = 1e-6;
 
 /// First pair that comes closer than `distance`, or overlaps deeper than when assembled, while the parts in `present`
@@ -145,7 +145,7 @@ TEST_P(EveryTruth, PrecedenceIsNecessaryAndKept) {
     if (!step.out.empty()) order.push_back(step.out);
   for (const auto& [before, after] : model.truth.precedence) {
     EXPECT_LT(std::find(order.begin(), order.end(), before), std::find(order.begin(), order.end(), after));
-    // With `before` still there, the way by which `after` leaves is blocked.
+    // While `before` is present, the path by which `after` leaves is blocked.
     for (const auto& step : model.truth.steps) {
       if (step.out != after) continue;
       Poses poses;
@@ -187,7 +187,7 @@ TruthStep rigid(const std::vector<std::string>& parts, const Screw& screw) {
   return step;
 }
 
-/// Expects that the parts, moved together by the screw, run into something.
+/// Expects a collision when the screw moves the parts together.
 void expect_blocked(const Model& model, const std::vector<Probe>& parts, const std::vector<std::string>& group,
                     const Screw& screw) {
   Poses poses;
@@ -231,7 +231,7 @@ TEST(Blocked, SlotsNeedTheirFirstMove) {
   }
 }
 
-/// Parts that bend in reality: no straight pull of the rigid one goes without a deeper overlap.
+/// Parts that bend in reality: as a rigid body, no straight motion avoids a deeper overlap.
 TEST(Blocked, ClipsAndSealsDoNotLeaveAsRigidBodies) {
   for (const auto& [name, part, other] :
        {std::tuple{"snap_fit", "clip", "plate"}, std::tuple{"o_ring", "ring", "shaft"}}) {

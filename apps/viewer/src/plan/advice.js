@@ -1,11 +1,11 @@
-// What the user can do about parts that did not come out. `dismantle explain` (lib/plan_io) says the same and knows the run's configuration.
+// Advice for parts that did not come out. `dismantle explain` (lib/plan_io) gives the same advice and knows the run's configuration.
 
-/** Shell words that survive spaces and quotes in names. */
+/** Quotes a name with spaces or quotes as a shell word. */
 export const quoted = text => /^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`;
 
 /**
  * @param group parts of the plan's `unsolved` with one outcome and message
- * @returns texts; what stands between backquotes is a command or a key
+ * @returns texts; text between backquotes is a command or a key
  */
 export function adviceOn(group, plan) {
   const [{part, outcome, message}] = group, input = quoted(plan.assembly.source), out = [];

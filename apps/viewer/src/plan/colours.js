@@ -1,6 +1,6 @@
-// Colours of parts: by the order in which they leave, from amber over green and blue to pink; red is kept for trouble.
+// Colours of parts in the order of removal, from amber over green and blue to pink; red is reserved for problems.
 
-/** Oklch (lightness 0..1, chroma, hue in degrees) to sRGB 0..255, cut off where the screen cannot show it. */
+/** Oklch (lightness 0..1, chroma, hue in degrees) to sRGB 0..255, clamped to the colours that the screen can show. */
 export function oklch(lightness, chroma, hue) {
   const a = chroma * Math.cos(hue * Math.PI / 180), b = chroma * Math.sin(hue * Math.PI / 180);
   const l = (lightness + 0.3963377774 * a + 0.2158037573 * b) ** 3;
@@ -18,13 +18,13 @@ export const hex = rgb => '#' + rgb.map(x => x.toString(16).padStart(2, '0')).jo
 
 export const STAYS = '#8b929e', TROUBLE = '#e5484d';
 
-/** Colour of the part that leaves as number `rank` of `count`; neighbours differ in lightness too. */
+/** Colour of the part that leaves as number `rank` of `count`; consecutive colours also differ in lightness. */
 export function byOrder(rank, count) {
   const share = count > 1 ? rank / (count - 1) : 0.45;
   return hex(oklch(rank % 2 === 0 ? 0.76 : 0.64, 0.135, 75 + 265 * share));
 }
 
-/** What a plan may say of a part's own colour: "#rrggbb", or three numbers from 0 to 1. Null if it says nothing usable. */
+/** A part's colour in the plan: "#rrggbb", or three numbers from 0 to 1. Null if it is missing or invalid. */
 export function given(part) {
   const c = part.color ?? part.colour;
   if (typeof c === 'string' && /^#[0-9a-f]{6}$/i.test(c)) return c.toLowerCase();

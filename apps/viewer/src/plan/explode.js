@@ -1,9 +1,9 @@
-// The exploded view: each part moved along the direction in which the plan takes it out, so far that nothing overlaps.
+// The exploded view: each part moves along its direction of removal until no boxes overlap.
 import {transform} from './screw.js';
 
-const GAP = 0.04;  // between boxes, of the assembly's size
+const GAP = 0.04;  // between boxes, relative to the assembly's size
 
-/** Where the middle of the box goes on the whole move, without turns. */
+/** Direction of the displacement of the box's centre over the whole move, ignoring rotation. */
 function direction(step, movers, out, boxes, middle) {
   const d = [0, 0, 0], to = new Float64Array(3);
   let count = 0;
@@ -16,7 +16,7 @@ function direction(step, movers, out, boxes, middle) {
     ++count;
   });
   let length = Math.hypot(...d);
-  if (count === 0 || !(length > 0)) {  // nothing of it moved, or it only turned: away from the middle
+  if (count === 0 || !(length > 0)) {  // no part moved, or they only rotated: away from the assembly's centre
     d.fill(0);
     for (const i of out) for (let k = 0; k < 3; ++k) d[k] += boxes[i].center[k] - middle[k];
     length = Math.hypot(...d);
@@ -25,7 +25,7 @@ function direction(step, movers, out, boxes, middle) {
   return d.map(x => x / length);
 }
 
-/** How far `a` has to go along `u` until it has passed `b`, 0 if it does not meet it. */
+/** Distance that `a` must move along `u` to pass `b`; 0 if they do not meet. */
 function passing(a, b, u, gap) {
   let enter = 0, leave = Infinity;
   for (let k = 0; k < 3; ++k) {
@@ -45,16 +45,16 @@ const shifted = (box, by) => ({lo: box.lo.map((x, k) => x + by[k]), hi: box.hi.m
 
 /**
  * @param boxes per part {lo, hi, center}, assembled, input units
- * @param splits of followGroups
- * @returns per part [x, y, z], how far it moves when exploded in full, input units
+ * @param splits from followGroups()
+ * @returns per part [x, y, z], its shift in the fully exploded view, input units
  */
 export function explode(steps, splits, boxes, size, middle) {
   const offsets = boxes.map(() => [0, 0, 0]);
-  // Backwards, as in assembling: what goes in as one is exploded already when it has to keep clear of the rest.
+  // In assembly order: a group is exploded before its distance from the rest is computed.
   for (let s = steps.length - 1; s >= 0; --s) {
     const {out, rest, movers} = splits[s];
     if (out.length === 0 || rest.length === 0) continue;
-    // What moves may also be the rest, with what is left behind counted as out: shift those that moved.
+    // If the step moved the rest instead of `out`, direction() points away from the assembly's centre.
     const u = direction(steps[s], movers, out, boxes, middle);
     let far = 0;
     for (const i of out) {

@@ -1,9 +1,9 @@
-// What is with what after each step, and when a part has left for good.
+// Groups of parts after each step, and the step after which a part is out and alone.
 
 /**
- * @returns {rank, leftIn, groupOf}: per part index its place in the order of removal (-1: it stays), the index of the step
- * after which it is out and alone (-1: never); per step index the parts of the group that the step takes something from,
- * before it does, and those that go.
+ * @returns {rank, leftIn, splits, leavers}: per part index its place in the order of removal (-1: it stays) and the index of
+ * the step after which it is out and alone (-1: never); per step index {movers, out, rest}: the moving parts, those that leave
+ * their group and those that remain in it; the number of parts that leave.
  */
 export function followGroups(steps, names) {
   const index = new Map(names.map((name, i) => [name, i]));
@@ -25,7 +25,7 @@ export function followGroups(steps, names) {
     const out = names.map((_, i) => i).filter(i => group[i] !== before[i]);
     const from = new Set(out.map(i => before[i]));
     splits.push({movers, out, rest: names.map((_, i) => i).filter(i => from.has(before[i]) && group[i] === before[i])});
-    // Whatever is alone now and was not before has left, but for what stays of the main group.
+    // Every part that has become alone has left, except for the last part of the main group.
     const count = new Map();
     for (const g of group) count.set(g, (count.get(g) ?? 0) + 1);
     for (let i = 0; i < names.length; ++i)

@@ -1,9 +1,9 @@
-// Rigid displacements and the screw motion that joins two of them, as docs/plan-format.md says.
-// A pose is 7 numbers x, y, z, qw, qx, qy, qz, anywhere in an array: x' = R(q) x + t. Nothing here allocates.
+// Rigid displacements and the screw motion that joins two of them, as in docs/plan-format.md.
+// A pose is 7 numbers x, y, z, qw, qx, qy, qz, anywhere in an array: x' = R(q) x + t. No function allocates.
 
 const w = new Float64Array(3), v = new Float64Array(3), d = new Float64Array(3), turn = new Float64Array(4);
 
-/** out = a x b, three numbers; `out` may be neither. */
+/** out = a x b, three numbers; `out` must be a different array. */
 function cross(out, a, b) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
@@ -31,7 +31,7 @@ export function transform(out, pose, i, p) {
   return out;
 }
 
-/** The twist that takes the pose at a[i..] to the one at b[j..] by the shorter turn: `w` (rad) and `v`, about the origin. */
+/** The twist that takes the pose at a[i..] to the one at b[j..] by the shorter rotation: `w` (rad) and `v`, about the origin. */
 function twistBetween(a, i, b, j) {
   // turn = qb * conj(qa)
   const aw = a[i + 3], ax = -a[i + 4], ay = -a[i + 5], az = -a[i + 6];
@@ -83,13 +83,13 @@ export function screwInterpolate(out, a, i, b, j, u) {
   multiply(out, 3, turn, 0, a, i + 3);
   const norm = Math.hypot(out[3], out[4], out[5], out[6]);
   for (let n = 3; n < 7; ++n) out[n] /= norm;
-  // The twist turns about the point that the part's origin has at `a`, so the origin moves by V(u w) u v.
+  // The twist rotates about the position of the part's origin at `a`, so the origin moves by V(u w) u v.
   out[0] = tx, out[1] = ty, out[2] = tz;
   return out;
 }
 
 const at = new Float64Array(3), arm = new Float64Array(3);
-/** Upper bound of how far any point within `radius` of `center` (assembled) travels from the pose at a[i..] to b[j..]. */
+/** Upper bound of the distance that any point within `radius` of `center` (assembled) travels from the pose at a[i..] to b[j..]. */
 export function screwTravel(a, i, b, j, center, radius) {
   twistBetween(a, i, b, j);
   transform(at, a, i, center);

@@ -1,4 +1,4 @@
-// When each part is where: the steps of a plan laid out in time, as in plan.glb.
+// The poses of each part over time: the steps of a plan laid out in time, as in plan.glb.
 import {screwInterpolate, screwTravel} from './screw.js';
 
 const LEAD = 0.5, PAUSE = 0.35, END_PAUSE = 1;  // s
@@ -7,12 +7,12 @@ const SECONDS_PER_SIZE = 1.5;                   // for a path as long as the ass
 
 const IDENTITY = [0, 0, 0, 1, 0, 0, 0];
 
-/** Where one part is at each time; before the first key it is at the first, after the last at the last. */
+/** Poses of one part over time; constant before the first and after the last key. */
 export class Track {
   constructor() {
     this.times = [];
     this.poses = [];  // 7 numbers per time
-    this.last = 0;    // where the search ended last: time mostly goes on
+    this.last = 0;    // index that the last search found; the next search begins there because time mostly increases
   }
 
   append(time, pose) {
@@ -48,7 +48,7 @@ export class Track {
   }
 }
 
-/** Share of the step's time at each of its poses: the part that moves furthest has constant speed. Also the path's length. */
+/** Share of the step's time at each of its poses, such that the part that moves furthest has constant speed. Also the path's length. */
 function sharesOf(step, bodies) {
   const n = step.moves[0].poses.length, path = new Float64Array(n);
   for (let k = 1; k < n; ++k) {
@@ -82,7 +82,7 @@ export function layOut(steps, bodies, size) {
     movers.forEach((body, m) => {
       const track = tracks[body.index] ??= new Track();
       step.moves[m].poses.forEach((pose, k) => {
-        // A pose that repeats an instant replaces it: a track's times strictly increase.
+        // A pose at the same time replaces the previous one: a track's times strictly increase.
         if (track.times.length > 0 && times[k] <= track.times[track.times.length - 1]) {
           for (let n = 0; n < 7; ++n) track.poses[track.poses.length - 7 + n] = pose[n];
         } else {
@@ -97,7 +97,7 @@ export function layOut(steps, bodies, size) {
   return {tracks, steps: out, duration: out.length > 0 ? now - PAUSE + END_PAUSE : 0, pause: PAUSE};
 }
 
-/** Index of the step that runs at `time`, or ran last; -1 before the first. */
+/** Index of the step that runs at `time`, or of the last one before; -1 before the first step. */
 export function stepAt(line, time) {
   let found = -1;
   for (let i = 0; i < line.steps.length && line.steps[i].begin <= time; ++i) found = i;

@@ -1,4 +1,4 @@
-// What a plan says, in plain words. Strings go into pages as text, never as markup.
+// Texts about a plan for the user. Strings are inserted into pages as text, never as markup.
 
 const OUTCOMES = {
   timeout: ['Time ran out', 'The budget of time or steps was used up. More may help.'],
@@ -22,7 +22,7 @@ export function listed(names, most = 2) {
   return `${names.slice(0, most).join(', ')} and ${names.length - most} more`;
 }
 
-/** 3 significant digits, never exponents for what people see every day. */
+/** 3 significant digits, without exponents for numbers of usual size. */
 export function number(x) {
   if (x === 0) return '0';
   const size = Math.abs(x);
@@ -30,7 +30,7 @@ export function number(x) {
   return String(Number(x.toPrecision(size >= 100 ? Math.floor(Math.log10(size)) + 1 : 3)));
 }
 
-/** What a forced step does, in input units. */
+/** Description of a forced step, in input units. */
 export const forcedWords = ({pair, depth, assembled, at, lower_bound: bound}) =>
   `${pair[0]} cuts ${bound ? 'at least ' : ''}${number(depth)} units into ${pair[1]} (${number(assembled)} when assembled), at (${at.map(number).join(', ')})`;
 

@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import {multiply, transform} from '../plan/screw.js';
 
-const GHOST = 0.16;  // opacity of what was made transparent
+const GHOST = 0.16;  // opacity of transparent parts
 
 function geometriesOf(shape) {
   const positions = new THREE.BufferAttribute(shape.positions, 3);
@@ -21,7 +21,7 @@ function geometriesOf(shape) {
   return {surface, edges};
 }
 
-/** One part: a mesh with its edges as child. `solid` and `ghost` are materials: switching them compiles nothing anew. */
+/** One part: a mesh with its edges as child. `solid` and `ghost` are materials; switching them compiles no shader. */
 class Body {
   constructor(part, geometries, lines) {
     this.part = part;
@@ -30,7 +30,7 @@ class Body {
     });
     this.lines = lines;
     this.mesh = new THREE.Mesh(geometries.surface, this.solid);
-    // One matrix, written by move(): for the mesh, in the scene, and for its edges.
+    // move() writes one matrix, which is the matrix of the mesh, its world matrix, and that of its edges.
     this.mesh.matrixAutoUpdate = this.mesh.matrixWorldAutoUpdate = false;
     this.mesh.matrix = this.mesh.matrixWorld;
     this.mesh.castShadow = this.mesh.receiveShadow = true;
@@ -57,7 +57,7 @@ class Body {
     }
   }
 
-  /** 0: not drawn, below 1: seen through. */
+  /** 0: not drawn, below 1: transparent. */
   setOpacity(opacity, marked) {
     this.mesh.visible = opacity > 0.01;
     if (!this.mesh.visible) return;
@@ -112,7 +112,7 @@ export class Parts {
     m[12] = out[0], m[13] = out[1], m[14] = out[2];
   }
 
-  /** Where the point `p` of part `i` (assembled, input coordinates) is drawn: by the mesh's own matrix. Input coordinates. */
+  /** Position at which point `p` of part `i` (assembled, input coordinates) is drawn by the mesh's matrix. Input coordinates. */
   shownPoint(i, p) {
     const {part, mesh} = this.bodies[i];
     const assembled = new THREE.Matrix4().compose(new THREE.Vector3(...part.place.slice(0, 3)),
@@ -121,7 +121,7 @@ export class Parts {
     return local.applyMatrix4(mesh.matrixWorld).toArray().map((x, k) => x + this.model.origin[k]);
   }
 
-  /** Boxes around the parts that `wanted` accepts, in scene coordinates; of the whole assembly when there are none. */
+  /** Boxes around the parts that `wanted` accepts, in scene coordinates; a box of the whole assembly's size when there are none. */
   boxes(wanted) {
     const out = this.bodies.filter(b => wanted(b.part.index)).map(({mesh}) => mesh.geometry.boundingBox.clone().applyMatrix4(mesh.matrixWorld));
     const half = new THREE.Vector3().setScalar(this.model.size / 2);

@@ -1,4 +1,4 @@
-// Which part is under the pointer. A press that moves is a turn of the view, not a choice.
+// Finds the part under the pointer. A press followed by a movement rotates the view and selects nothing.
 import {Raycaster, Vector2} from 'three';
 
 const STILL = 6;  // px
@@ -12,7 +12,7 @@ export class Picker {
       at.set(2 * (event.clientX - box.left) / box.width - 1, 1 - 2 * (event.clientY - box.top) / box.height);
       ray.setFromCamera(at, stage.camera);
       const solid = parts.meshes.filter(m => m.visible);
-      // What is seen through is chosen only where nothing solid is.
+      // A transparent part is selected only where there is no opaque one.
       const hits = ray.intersectObjects(solid, false);
       const hit = hits.find(h => !h.object.material.transparent) ?? hits[0];
       return hit ? hit.object.userData.index : -1;

@@ -1,7 +1,7 @@
-// Dots where a part that did not come out touches what holds it. They are seen through everything.
+// Dots where a part that did not come out touches the parts that block it. They are visible through all parts.
 import * as THREE from 'three';
 
-const RADIUS = 0.009, MARK = 0xff3b30;  // of the assembly's size
+const RADIUS = 0.009, MARK = 0xff3b30;  // RADIUS: relative to the assembly's size
 
 export class Places {
   constructor(model, scene) {
@@ -26,7 +26,7 @@ export class Places {
     this.group.visible = points.length > 0;
   }
 
-  /** What is shown, input coordinates. */
+  /** The points shown, input coordinates. */
   shown() {
     return this.group.visible ? this.group.children.map(dot => dot.position.toArray().map((x, k) => x + this.model.origin[k])) : [];
   }

@@ -1,18 +1,18 @@
-// The stage: renderer, camera, lights, ground. Draws only when something has changed.
+// The stage: renderer, camera, lights, ground. Draws only after changes.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 const FLIGHT = 0.45;  // s, from one view to another
-const SLOW = 0.075;   // s, a frame that takes longer is no motion any more
+const SLOW = 0.075;   // s; motion is not smooth when frames take longer
 
-/** The corners of boxes, one after the other, in one vector. */
+/** Yields the corners of boxes one after the other, all in the same vector object. */
 function* corners(boxes) {
   const corner = new THREE.Vector3();
   for (const {min, max} of boxes)
     for (let c = 0; c < 8; ++c) yield corner.set(c & 1 ? max.x : min.x, c & 2 ? max.y : min.y, c & 4 ? max.z : min.z);
 }
 
-/** Where boxes are on the screen, as seen from `distance`; lengths as at `center`. */
+/** Extent of boxes on the screen, as seen from `distance`; lengths are measured in the plane of `center`. */
 function extent(boxes, center, right, top, back, distance) {
   const out = {left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity};
   for (const corner of corners(boxes)) {
@@ -40,13 +40,13 @@ export class Stage {
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01 * size, 100 * size);
     this.scene.add(this.camera);
     this.flight = null;
-    this.most = 2;     // pixels of ours per pixel of the page
-    this.slow = 0;     // frames in a row that took long
+    this.most = 2;     // largest number of rendered pixels per CSS pixel
+    this.slow = 0;     // number of consecutive slow frames
     this.groundOn = true;
-    this.shade = 0.2;  // of the shadow on the ground
+    this.shade = 0.2;  // opacity of the shadow on the ground
     this.dirty = true;
-    this.onFrame = null;  // (seconds since the last frame) => whether to go on
-    this.onView = null;   // after the camera has moved
+    this.onFrame = null;  // (seconds since the last frame) => whether to continue
+    this.onView = null;   // called after the camera has moved
     this.#light();
     this.#ground();
     this.setUp('z');
@@ -57,7 +57,7 @@ export class Stage {
     requestAnimationFrame(this.tick);
   }
 
-  /** The controls turn about the axis that was up when they were made. */
+  /** Makes new controls, since OrbitControls keeps the up axis from its construction. */
   #control() {
     const target = this.controls?.target;
     this.controls?.dispose();
@@ -101,7 +101,7 @@ export class Stage {
     this.invalidate(true);
   }
 
-  /** Ground and light for what lies within `boxes` (scene coordinates). */
+  /** Fits ground and light to `boxes` (scene coordinates). */
   settle(boxes) {
     const box = boxes.reduce((sum, one) => sum.union(one), new THREE.Box3());
     const sphere = box.getBoundingSphere(new THREE.Sphere());
@@ -134,7 +134,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** `moved`: parts have, so shadows have to be drawn again. */
+  /** `moved`: parts have moved, so shadows must be drawn again. */
   invalidate(moved = false) {
     this.dirty = true;
     if (moved) this.renderer.shadowMap.needsUpdate = true;
@@ -145,7 +145,7 @@ export class Stage {
     top: [0, -1e-3, 1], bottom: [0, -1e-3, -1],
   };
 
-  /** Moves the camera so that `boxes` fill the view, from the present direction or a named one. */
+  /** Moves the camera so that `boxes` fill the view, from the current direction or a named one. */
   fit(boxes, {from = null, fly = true, margin = 1.12, minimum = 0} = {}) {
     const back = this.#direction(from), right = new THREE.Vector3().crossVectors(this.up, back);
     if (right.lengthSq() < 1e-8) right.set(1, 0, 0);
@@ -155,7 +155,7 @@ export class Stage {
     const center = all.getCenter(new THREE.Vector3()), radius = Math.max(all.getSize(new THREE.Vector3()).length() / 2, minimum);
     const half = Math.tan(this.camera.fov * Math.PI / 360), wide = half * this.camera.aspect;
     let distance = 0;
-    // Twice: the middle of the picture is known only when the distance is.
+    // Two passes, because the centre of the picture depends on the distance.
     for (let pass = 0; pass < 2; ++pass) {
       const seen = extent(boxes, center, right, top, back, Math.max(distance, 2 * radius / Math.min(half, wide)));
       center.addScaledVector(right, (seen.right + seen.left) / 2).addScaledVector(top, (seen.top + seen.bottom) / 2);
@@ -178,7 +178,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** From the target to the camera. */
+  /** Direction from the target to the camera. */
   #direction(from) {
     const out = new THREE.Vector3();
     if (from === null) return out.subVectors(this.camera.position, this.controls.target).normalize();
@@ -198,7 +198,7 @@ export class Stage {
     if (!f) return;
     f.time = Math.min(FLIGHT, f.time + seconds);
     const u = f.time / FLIGHT, e = u * u * (3 - 2 * u);
-    // Turning about the target keeps the distance; a straight line could pass through the parts.
+    // Rotating about the target keeps the distance; a straight line could pass through the parts.
     const target = f.from.target.clone().lerp(f.to.target, e);
     const a = f.from.position.clone().sub(f.from.target), b = f.to.position.clone().sub(f.to.target);
     const length = a.length() + e * (b.length() - a.length());
@@ -222,7 +222,7 @@ export class Stage {
     this.onView?.(this.camera);
   }
 
-  /** What this machine is too slow for: first the shadows, then the finest pixels. */
+  /** Reduces quality when frames are slow: first the shadows, then the resolution. */
   #keepUp(seconds) {
     this.slow = seconds > SLOW ? this.slow + 1 : 0;
     if (this.slow < 6) return;

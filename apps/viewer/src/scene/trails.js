@@ -1,4 +1,4 @@
-// The paths that the middles of moving parts take, as thick lines.
+// The paths of the centres of moving parts, as thick lines.
 import {Group} from 'three';
 import {Line2} from 'three/addons/lines/Line2.js';
 import {LineGeometry} from 'three/addons/lines/LineGeometry.js';
@@ -10,7 +10,7 @@ export class Trails {
     this.model = model;
     this.group = new Group();
     scene.add(this.group);
-    this.made = new Map();  // by mode and step: a group, made when first shown
+    this.made = new Map();  // by mode and step: a group, created when first shown
     this.shown = [];
   }
 

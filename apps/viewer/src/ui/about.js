@@ -1,4 +1,4 @@
-// What the plan is of, and how far it can be trusted.
+// Describes the assembly of the plan and what was verified.
 import {counted, number, seconds, share} from '../plan/words.js';
 import {element} from './dom.js';
 

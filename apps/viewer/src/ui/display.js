@@ -1,4 +1,4 @@
-// Buttons over the scene: what is seen and how.
+// Buttons over the scene for visibility and appearance.
 import {element, iconButton} from './dom.js';
 
 const THEMES = ['auto', 'light', 'dark'];

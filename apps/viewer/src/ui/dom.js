@@ -1,4 +1,4 @@
-// Elements made by hand. Text is text: names of parts come from files that anyone may have written.
+// Creates DOM elements. Text is never parsed as markup, because names of parts come from untrusted files.
 
 /** element('button.primary', {title: 'Play', onclick: f}, child, 'text', null) */
 export function element(kind, properties = {}, ...children) {
@@ -39,7 +39,7 @@ export function icon(name) {
   return svg;
 }
 
-/** A button with a picture; `title` says what it does and is read out. */
+/** A button with an icon; `title` describes its function, also for screen readers. */
 export function iconButton(name, title, onclick, kind = 'button.icon') {
   return element(kind, {type: 'button', title, 'aria-label': title.replace(/ \(.*\)$/, ''), onclick}, icon(name));
 }

@@ -1,4 +1,4 @@
-// Which way the axes of the input point. A click on an axis looks along it.
+// Shows the directions of the input's axes. A click on an axis makes the camera look along it.
 const NAMES = ['X', 'Y', 'Z'], COLOURS = ['#e5484d', '#30a46c', '#3e7bfa'];
 const SVG = 'http://www.w3.org/2000/svg';
 
@@ -19,7 +19,7 @@ export function makeGizmo(app) {
     group.addEventListener('click', () => {
       const from = [0, 0, 0];
       from[k] = 1;
-      // Straight from above the view has no up of its own.
+      // A view along the up axis would leave the camera's up direction undefined.
       if (name.toLowerCase() === app.stage.axis) from[k === 2 ? 1 : 2] = k === 2 ? -1e-3 : 1e-3;
       app.fit(true, 1.2, from);
     });

@@ -1,4 +1,4 @@
-// What the keys and the mouse do.
+// Help on keys and mouse.
 import {element, iconButton} from './dom.js';
 
 const KEYS = [

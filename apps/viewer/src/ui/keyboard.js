@@ -28,7 +28,7 @@ export function listen(app, display, help) {
       return;
     }
     if (help.open && event.key !== '?') return;
-    // A button with the focus is pressed by space and return, and by nothing else.
+    // Space presses the focused button, as usual, instead of its shortcut.
     if (event.key === ' ' && event.target instanceof HTMLButtonElement && !event.target.classList.contains('play')) return;
     const action = actions[(event.shiftKey && event.key.startsWith('Arrow') ? 'shift ' : '') + event.key];
     if (!action) return;

@@ -1,4 +1,4 @@
-// What floats over the scene: the name under the pointer, the selected part, and that a pose is a failed attempt's.
+// Overlays of the scene: the name under the pointer, the selected part, and a note if a pose is that of a failed attempt.
 import {element, icon, iconButton, swatch} from './dom.js';
 
 export function makeOverlay(app) {

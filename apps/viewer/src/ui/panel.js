@@ -1,4 +1,4 @@
-// The panel beside the scene: what this is, how it went, and the lists.
+// The panel beside the scene: the plan, its result, and the lists.
 import {counted, titleOf} from '../plan/words.js';
 import {makeAbout} from './about.js';
 import {element} from './dom.js';

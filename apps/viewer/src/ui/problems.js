@@ -1,9 +1,9 @@
-// Parts that did not come out: what was tried, what was in the way and where, how far it got, the proof, and what to do next.
+// Parts that did not come out: the attempts, blocking parts and places, furthest pose, proof, and advice.
 import {adviceOn} from '../plan/advice.js';
 import {forcedWords, number, outcomeMeaning, outcomeTitle, seconds, share} from '../plan/words.js';
 import {element, icon} from './dom.js';
 
-const TURNED = 0.05;  // degrees, from which a turn is worth saying
+const TURNED = 0.05;  // degrees; smaller rotations are not reported
 
 function link(app, name, kind = 'button.chip') {
   const index = app.model.index.get(name);
@@ -11,7 +11,7 @@ function link(app, name, kind = 'button.chip') {
     onmouseenter: () => app.hover(index), onmouseleave: () => app.hover(-1)}, name);
 }
 
-/** What is particular to one part: what was in the way, and how far it got. */
+/** Details of one part: the blocking parts and its furthest pose. */
 function attempt(app, unsolved, alone) {
   const {model} = app, index = model.index.get(unsolved.part), {plan} = model;
   const overlaps = plan.assembly.overlaps.filter(o => o.a === unsolved.part || o.b === unsolved.part);
@@ -43,7 +43,7 @@ function tried({planner, attempts, seconds: time, depth}) {
   return `${attempts === 1 ? '1 search' : `${attempts} searches`} by ${planner}, ${seconds(time)}${depth > 0 ? `, to depth ${depth}` : ''}`;
 }
 
-/** Text in which what stands between backquotes is code. */
+/** Renders text between backquotes as code. */
 const withCode = text => text.split('`').map((piece, i) => i % 2 === 1 ? element('code', {}, piece) : piece);
 
 function nextSteps(group, plan) {
@@ -52,14 +52,14 @@ function nextSteps(group, plan) {
     element('ul', {}, advice.map(text => element('li', {}, withCode(text)))));
 }
 
-/** The sentences of the proofs that the plan holds for these parts. */
+/** The texts of the plan's proofs for these parts. */
 function proofs(app, group) {
   const {certificates = []} = app.model.plan;
   const numbers = [...new Set(group.map(u => u.certificate).filter(n => n !== undefined && n !== null && certificates[n]))];
   return numbers.map(n => element('p.proof', {}, element('strong', {}, `Proof (${certificates[n].kind}): `), certificates[n].text));
 }
 
-/** The planner often says what the proof says. */
+/** True if the planner's message repeats the text of the proof. */
 const isProof = (app, group, message) => group.some(u => app.model.plan.certificates?.[u.certificate]?.text === message);
 
 /** Parts that share one reason. */
@@ -71,7 +71,7 @@ function card(app, group) {
   proofs(app, group), group.map(u => attempt(app, u, alone)), nextSteps(group, app.model.plan));
 }
 
-/** Attempts with the same outcome and message, in the order of the first of each. */
+/** Attempts with the same outcome and message, ordered by their first attempt. */
 function byReason(unsolved) {
   const groups = new Map();
   for (const u of unsolved) {
@@ -93,7 +93,7 @@ function certificate(app, c) {
     c.numbers ? element('details', {}, element('summary', {}, 'Data'), element('pre', {}, Object.entries(c.numbers).map(([key, value]) => `${key}: ${JSON.stringify(value)}`).join('\n'))) : null);
 }
 
-/** Null when there is nothing to tell. */
+/** Null when there are no problems. */
 export function makeProblems(app) {
   const {plan} = app.model, certificates = Array.isArray(plan.certificates) ? plan.certificates : [];
   const silent = plan.status === 'partial' ? plan.remaining.filter(n => !app.model.unsolved.has(app.model.index.get(n))) : [];

@@ -1,4 +1,4 @@
-// The list of steps: what moves, how long finding it took, how deep it cuts in. A click goes there.
+// The list of steps: moving parts, search time, penetration. A click seeks to the step.
 import {forcedWords, number, seconds, share} from '../plan/words.js';
 import {element, swatch} from './dom.js';
 
@@ -58,7 +58,7 @@ export function makeSteps(app) {
     if (list.offsetParent !== null) follow(item);
   }
 
-  /** Scrolls the list, never the page. */
+  /** Scrolls the list, not the page. */
   function follow(item) {
     const box = list.parentElement, top = item.offsetTop - box.offsetTop;
     if (box.scrollHeight <= box.clientHeight) return;

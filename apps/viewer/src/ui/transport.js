@@ -1,10 +1,10 @@
-// Play, pause and scrub: the bar below the scene, and what the present step does in words.
+// Play, pause and scrub: the bar below the scene, and a caption for the current step.
 import {clock, counted, listed, share} from '../plan/words.js';
 import {element, icon, iconButton} from './dom.js';
 
 const SPEEDS = [0.5, 1, 2, 4, 8];
 
-/** What a step does, for people. */
+/** Caption of a step. */
 export function captionOf(app, index) {
   const {plan} = app.model, {steps} = app.line;
   if (index < 0) {
@@ -19,7 +19,7 @@ export function captionOf(app, index) {
   return `${listed(names)} ${leaves ? (several ? 'come out' : 'comes out') : several ? 'are moved aside' : 'is moved aside'}`;
 }
 
-/** How things stand when the last step is done. */
+/** Caption after the last step. */
 function endOf(app) {
   const {plan} = app.model;
   if (app.mode === 'assembly') return plan.assembly_status === 'partial' ? 'Put together, as far as there are paths' : 'Put together';
@@ -50,7 +50,7 @@ export function makeTransport(app) {
     element('div.row', {}, element('div.segmented', {role: 'group', 'aria-label': 'Direction'}, modes),
       element('label.explode', {for: 'explode', title: 'Exploded view (E)'}, icon('explode'), element('span', {}, 'Explode'), explode)));
 
-  /** One block per step, in the colour of what moves; steps with a `forced` mark are red. */
+  /** One block per step, in the colour of the moving part; steps with a `forced` mark are red. */
   function paintStrip() {
     const ratio = Math.min(2, window.devicePixelRatio), width = strip.clientWidth * ratio, height = strip.clientHeight * ratio;
     if (width === 0) return;

@@ -16,14 +16,14 @@ export async function launch({webgl = true} = {}) {
     args: [...FLAGS, ...webgl ? SOFTWARE : ['--disable-3d-apis']]});
 }
 
-/** Opens a page from the disk and waits for its first picture. `complaints` collects what the console says against it. */
+/** Opens a page from the disk and waits for its first picture. `complaints` collects errors and warnings of the console. */
 export async function open(browser, file, options = {}) {
   const page = await browser.newPage({viewport: {width: 1280, height: 800}, ...options});
-  page.setDefaultTimeout(300_000);  // software rendering on a busy machine takes its time; ctest has a limit of its own
+  page.setDefaultTimeout(300_000);  // software rendering on a busy machine is slow; ctest has a separate limit
   page.complaints = [];
   page.requests = [];
   page.on('console', message => {
-    // Taking a picture stalls the software renderer, of which its driver warns.
+    // The driver of the software renderer warns about a stall at every screenshot.
     if (['error', 'warning'].includes(message.type()) && !message.text().includes('GL Driver Message')) page.complaints.push(message.text());
   });
   page.on('pageerror', error => page.complaints.push(`${error.message}\n${error.stack}`));

@@ -1,4 +1,4 @@
-// Plans to look at, made by the program under test, $DISMANTLE.
+// Plans for the tests, made by the program under test, $DISMANTLE.
 import {spawnSync} from 'node:child_process';
 import {mkdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {dirname, join} from 'node:path';
@@ -34,7 +34,7 @@ export function planBoxes(folder, name, names) {
   return result(folder, name);
 }
 
-/** The same page with its data changed by `change`: for what the planners of today do not write. */
+/** The same page with its data changed by `change`, for data that the current planners do not write. */
 export function changed(file, name, change) {
   const html = readFileSync(file, 'utf8'), open = 'id="dismantle-data">';
   const begin = html.indexOf(open) + open.length, end = html.indexOf('</script>', begin);

@@ -1,4 +1,4 @@
-// The page in a real browser. Status 77, skipped, when there is none.
+// Tests the page in a real browser. Status 77 (skipped) when there is none.
 import assert from 'node:assert/strict';
 import {mkdtempSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -29,7 +29,7 @@ after(async () => {
   rmSync(folder, {recursive: true});
 });
 
-/** A test with a page that must not complain, nor ask for anything but itself. */
+/** A test with a page that must cause no console errors and load nothing but itself. */
 function onPage(title, file, body, options) {
   test(title, async () => {
     const page = await open(browser, file(), options);
@@ -44,7 +44,7 @@ function onPage(title, file, body, options) {
   });
 }
 
-/** Where each part of the plan is drawn, against plan.json, at all poses of some steps. */
+/** Compares the drawn pose of each part with plan.json, at all poses of some steps. */
 async function comparePoses(page, plan, mode) {
   const r = randomNumbers(9), steps = mode === 'disassembly' ? plan.disassembly : plan.assembly_steps, box = plan.assembly.bbox;
   const size = Math.max(...box[1].map((x, k) => x - box[0][k]));
@@ -59,7 +59,7 @@ async function comparePoses(page, plan, mode) {
           return [points_.map(p => d.shownPoint(name, p)), d.poseOf(name, time)];
         }, [mode, s, k, part, points]);
         points.forEach((p, i) => {
-          // Matrices are drawn from doubles; nothing in between is single precision.
+          // Matrices are computed in double precision throughout.
           assert.ok(distance(seen[i], placed(poses[k], p)) < 1e-9 * size, `${mode}, step ${s + 1}, ${part}, pose ${k}: off by ${distance(seen[i], placed(poses[k], p))}`);
           assert.ok(distance(placed(told, p), placed(poses[k], p)) < 1e-9 * size);
         });
@@ -217,7 +217,7 @@ test('best poses, forced steps and certificates, as plans to come may have them'
   assert.match(await page.locator('.problems').textContent(), /the budget <i>ended<\/i>.*is forced.*Proof: ring/s);
   await page.getByRole('button', {name: 'Show how far it got'}).click();
   await page.waitForFunction(([n, goal]) => Math.hypot(...window.dismantle.shownPoint(n, [1, 2, 3]).map((x, k) => x - goal[k])) < 1e-6, [stays, placed(pose, [1, 2, 3])]);
-  // What was tried, where it is held, why it is proved, what to do: in the card, and as dots in the scene.
+  // The card shows attempts, blocking places, proof and advice; the scene shows the places as dots.
   assert.match(await page.locator('article').filter({has: page.locator(`[data-part="${stays}"]`)}).textContent(),
     /Proof \(ring\): it is <b>closed<\/b>.*2 searches by guided, 3 s, to depth 4.*at \(1, 2, 3\).*What you can do.*--path-timeout/s);
   const places = await page.evaluate('window.dismantle.places()');

@@ -26,7 +26,7 @@ std::string host_name() {
   return host.substr(0, host.find(' '));
 }
 
-/// Folders that processes of this machine left behind when they were killed.
+/// Removes the folders of killed processes of this machine.
 void clear_leftovers(const fs::path& work) {
   const std::string prefix = host_name() + "@";
   std::error_code error;
@@ -55,7 +55,7 @@ class Campaign {
   ~Campaign() {
     running_.clear();
     std::error_code error;
-    fs::remove_all(work_, error);  // else the next run does
+    fs::remove_all(work_, error);  // if this fails, the next run removes it
   }
 
   CampaignResult run() {
@@ -67,7 +67,7 @@ class Campaign {
       if (running_.empty() && !more) {
         count_again();
         if (tally_.done == tally_.total) break;
-        std::this_thread::sleep_for(std::chrono::seconds(1));  // others run the rest; if they die, it is ours
+        std::this_thread::sleep_for(std::chrono::seconds(1));  // others run the rest; claim it if they die
         continue;
       }
       wait();
@@ -118,7 +118,7 @@ class Campaign {
   }
 
   void renew() {
-    if (Clock::now() - renewed_ < kLease / 6) return;  // some renewals may be late
+    if (Clock::now() - renewed_ < kLease / 6) return;  // so that some renewals may be late
     for (const auto& trial : running_) results_.renew(trial->place());
     renewed_ = Clock::now();
   }
@@ -141,7 +141,7 @@ class Campaign {
     counting_took_ = counted_ - begin;
   }
 
-  /// What other processes do is looked up now and then only: it takes long with many rows.
+  /// Rows of other processes are counted only from time to time: counting many rows takes long.
   void count(const std::string& planner, bool solved) {
     if (Clock::now() - counted_ > 50 * counting_took_) return count_again();
     ++tally_.done;

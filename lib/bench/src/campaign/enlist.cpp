@@ -24,11 +24,11 @@ std::string sha256_of(const std::string& text) {
 RunConfig with_seed(RunConfig config, std::int64_t seed) {
   config.run.seed = seed;
   config.sections.at("run").at("seed") = seed;
-  config.origins.clear();  // where a value came from does not change what is run
+  config.origins.clear();  // the origin of a value does not affect the run
   return config;
 }
 
-/// Folders are absolute: the recorded configuration works wherever it is written to.
+/// Writes folders as absolute paths, so that the recorded configuration works from any folder.
 std::string text_of(const RunConfig& config, const Registry& registry, const fs::path& folder) {
   RunConfig bare = config;
   bare.plugin_search_paths.clear();
@@ -40,7 +40,7 @@ std::string text_of(const RunConfig& config, const Registry& registry, const fs:
   return text;
 }
 
-/// A choice and the plugins that its parameters hold, each under the name of its place.
+/// Appends `choice` and the plugins nested in its parameters, each named by its path in the configuration.
 void add_uses(const std::string& place, PluginKind kind, const PluginChoice& choice, const Registry& registry,
               std::map<fs::path, std::string>& hashes, std::vector<PluginUse>& out) {
   const RegisteredType& type = registry.find(kind, choice.type);
@@ -70,7 +70,7 @@ std::vector<PluginUse> plugins_of(const RunConfig& config, const Registry& regis
   return out;
 }
 
-/// A name for a folder, from a name and from what is in it.
+/// A folder name from `name` and a hash of `name` and `recipe`.
 std::string folder_name(const std::string& name, const std::string& recipe) {
   std::string out;
   for (const char c : name) {
@@ -81,7 +81,7 @@ std::string folder_name(const std::string& name, const std::string& recipe) {
   return out.substr(0, 100) + "-" + sha256_of(name + "|" + recipe).substr(0, 12);
 }
 
-/// What an assembly that is made depends on is in its name, so that it is never taken for another.
+/// The name of a generated assembly contains a hash of its inputs, so that it is never mistaken for another.
 std::string input_name(const SuiteAssembly& assembly, bool rotate, std::int64_t seed) {
   std::string recipe = assembly.path.string() + "|" + assembly.sample;
   for (const auto& [key, value] : assembly.sample_values) recipe += "|" + key + "=" + to_text(value);
@@ -103,7 +103,7 @@ Enlistment enlist(const Suite& suite, const CampaignOptions& options) {
   std::map<fs::path, std::string> hashes;
   for (const auto& planner : suite.planners) {
     RunConfig bare = with_seed(planner.config, 0);
-    bare.plugin_search_paths.clear();  // the hashes of the plugin files say more
+    bare.plugin_search_paths.clear();  // the hashes of the plugin files are more specific
     planner_hashes.push_back(sha256_of(resolved_yaml(bare, *planner.registry, configs)));
   }
   for (const Cell& cell : shard_of(matrix(suite), options.shard, options.shards)) {

@@ -1,4 +1,4 @@
-/// From a suite to the rows that it asks for.
+/// Lists the trials of a suite, each of which becomes a row.
 #pragma once
 
 #include <vector>
@@ -20,7 +20,7 @@ struct Enlistment {
   std::vector<ConfigRecord> configs;
 };
 
-/// Writes each configuration to `folder`/configs, where trials find it.
+/// Writes each configuration to `folder`/configs, where the trials read it.
 Enlistment enlist(const Suite& suite, const CampaignOptions& options);
 
 }  // namespace dismantle::bench

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How a process ended that left no result. Names: docs/benchmark.md.
+/// The outcome of a process that left no result. Names: docs/benchmark.md.
 std::string outcome_of(const ChildEnd& end) {
   if (end.out_of_wall) return "wall_limit";
   if (end.out_of_cpu) return "cpu_limit";
@@ -60,7 +60,7 @@ RunningTrial::RunningTrial(std::size_t place, const Enlisted& trial, const Limit
 RunningTrial::~RunningTrial() {
   child_.reset();
   std::error_code error;
-  fs::remove_all(folder_, error);  // what cannot be removed is removed by the next run
+  fs::remove_all(folder_, error);  // if this fails, the next run removes it
 }
 
 void RunningTrial::start(const std::vector<std::string>& command) {

@@ -1,4 +1,4 @@
-/// A trial on its way: first the process that plans, then the one that verifies.
+/// A running trial: first the process that plans, then the process that verifies.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace dismantle::bench {
 
 class RunningTrial {
  public:
-  /// `folder`: made for it, and removed by it.
+  /// `folder`: owned by this trial; the destructor removes it.
   RunningTrial(std::size_t place, const Enlisted& trial, const Limits& limits, const CampaignOptions& options,
                std::filesystem::path folder);
   ~RunningTrial();
@@ -20,7 +20,7 @@ class RunningTrial {
 
   std::size_t place() const { return place_; }
   int stream() const { return child_->stream(); }
-  /// True when all is over; row() is then complete.
+  /// True when the trial has ended; row() is then complete.
   bool ended();
   const TrialRow& row() const { return row_; }
 

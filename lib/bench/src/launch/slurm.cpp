@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Output and exit status of a command. Standard error goes with standard output.
+/// Output (standard error included) and exit status of a command.
 std::pair<std::string, int> output_of(const std::string& command) {
   std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) throw Error(fmt::format("cannot start: {}", command));
@@ -31,7 +31,7 @@ std::pair<std::string, int> output_of(const std::string& command) {
 
 std::string slurm_script(const SlurmJob& job) {
   const fs::path folder = fs::absolute(job.folder);
-  // Slurm reads its lines before any shell does: a line break in a name would be an option of its own.
+  // Slurm parses the script before any shell does: text after a line break in a name would count as another option.
   for (const std::string& name : {job.suite.string(), folder.string()})
     if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
       throw Error(fmt::format("the name '{}' has control characters, and cannot stand in a Slurm script", name));
@@ -46,8 +46,8 @@ std::string slurm_script(const SlurmJob& job) {
   for (const char* name : {"DISMANTLE_PLUGIN_PATH", "DISMANTLE_DATA"})
     if (const char* value = std::getenv(name)) out += fmt::format("export {}={}\n", name, shell_quoted(value));
   out += fmt::format("exec {} bench {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {}\n",
-                     shell_quoted(job.program.string()), shell_quoted(fs::absolute(job.suite).string()), shell_quoted(folder.string()),
-                     job.tasks, job.jobs);
+                     shell_quoted(job.program.string()), shell_quoted(fs::absolute(job.suite).string()),
+                     shell_quoted(folder.string()), job.tasks, job.jobs);
   return out;
 }
 

@@ -25,16 +25,16 @@ void limit(int what, rlim_t soft, rlim_t hard) {
   if (::setrlimit(static_cast<__rlimit_resource>(what), &value) != 0) _exit(127);
 }
 
-/// Between fork and exec: nothing but system calls.
-[[noreturn]] void become(char* const* command, char* const* environment, const ChildSpec& spec, pid_t parent, int stream,
-                         int nothing) {
+/// Runs between fork and exec, where only system calls are safe.
+[[noreturn]] void become(char* const* command, char* const* environment, const ChildSpec& spec, pid_t parent,
+                         int stream, int nothing) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(127);
   ::setpgid(0, 0);
   const auto cpu = static_cast<rlim_t>(std::ceil(spec.cpu));
   limit(RLIMIT_CPU, cpu, cpu + 1);
   limit(RLIMIT_AS, static_cast<rlim_t>(spec.memory) << 20, static_cast<rlim_t>(spec.memory) << 20);
-  const rlim_t file_size = rlim_t{1} << 30;  // bytes: a planner that writes without end does not fill the disk
+  const rlim_t file_size = rlim_t{1} << 30;  // bytes: keeps a planner that writes endlessly from filling the disk
   limit(RLIMIT_FSIZE, file_size, file_size);
   limit(RLIMIT_CORE, 0, 0);
   ::dup2(nothing, STDIN_FILENO);
@@ -91,11 +91,11 @@ void Child::kill() { ::kill(-pid_, SIGKILL); }
 
 void Child::listen() {
   char buffer[4096];
-  for (int i = 0; i < 64 && stream_ >= 0; ++i) {  // one that never stops talking has its limits enforced too
+  for (int i = 0; i < 64 && stream_ >= 0; ++i) {  // bounded: endless output must not defer the limits
     const ssize_t n = ::read(stream_, buffer, sizeof buffer);
     if (n > 0) {
       end_.last_words.append(buffer, static_cast<std::size_t>(n));
-      const std::size_t most = 4096;  // bytes that a report can show
+      const std::size_t most = 4096;  // bytes that a report shows
       if (end_.last_words.size() > most) end_.last_words.erase(0, end_.last_words.size() - most);
       continue;
     }
@@ -120,7 +120,7 @@ bool Child::ended() {
     return false;
   }
   done_ = true;
-  kill();  // what it may have left behind
+  kill();  // descendants that may still run
   kill_marked(mark_);
   listen();
   end_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -128,7 +128,7 @@ bool Child::ended() {
   end_.wall_seconds = wall;
   end_.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   end_.peak_rss_mb = double(usage.ru_maxrss) / 1024;
-  if (end_.signal == 0) end_.out_of_wall = false;  // it ended by itself in the same moment
+  if (end_.signal == 0) end_.out_of_wall = false;  // it ended by itself just before it was killed
   end_.out_of_cpu =
       !end_.out_of_wall && (end_.signal == SIGXCPU || (end_.signal == SIGKILL && end_.cpu_seconds >= cpu_));
   return true;

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a process of this user; empty when it has ended or is that of another.
+/// Environment of a process of this user; empty when the process has ended or belongs to another user.
 std::string environment_of(const fs::path& process) {
   std::ifstream in(process / "environ", std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -57,8 +57,8 @@ std::string new_mark() {
 }
 
 void kill_marked(const std::string& mark) {
-  constexpr int kMostRounds = 1000;  // a second: a process that forks faster than this kills stays
-  for (int round = 0; round < kMostRounds && kill_once(mark); ++round) ::usleep(1000);  // the killed ones disappear
+  constexpr int kMostRounds = 1000;  // about one second; a process that forks faster than this loop kills survives
+  for (int round = 0; round < kMostRounds && kill_once(mark); ++round) ::usleep(1000);  // they take time to disappear
 }
 
 }  // namespace dismantle::bench

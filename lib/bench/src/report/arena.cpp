@@ -9,7 +9,7 @@
 namespace dismantle::bench {
 namespace {
 
-/// The configuration that a row was run with, and when.
+/// The configuration of a row's trial, the time when it ended and the CPU.
 struct Origin {
   std::string config, ended, cpu;
 };
@@ -29,7 +29,7 @@ Origin origin_of(std::map<std::filesystem::path, std::unique_ptr<Sqlite>>& open,
 class Arena {
  public:
   explicit Arena(Sqlite& db) : db_(db) {
-    // The tables that `ompl_benchmark_statistics.py` makes and Planner Arena reads. `runs` has a column for each
+    // The tables that `ompl_benchmark_statistics.py` writes and Planner Arena reads. `runs` has a column for each
     // property that any planner reports, named and typed as in OMPL's benchmark logs.
     db_.run(R"(
 CREATE TABLE experiments (id INTEGER PRIMARY KEY ON CONFLICT REPLACE AUTOINCREMENT, name VARCHAR(512), totaltime REAL,
@@ -60,7 +60,7 @@ CREATE TABLE progress (runid INTEGER, time REAL, parts_out INTEGER, PRIMARY KEY 
   }
 
  private:
-  /// An experiment is a problem: an assembly in a variant.
+  /// An experiment of Planner Arena is one assembly in one variant.
   std::int64_t experiment_of(const ReportRow& row, const Origin& origin) {
     std::int64_t& id = experiments_[row.assembly + " " + row.variant];
     if (id != 0) return id;

@@ -1,4 +1,4 @@
-/// Rows grouped as the tables need them.
+/// Groups of rows for the tables.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace dismantle::bench {
 
-/// A planner in a variant: a row of most tables.
+/// A planner in a variant; most tables have one row for each.
 struct Contender {
   std::string planner, variant, label;
   std::vector<const ReportRow*> rows;
@@ -15,7 +15,7 @@ struct Contender {
 /// In the order of the suite; those without rows are left out.
 std::vector<Contender> contenders_of(const ReportData& data);
 
-/// Time that counts for a trial: what it took to plan, or, when it did not end by itself, until it was killed.
+/// The time of a trial that reports use: planning time, or, if the trial was killed, the time until then.
 double time_of(const ReportRow& row);
 
 }  // namespace dismantle::bench

@@ -30,7 +30,7 @@ std::vector<TableCell> pair_row(const Contender& a, const Contender& b) {
       continue;
     }
     ++both;
-    // A time of zero has no logarithm; a microsecond is less than the clock is good for.
+    // Zero has no logarithm; a microsecond is below the resolution of the measurement.
     const double ta = std::max(1e-6, time_of(*row)), tb = std::max(1e-6, time_of(*other));
     seconds_a += ta;
     seconds_b += tb;
@@ -62,8 +62,8 @@ std::vector<double> round_times(double end) {
   return out;
 }
 
-/// Stopped by a limit of the trial, so that it is not known what would have come later. One whose attempts all ended
-/// earlier (by limits.path_timeout too) would not have gone on.
+/// True if a limit of the trial stopped it, so that it might have been solved later. A trial whose attempts all ended
+/// before that limit (also by limits.path_timeout) would not have continued.
 bool out_of_time(const ReportRow& row) {
   if (row.outcome == "wall_limit" || row.outcome == "cpu_limit") return true;
   return row.outcome == "timeout" && row.limit_timeout > 0 && time_of(row) >= row.limit_timeout;
@@ -149,8 +149,8 @@ std::vector<Curve> curves_of(const ReportData& data) {
     std::vector<std::pair<double, bool>> events;
     std::size_t never = 0;
     for (const ReportRow* row : c.rows) {
-      // Planners stop a little after the limit: what is solved or given up then counts as of the limit, not as seen
-      // later than those that were stopped.
+      // Planners stop slightly after the limit. Trials that are solved or fail in that interval count at the limit, so
+      // that they do not come after the trials that were stopped.
       const double time = row->limit_timeout > 0 ? std::min(time_of(*row), row->limit_timeout) : time_of(*row);
       curve.end = std::max(curve.end, time);
       if (row->solved || out_of_time(*row))

@@ -10,7 +10,7 @@
 namespace dismantle::bench {
 namespace {
 
-/// From seconds and shares to the picture.
+/// Maps seconds and shares to coordinates of the picture.
 struct Axes {
   double first = 0.1, last = 10;                          // seconds
   double left = 56, top = 16, width = 640, height = 320;  // of the plot area, pixels; the labels need the margins

@@ -106,7 +106,7 @@ class Merger {
       progress.bind(row.id);
       while (progress.step()) row.progress.emplace_back(progress.number(0), progress.integer(1));
       progress.done();
-      append_new(data_.planners, row.planner);  // rows of planners that the suite does not have any more
+      append_new(data_.planners, row.planner);  // for rows of planners that are no longer in the suite
       append_new(data_.variants, row.variant);
       data_.rows.push_back(std::move(row));
     }
@@ -134,7 +134,7 @@ class Merger {
                                  row.planner, known->second.second.string()));
   }
 
-  /// A trial that crashed early does not know how many parts there are; others of the same assembly do.
+  /// A trial that crashed early has no number of parts; it is taken from other trials of the same assembly.
   void fill_parts() {
     std::map<std::string, std::int64_t> parts;
     std::set<std::string> differ;

@@ -11,13 +11,13 @@ Proportion wilson(std::size_t hits, std::size_t n) {
   const double scale = 1 / (1 + z * z / count);
   const double middle = scale * (p + z * z / (2 * count));
   const double half = scale * z * std::sqrt(p * (1 - p) / count + z * z / (4 * count * count));
-  // At the ends of the range the formula gives 0 or 1 but for rounding.
+  // For 0 hits the lower bound is 0, and for n hits the upper bound is 1, up to rounding: state them exactly.
   return {p, hits == 0 ? 0 : std::max(0.0, middle - half), hits == n ? 1 : std::min(1.0, middle + half)};
 }
 
 std::vector<std::pair<double, double>> success_over_time(std::vector<std::pair<double, bool>> events,
                                                          std::size_t never) {
-  // At one time, solved ones come before censored ones: those were still under way when these were solved.
+  // At equal times, solved trials precede censored ones, since the censored ones were still running at that time.
   std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) {
     return a.first != b.first ? a.first < b.first : a.second && !b.second;
   });

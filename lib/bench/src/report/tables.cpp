@@ -65,7 +65,7 @@ Columns by_size(const ReportData& data) {
     const char* label;
     std::int64_t least, most;  // number of parts
   };
-  const SizeClass sizes[] = {// those of the paper
+  const SizeClass sizes[] = {// size classes of the paper
                              {"two-part (2)", 2, 2},
                              {"small (3-9)", 3, 9},
                              {"medium (10-49)", 10, 49},

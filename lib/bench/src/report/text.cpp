@@ -7,7 +7,7 @@
 namespace dismantle::bench {
 namespace {
 
-/// Columns on a terminal: bytes that continue a UTF-8 character take none.
+/// Columns on a terminal: continuation bytes of UTF-8 characters do not count.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }

@@ -15,7 +15,7 @@
 namespace dismantle::bench {
 namespace {
 
-/// Every column of the row.
+/// All columns of the row.
 nlohmann::ordered_json json_of(Sqlite& db, std::int64_t id) {
   sqlite3_stmt* statement = nullptr;
   nlohmann::ordered_json out;

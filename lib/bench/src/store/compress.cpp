@@ -17,7 +17,7 @@ std::string compressed(std::string_view bytes) {
 }
 
 std::string expanded(std::string_view bytes, std::size_t size) {
-  // Deflate makes at most 1032 bytes of one, so a size that cannot be is seen before memory is taken for it.
+  // Deflate expands one byte to at most 1032. Impossible sizes are rejected before memory is allocated for them.
   if (size / 1032 > bytes.size()) throw Error("the compressed plan of a row is damaged");
   std::string out(size, '\0');
   uLongf length = size;

@@ -1,4 +1,4 @@
-/// Plans are long and repeat themselves.
+/// Compression of plans, which are long and repetitive.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace dismantle::bench {
 
 /// zlib format. @throws Error.
 std::string compressed(std::string_view bytes);
-/// `size`: of the result. @throws Error when the bytes are not what compressed() made.
+/// `size`: of the result, bytes. @throws Error when `bytes` is not a result of compressed().
 std::string expanded(std::string_view bytes, std::size_t size);
 
 }  // namespace dismantle::bench

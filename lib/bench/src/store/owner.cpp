@@ -10,13 +10,13 @@
 namespace dismantle::bench {
 namespace {
 
-/// Clock ticks since boot at which the process began; empty when there is no such process.
+/// Start time of the process in clock ticks since boot; empty when there is no such process.
 std::string beginning_of(int pid) {
   std::ifstream in(fmt::format("/proc/{}/stat", pid));
   std::ostringstream text;
   text << in.rdbuf();
   const std::string stat = text.str();
-  const std::size_t name_ends = stat.rfind(')');  // names may hold anything
+  const std::size_t name_ends = stat.rfind(')');  // the name may contain any character
   if (name_ends == std::string::npos) return "";
   std::istringstream fields(stat.substr(name_ends + 1));
   std::string field;

@@ -1,15 +1,15 @@
-/// Who runs a trial, and whether they are still there.
+/// Identifies the process that runs a trial, and tells whether it is still alive.
 #pragma once
 
 #include <string>
 
 namespace dismantle::bench {
 
-/// Of this machine since it was booted.
+/// Id of this machine and its current boot.
 std::string this_host();
-/// Of this process: its id and when it began, so that a later process of the same id is somebody else.
+/// Process id and start time of this process, so that a later process with the same id is another owner.
 std::string this_owner();
-/// For an owner on this host.
+/// Only for owners on this host.
 bool is_alive(const std::string& owner);
 std::string cpu_model();
 

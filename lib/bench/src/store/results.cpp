@@ -116,7 +116,7 @@ std::optional<std::size_t> Results::next_waiting(std::size_t from) {
 std::optional<std::size_t> Results::claim() {
   Transaction transaction(db_);
   {
-    // Dead processes of this machine are known immediately; of other machines only that a lease has run out.
+    // Dead processes of this machine are detected immediately; those of other machines when their lease expires.
     auto orphans = db_.prepare(
         "SELECT DISTINCT owner, owner_host, max(lease_until) FROM trials WHERE state = 'running' "
         "GROUP BY owner, owner_host");
@@ -133,7 +133,7 @@ std::optional<std::size_t> Results::claim() {
           .bind(host)
           .done();
   }
-  // Trials are taken in order: what is before the last one taken is looked at again only when nothing comes after it.
+  // Trials are claimed in order. Earlier ones are considered again only when no later one waits.
   std::optional<std::size_t> place = next_waiting(next_);
   if (!place && next_ > 0) place = next_waiting(0);
   if (place)
@@ -192,7 +192,7 @@ void Results::finish(std::size_t trial, const TrialRow& row) {
   update.bind(row.attempts).bind(row.memoised).bind(row.simulated_steps).bind(row.nodes).bind(row.collision_checks);
   update.bind(row.counts).bind(host_.substr(0, host_.find(' '))).bind(cpu_).bind(DISMANTLE_VERSION).bind(row.started);
   update.bind(id).bind(owner_).done();
-  if (db_.changes() == 0) return;  // silent for too long: another machine has it now, and its row counts
+  if (db_.changes() == 0) return;  // the lease expired: another machine has claimed the trial, and its row counts
   if (!row.plan.empty())
     db_.prepare("INSERT INTO plans VALUES (?, 'zlib', ?, ?)")
         .bind(id)

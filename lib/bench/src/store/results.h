@@ -11,18 +11,18 @@
 
 namespace dismantle::bench {
 
-/// What makes a row a row; no two rows of a database have the same.
+/// The unique key of a row in a database.
 struct TrialKey {
   std::string assembly, variant, planner;
   std::int64_t seed = 0;
 };
 
-/// What is known before a trial runs.
+/// The columns that are known before a trial runs.
 struct TrialPlan {
   TrialKey key;
   std::string category, part;
-  std::string planner_hash;  ///< of the configuration without seed and folders: a row of another one is not reused
-  std::string config_hash;   ///< of the configuration that is run
+  std::string planner_hash;  ///< of the configuration without seed and folders: rows with another hash are not reused
+  std::string config_hash;   ///< of the complete configuration
 };
 
 struct PluginUse {
@@ -34,13 +34,13 @@ struct ConfigRecord {
   std::vector<PluginUse> plugins;
 };
 
-/// Everything that a trial leaves behind. Empty optionals: not known, because the trial did not come that far.
+/// The results of a trial. Empty optionals: unknown, because the trial ended earlier.
 struct TrialRow {
   std::string outcome;  ///< docs/benchmark.md
-  bool solved = false;  ///< the planner says so and the verifier agrees
+  bool solved = false;  ///< the planner reports success and the verifier accepts the plan
   std::optional<bool> verified, complete;
   std::optional<double> max_penetration;
-  std::string verification;  ///< what the verifier objects to, or why there is no verification
+  std::string verification;  ///< the verifier's objections, or why there is no verification
   std::int64_t signal = 0, exit_status = 0;
   std::string last_words;
   std::string input, input_sha256;
@@ -52,37 +52,37 @@ struct TrialRow {
   std::string counts;  ///< all counts of the planner, JSON
   std::string started;
   std::string plan;                                       ///< JSON text; empty: there is none
-  std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts out
+  std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
 };
 
 struct Tally {
   std::int64_t done = 0, total = 0;
-  double seconds = 0;                                                                   ///< wall time of those done
+  double seconds = 0;  ///< wall time of the finished trials
   std::vector<std::pair<std::string, std::pair<std::int64_t, std::int64_t>>> planners;  ///< name, (solved, done)
 };
 
-/// A suite's results, open for running. Several processes may have it open simultaneously.
+/// A suite's results, open for writing. Several processes may have them open simultaneously.
 class Results {
  public:
-  /// @throws InputError when the file is no database of this version.
+  /// @throws InputError when the file is not a database of this version.
   explicit Results(const std::filesystem::path& file);
 
-  /// Adds what is missing of the suite, and remembers what this process is to run.
-  /// @throws Error when a row that is there was made with another configuration.
+  /// Adds the missing rows of the suite. `trials`: those that this process may claim.
+  /// @throws Error when an existing row was made with another configuration.
   void enlist(const Suite& suite, const std::vector<TrialPlan>& trials, const std::vector<ConfigRecord>& configs);
-  /// Claims a trial that no process runs: its index into what was enlisted. Nothing when there is none.
+  /// Claims a trial that no process runs. Returns its index into the enlisted trials; nothing when there is none.
   std::optional<std::size_t> claim();
-  /// Other processes on other machines take a trial over when its owner has not been heard of for a while.
+  /// Extends the lease of a claimed trial. Processes on other machines take over trials whose lease has expired.
   void renew(std::size_t trial);
-  /// Puts a claimed trial back.
+  /// Releases a claimed trial, so that it waits again.
   void release(std::size_t trial);
-  /// The row, its plan and its progress, in one transaction.
+  /// Writes the row, its plan and its progress in one transaction.
   void finish(std::size_t trial, const TrialRow& row);
-  /// Of what this process was enlisted for.
+  /// Counts the trials that were enlisted.
   Tally tally();
 
  private:
-  /// The first of the enlisted trials, from `from` on, that waits.
+  /// The first waiting trial among the enlisted ones, from index `from` on.
   std::optional<std::size_t> next_waiting(std::size_t from);
   Sqlite db_;
   std::string host_, cpu_, owner_;
@@ -90,10 +90,10 @@ class Results {
   std::size_t next_ = 0;
 };
 
-/// Without a sign of life for this long, a trial of another machine is taken over.
+/// A trial of another machine is taken over when its lease has not been renewed for this long.
 inline constexpr std::chrono::seconds kLease{120};
 
-/// Version of the tables.
+/// Version of the database schema.
 inline constexpr int kStoreVersion = 2;
 
 }  // namespace dismantle::bench

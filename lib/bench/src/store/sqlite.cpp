@@ -15,12 +15,12 @@ Sqlite::Sqlite(const std::filesystem::path& file, Mode mode) : name_(file.string
     sqlite3_close(db_);
     throw InputError(name_, "cannot be opened as a database: " + why);
   }
-  sqlite3_busy_timeout(db_, 60'000);  // ms that another writer may take
-  // A database may come from anywhere: its schema calls no functions with side effects and cannot write to its own
-  // tables.
+  sqlite3_busy_timeout(db_, 60'000);  // ms to wait for another writer
+  // A database may come from an untrusted source: its schema must not call functions with side effects, nor write to
+  // internal tables.
   sqlite3_db_config(db_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
   sqlite3_db_config(db_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, 256 << 20);  // bytes of one value: plans are far below
+  sqlite3_limit(db_, SQLITE_LIMIT_LENGTH, 256 << 20);  // bytes per value; plans are far smaller
 }
 
 Sqlite::~Sqlite() { sqlite3_close(db_); }
@@ -93,7 +93,7 @@ std::optional<double> Statement::maybe_number(int column) const {
 }
 
 Transaction::~Transaction() {
-  // The exception that brings us here says what went wrong; SQLite rolls back by itself if this cannot.
+  // The exception in flight states the error, so that of ROLLBACK is ignored. SQLite then rolls back by itself.
   if (open_) sqlite3_exec(db_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
 

@@ -1,4 +1,4 @@
-/// SQLite with errors as exceptions and nothing else.
+/// Thin wrapper of SQLite that reports errors as exceptions.
 #pragma once
 
 #include <sqlite3.h>
@@ -17,7 +17,7 @@ class Statement;
 class Sqlite {
  public:
   enum class Mode { read, write };
-  /// `write` makes the file when it is not there. @throws InputError naming the file.
+  /// `write` creates the file if it does not exist. @throws InputError naming the file.
   Sqlite(const std::filesystem::path& file, Mode mode);
   ~Sqlite();
   Sqlite(const Sqlite&) = delete;
@@ -37,7 +37,7 @@ class Sqlite {
   sqlite3* db_ = nullptr;
 };
 
-/// Bind in the order of the question marks, then step.
+/// A prepared statement: bind values in the order of the question marks, then step.
 class Statement {
  public:
   Statement(Sqlite& db, const std::string& sql);
@@ -61,7 +61,7 @@ class Statement {
 
   /// True while there is a row.
   bool step();
-  /// For statements that give none; ready to be bound again after it.
+  /// Executes a statement that returns no rows. It can then be bound again.
   void done();
 
   bool is_null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
@@ -78,7 +78,7 @@ class Statement {
   int next_ = 1;
 };
 
-/// Begins as a writer; rolled back unless committed.
+/// A write transaction; rolled back unless committed.
 class Transaction {
  public:
   explicit Transaction(Sqlite& db) : db_(db) { db_.run("BEGIN IMMEDIATE"); }

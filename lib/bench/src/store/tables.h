@@ -1,4 +1,4 @@
-/// The tables of a database of results; docs/benchmark.md says what the columns mean.
+/// The tables of a database of results; docs/benchmark.md describes the columns.
 #pragma once
 
 namespace dismantle::bench {

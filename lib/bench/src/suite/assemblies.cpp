@@ -19,22 +19,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The keys of an entry that are plain values.
+/// The keys of an entry whose values are scalars.
 struct EntryValues {
   std::string glob, path, sample, name, category, part;
   bool optional = false;
   static void describe(Schema<EntryValues>& s) {
-    s.add("glob", &EntryValues::glob, {.doc = "Pattern of the shell; one assembly for each match."});
+    s.add("glob", &EntryValues::glob, {.doc = "Shell pattern; each match is one assembly."});
     s.add("path", &EntryValues::path, {.doc = "One assembly: a folder of mesh files, or a file."});
     s.add("sample", &EntryValues::sample, {.doc = "One of the parametric samples."});
-    s.add("name", &EntryValues::name, {.doc = "Name in the tables, for an entry that is one assembly."});
+    s.add("name", &EntryValues::name, {.doc = "Name in the tables; only for an entry with one assembly."});
     s.add("category", &EntryValues::category, {.doc = "Column of the table of success rates."});
-    s.add("part", &EntryValues::part, {.doc = "Plan just this part, all others fixed."});
-    s.add("optional", &EntryValues::optional, {.doc = "Left aside, with a note, when it is not there."});
+    s.add("part", &EntryValues::part, {.doc = "Plan only this part; all others are fixed."});
+    s.add("optional", &EntryValues::optional, {.doc = "Skip the entry, with a note, if it does not exist."});
   }
 };
 
-/// Patterns may have braces, {a,b}. In natural order.
+/// Paths that match the pattern, in natural order. Patterns may have braces, {a,b}.
 std::vector<fs::path> matches_of(const std::string& pattern) {
   glob_t found = {};
   std::vector<fs::path> out;
@@ -105,7 +105,7 @@ class Entry {
     return out;
   }
 
-  /// Variables replaced, relative to the suite's folder.
+  /// Path after replacing variables; relative ones start at the suite's folder.
   std::optional<fs::path> located(std::string text, const ConfigMark& mark) {
     if (!expand_variables(text, suite_.file)) {
       if (!values_.optional)
@@ -196,7 +196,7 @@ class Entry {
                                           : sample->name + "(" + values + ")";
     try {
       samples::make(assembly.sample, assembly.sample_values);
-    } catch (const std::invalid_argument& e) {  // values that do not fit together
+    } catch (const std::invalid_argument& e) {  // inconsistent values
       return fail(mark_of("sample"), fmt::format("sample {}: {}", assembly.sample, e.what()));
     }
     add(std::move(assembly), mark_of("sample"));

@@ -9,11 +9,11 @@
 
 namespace dismantle::bench {
 
-/// Appends what the list names to `suite.assemblies`, in order; what is wrong to `problems`.
+/// Appends the assemblies in the list to `suite.assemblies`, in order, and errors to `problems`.
 void read_assemblies(const ConfigNode& list, Suite& suite, std::vector<Diagnostic>& problems);
 
-/// `text` with $NAME and ${NAME} replaced. $DISMANTLE_DATA has a default: ../shared/data, seen from the working
-/// directory or from two folders above the suite. Returns false when a variable is not set; `text` then is its name.
+/// Replaces $NAME and ${NAME} in `text`. $DISMANTLE_DATA defaults to ../shared/data, relative to the working directory
+/// or to two folders above the suite. If a variable is not set, returns false with its name in `text`.
 bool expand_variables(std::string& text, const std::filesystem::path& suite_file);
 
 }  // namespace dismantle::bench

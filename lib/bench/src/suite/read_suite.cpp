@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of one range: more is a typing error, and would take memory.
+/// Limit of one range: more seeds are probably a typing error and would use much memory.
 constexpr std::size_t kMaxSeeds = 100000;
 
 /// `rotate:` of a variant.
@@ -30,7 +30,7 @@ struct VariantValues {
                  {{"none", Rotate::none, "As it stands in the files."},
                   {"random", Rotate::random, "The whole assembly turned by a rotation drawn from the trial's seed."}},
                  "How the assembly is turned.");
-    s.add("part", &VariantValues::part, {.doc = "Plan just this part, all others fixed."});
+    s.add("part", &VariantValues::part, {.doc = "Plan only this part; all others are fixed."});
   }
 };
 
@@ -41,7 +41,7 @@ struct VerifyValues {
           {.unit = "assembly units",
            .min = 0,
            .min_open = true,
-           .doc = "Deepest penetration that a plan may have, above what the pair had when assembled."});
+           .doc = "Largest penetration that a plan may have beyond the pair's overlap when assembled."});
   }
 };
 
@@ -62,7 +62,7 @@ bool read_seeds(const std::string& text, std::vector<std::int64_t>& seeds) {
   return true;
 }
 
-/// A value of `set:` as the YAML that it was.
+/// A value of `set:`, written as YAML again.
 std::string yaml_of(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::sequence) {
     std::string items;
@@ -136,7 +136,7 @@ class Reader {
       bool assembly_steps = false;
       static void describe(Schema<Top>& s) {
         s.add("name", &Top::name, {.doc = "Title of the reports; default: the file's name."});
-        s.add("assembly_steps", &Top::assembly_steps, {.doc = "Plan the way back as well."});
+        s.add("assembly_steps", &Top::assembly_steps, {.doc = "Plan the assembly steps, too."});
       }
     };
     ConfigNode plain;
@@ -242,7 +242,7 @@ class Reader {
       planner.config = load_config(source, *planner.registry);
     } catch (const ConfigError& e) {
       for (Diagnostic d : e.diagnostics()) {
-        // What `set` says stands in this file; what has no place is about the entry.
+        // Errors in `set` refer to this file. Errors without a place refer to the planner's entry.
         const auto at = static_cast<std::size_t>(d.line) - 1;
         const ConfigMark* mark = d.file == "<--set>" && d.line > 0 && at < places.size() ? &places[at]
                                  : d.file.empty() || d.file.starts_with('<')             ? &name_mark
@@ -308,15 +308,15 @@ class Reader {
 }  // namespace
 
 void Limits::describe(Schema<Limits>& s) {
-  s.add("path_timeout", &Limits::path_timeout, {.unit = "s", .min = 0, .doc = "Time for one attempt; 0 = no limit."});
+  s.add("path_timeout", &Limits::path_timeout, {.unit = "s", .min = 0, .doc = "Time limit of one attempt; 0 = none."});
   s.add("path_steps", &Limits::path_steps,
-        {.unit = "1", .min = 0, .doc = "Simulated steps for one attempt; 0 = no limit."});
-  s.add("timeout", &Limits::timeout, {.unit = "s", .min = 0, .doc = "Time for planning one trial; 0 = no limit."});
+        {.unit = "1", .min = 0, .doc = "Limit of simulated steps per attempt; 0 = none."});
+  s.add("timeout", &Limits::timeout, {.unit = "s", .min = 0, .doc = "Limit of planning time per trial; 0 = none."});
   s.add("wall", &Limits::wall, {.unit = "s", .min = 0, .doc = "Time after which a trial is killed; 0 = timeout + 60."});
   s.add("cpu", &Limits::cpu,
         {.unit = "s", .min = 0, .doc = "CPU time after which a trial is killed; 0 = threads * wall."});
-  s.add("memory", &Limits::memory, {.unit = "MiB", .min = 256, .doc = "Address space of a trial."});
-  s.add("threads", &Limits::threads, {.unit = "1", .min = 1, .max = 1024, .doc = "Threads of a trial."});
+  s.add("memory", &Limits::memory, {.unit = "MiB", .min = 256, .doc = "Limit of a trial's address space."});
+  s.add("threads", &Limits::threads, {.unit = "1", .min = 1, .max = 1024, .doc = "Number of threads of a trial."});
 }
 
 Suite read_suite(const fs::path& file) { return Reader(file).read(); }

@@ -17,13 +17,13 @@ std::string read_text(const std::filesystem::path& file);
 nlohmann::json read_json(const std::filesystem::path& file);
 TrialRequest read_request(const std::filesystem::path& folder);
 
-/// Where the trial's assembly lies. One that has to be made (a sample, a turned one, one with a `translation.json`) is
-/// made once and kept; several processes may do so at the same time. @throws InputError.
+/// The path of the trial's assembly. A generated one (a sample, a rotated one, one with a `translation.json`) is made
+/// once and kept; several processes may do so concurrently. @throws InputError.
 std::filesystem::path input_of(const TrialRequest& request, const std::vector<std::shared_ptr<Importer>>& importers,
                                const RunContext& context);
 
-/// True for a folder that holds a `translation.json`: the layout of the paper's data, where each part NAME.obj is moved
-/// by the vector of that name to where it is when assembled.
+/// True for a folder that holds a `translation.json`. In this layout of the paper's data, the vector named NAME moves
+/// part NAME.obj to its assembled position.
 bool has_offsets(const std::filesystem::path& input);
 
 }  // namespace dismantle::bench

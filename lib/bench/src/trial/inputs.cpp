@@ -17,7 +17,7 @@ fs::path offsets_file(const fs::path& folder) { return folder / "translation.jso
 
 /// Uniform over all rotations.
 Eigen::Quaterniond random_rotation(std::int64_t seed) {
-  Rng rng = Rng(static_cast<std::uint64_t>(seed)).fork(0x726f74617465);  // "rotate": a stream of its own
+  Rng rng = Rng(static_cast<std::uint64_t>(seed)).fork(0x726f74617465);  // "rotate": a separate random stream
   Eigen::Vector4d q;
   do {
     for (int i = 0; i < 4; ++i) q[i] = rng.normal();
@@ -42,7 +42,7 @@ void move_by_offsets(std::vector<RawPart>& parts, const fs::path& folder) {
   }
 }
 
-/// Each part as NAME.obj, with names that a file system takes.
+/// Gives each part a unique and valid file name NAME.obj.
 void name_files(std::vector<RawPart>& parts) {
   std::set<std::string> used;
   for (auto& part : parts) {
@@ -55,7 +55,7 @@ void name_files(std::vector<RawPart>& parts) {
   }
 }
 
-/// Writes a folder that is there as a whole or not at all.
+/// Writes a folder atomically: it exists completely or not at all.
 void write_folder(const std::vector<RawPart>& parts, const fs::path& folder) {
   const fs::path scratch = folder.parent_path() / fmt::format(".{}.{}", folder.filename().string(), ::getpid());
   fs::remove_all(scratch);

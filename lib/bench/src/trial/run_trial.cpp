@@ -26,14 +26,14 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Ends the process: code that catches std::bad_alloc could go on for ever at the limit.
+/// Ends the process: code that catches std::bad_alloc could run at the limit forever.
 void end_without_memory() {
   constexpr std::string_view text = "out of memory: the limit of the trial (limits.memory) is reached\n";
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) _exit(kOutOfMemory);
   _exit(kOutOfMemory);
 }
 
-/// Largest resident memory of this process so far, MiB; 0 when it cannot be told.
+/// Largest resident memory of this process so far, MiB; 0 when it is unknown.
 double peak_memory() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -41,7 +41,7 @@ double peak_memory() {
   return 0;
 }
 
-/// Warnings and errors go to the trial's last words.
+/// Warnings and errors go to standard error, from where they become TrialRow::last_words.
 RunContext context_of_trial() {
   RunContext context;
   context.on_log = [](LogLevel level, std::string_view text) {
@@ -50,7 +50,7 @@ RunContext context_of_trial() {
   return context;
 }
 
-/// Steps as they come: what a trial that is killed has done is not lost.
+/// Records each step when it is found, so that a killed trial keeps its progress.
 class Recorder {
  public:
   explicit Recorder(const fs::path& folder) : folder_(folder), progress_(TrialFiles(folder).progress) {}
@@ -71,7 +71,7 @@ class Recorder {
   bool saved_ = false;
 };
 
-/// Why parts are still there, for the reader of the row.
+/// Why parts remain, for the reader of the row.
 std::string reasons_of(const Plan& plan) {
   std::string text;
   for (const auto& u : plan.unsolved)
@@ -105,7 +105,7 @@ void plan_trial(const fs::path& folder) {
   Recorder recorder(folder);
   RunOptions options = run_options_of(config, request.part);
   options.flexible = report.flexible;
-  options.force.when = ForceWhen::off;  // planners are compared by what they find
+  options.force.when = ForceWhen::off;  // forced steps would hide what a planner does not find
   const RunResult result = run(assembly, setup, options, context, std::ref(recorder));
   const double solve_seconds = seconds_since(begin);
   write_file(TrialFiles(folder).plan, to_json(result.plan));
@@ -144,7 +144,7 @@ void verify_trial(const fs::path& folder) {
   read.max_triangles = std::numeric_limits<std::int64_t>::max();
   const Assembly assembly =
       assembly_of_plan(plan, read_input(input, importers, read, context), input.string(), context);
-  // A planner's configuration may scale otherwise: the tolerance is that of an assembly of size 10.
+  // The tolerance is stated for an assembly of size 10, but a planner's configuration may scale to another size.
   const double size = assembly.normalization.scale * assembly.input_box.size().maxCoeff() / 10;
   VerifyOptions options;
   options.max_penetration = request.max_penetration * size;

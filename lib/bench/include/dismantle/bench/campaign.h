@@ -1,4 +1,4 @@
-/// Running a suite: claims trials, runs each in processes of its own, writes the rows.
+/// Runs a suite: claims trials, runs each in separate processes and writes the rows.
 #pragma once
 
 #include <filesystem>
@@ -14,15 +14,15 @@
 namespace dismantle::bench {
 
 struct CampaignOptions {
-  std::filesystem::path folder;             ///< results, inputs, configurations, work in progress
+  std::filesystem::path folder;             ///< results, inputs, configurations, running trials
   unsigned jobs = 1;                        ///< trials that run concurrently
-  unsigned shard = 1, shards = 1;           ///< this is shard `shard` of `shards`, with a database of its own
+  unsigned shard = 1, shards = 1;           ///< this is shard `shard` of `shards`, with its own database
   std::vector<std::string> plan_command;    ///< program and arguments; the folder of the trial is appended
   std::vector<std::string> verify_command;  ///< command that verifies a trial
 };
 
 struct CampaignResult {
-  std::size_t total = 0, done = 0, solved = 0;  ///< of this shard, in all processes
+  std::size_t total = 0, done = 0, solved = 0;  ///< in this shard, over all processes
   std::size_t ran = 0;                          ///< by this process
   bool interrupted = false;
   std::filesystem::path database;
@@ -31,12 +31,12 @@ struct CampaignResult {
 /// The database of a shard: `results.db`, or `shard-I-of-N.db`.
 DISMANTLE_API std::filesystem::path database_of(const CampaignOptions& options);
 
-/// Runs what is not there yet and waits for what other processes run. When `context` is cancelled, running trials are
-/// killed and put back. `context.progress` and `context.log` tell how it goes.
+/// Runs the trials that have no row yet and waits for those that other processes run. When `context` is cancelled,
+/// running trials are killed and released. Reports to `context.progress` and `context.log`.
 /// @throws Error when the folder holds rows of another configuration, or cannot be used.
 DISMANTLE_API CampaignResult run_campaign(const Suite& suite, const CampaignOptions& options, RunContext& context);
 
-/// The matrix in words, and how long it may take.
+/// Describes the matrix of trials and estimates how long it may take.
 DISMANTLE_API std::string dry_run_text(const Suite& suite, const CampaignOptions& options);
 
 /// "1 h 5 min", "12 s".

@@ -1,4 +1,4 @@
-/// From databases of results to tables and curves.
+/// Tables and curves from databases of results.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +12,10 @@
 
 namespace dismantle::bench {
 
-/// A trial that is done, as far as reports look at it. Times in seconds.
+/// The columns of a finished trial that reports use. Times in seconds.
 struct ReportRow {
   std::filesystem::path database;
-  std::int64_t id = 0;  ///< in that database
+  std::int64_t id = 0;  ///< of the row in `database`
   std::string assembly, variant, planner, category, part, outcome, planner_hash, config_hash, host, version, counts,
       input, last_words, verification;
   std::int64_t seed = 0, signal = 0;
@@ -26,31 +26,31 @@ struct ReportRow {
   bool has_plan = false;
   double wall_seconds = 0, cpu_seconds = 0, peak_rss_mb = 0, limit_timeout = 0, limit_wall = 0;
   std::int64_t limit_memory_mb = 0;
-  std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts out
+  std::vector<std::pair<double, std::int64_t>> progress;  ///< seconds, parts removed
 };
 
-/// All rows of any number of databases, each trial once, in an order that does not depend on how they were spread.
+/// All rows of any number of databases, each trial once. Their order does not depend on which database held them.
 struct ReportData {
   std::string name;
   std::vector<std::string> planners, variants;  ///< in the order of the suite
   std::vector<ReportRow> rows;
-  std::size_t missing = 0;         ///< trials that are listed in the databases and not done
-  std::vector<std::string> notes;  ///< what a reader has to know
+  std::size_t missing = 0;         ///< trials that are listed in the databases but not finished
+  std::vector<std::string> notes;  ///< remarks that the report shows to its reader
 };
 
-/// `paths`: databases, or folders with databases. @throws InputError: none there, not readable, or two of them hold
-/// different configurations under one name.
+/// `paths`: databases, or folders with databases. @throws InputError when there is none, one cannot be read, or two
+/// hold different configurations under one name.
 DISMANTLE_API ReportData read_results(const std::vector<std::filesystem::path>& paths);
 
-/// Times of `data` are CPU seconds of the planning processes from here on, reading the input included, in place of the wall time of
-/// planning: for trials that ran beside other work on a busy machine. A trial that `limits.timeout` stopped is censored at the CPU
-/// time that it had had by then.
+/// Replaces the wall times of planning in `data` by the CPU seconds of the planning processes, which include reading
+/// the input. For trials that shared a busy machine with other work. A trial that `limits.timeout` stopped is censored
+/// at the CPU time that it had used by then.
 DISMANTLE_API void use_cpu_time(ReportData& data);
 
 struct TableCell {
   std::string text;
-  std::optional<double> value = {};  ///< to sort by
-  std::string link = {};             ///< of the HTML page, relative to it
+  std::optional<double> value = {};  ///< sort key
+  std::string link = {};             ///< for the HTML page, relative to it
 };
 struct Table {
   std::string id, title, note;
@@ -58,45 +58,45 @@ struct Table {
   std::vector<std::vector<TableCell>> rows;
 };
 
-/// success, sizes, time, precision, pairs, outcomes, curves, trials. `plans`: folder with the plans, relative to the page; empty:
-/// none.
+/// The tables success, sizes, time, precision, pairs, outcomes, curves and trials. `plans`: folder with the plans,
+/// relative to the page; empty: none.
 DISMANTLE_API std::vector<Table> tables_of(const ReportData& data, const std::string& plans = "");
 
-/// Writes the plan of each row that has one as `folder`/ROW.json, rows counted from 1. Returns how many.
+/// Writes the plan of each row that has one as `folder`/ROW.json, rows counted from 1. Returns the number of plans.
 DISMANTLE_API std::size_t write_plans(const ReportData& data, const std::filesystem::path& folder);
 
-/// Share of successes of `hits` in `n` with its 95 % interval of Wilson. n > 0.
+/// Success rate `hits` / `n` with its 95 % Wilson interval; n > 0.
 struct Proportion {
   double share = 0, low = 0, high = 0;
 };
 DISMANTLE_API Proportion wilson(std::size_t hits, std::size_t n);
 
-/// Share of trials solved after a time: a step at each (seconds, share). A trial that ran out of time is censored
-/// there; one that failed for another reason is never solved (1 - Kaplan-Meier).
+/// Share of trials solved within a time (1 - Kaplan-Meier): a step at each (seconds, share). A trial that ran out of
+/// time is censored at that time; a trial that failed for another reason counts as never solved.
 struct Curve {
   std::string label;
   std::vector<std::pair<double, double>> steps;  ///< increasing
   double end = 0;                                ///< largest time observed, seconds
 };
-/// Events: seconds, and solved or censored at that time. `never`: trials that failed for good.
+/// Steps of a Curve. Events: seconds, and true for solved or false for censored. `never`: number of other trials.
 DISMANTLE_API std::vector<std::pair<double, double>> success_over_time(std::vector<std::pair<double, bool>> events,
                                                                        std::size_t never);
 DISMANTLE_API std::vector<Curve> curves_of(const ReportData& data);
 
 DISMANTLE_API std::string report_text(const ReportData& data, const std::vector<Table>& tables);
 DISMANTLE_API std::string report_markdown(const ReportData& data, const std::vector<Table>& tables);
-/// One table after the other, with an empty line between; RFC 4180.
+/// CSV (RFC 4180); an empty line separates the tables.
 DISMANTLE_API std::string report_csv(const std::vector<Table>& tables);
 /// The curves as one picture.
 DISMANTLE_API std::string report_svg(const ReportData& data);
-/// One file that needs nothing else.
+/// One self-contained file.
 DISMANTLE_API std::string report_html(const ReportData& data, const std::vector<Table>& tables);
 
-/// The five tables that OMPL's Planner Arena opens. Replaces `file`.
+/// Writes the five tables that OMPL's Planner Arena reads. Replaces `file`.
 DISMANTLE_API void write_arena(const ReportData& data, const std::filesystem::path& file);
 
-/// Writes what is needed to repeat and look at a row: `config.yaml`, `plan.json` (if it has one), `row.json`. Returns
-/// the command that runs it again.
+/// Writes the files for repeating and inspecting a row: `config.yaml`, `plan.json` (if it has one), `row.json`. Returns
+/// the command that repeats the trial.
 DISMANTLE_API std::string write_row(const ReportRow& row, const std::filesystem::path& folder);
 
 }  // namespace dismantle::bench

@@ -1,4 +1,4 @@
-/// A suite as a job array of an existing Slurm cluster: each task is a shard with a database of its own.
+/// Runs a suite as a job array on an existing Slurm cluster: each task is a shard with its own database.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@ namespace dismantle::bench {
 
 struct SlurmJob {
   std::filesystem::path suite, folder, program;
-  unsigned tasks = 1;                ///< of the array
-  unsigned jobs = 1;                 ///< concurrent trials of each task; its number of cores
+  unsigned tasks = 1;                ///< in the array
+  unsigned jobs = 1;                 ///< concurrent trials of each task; also its number of cores
   std::vector<std::string> options;  ///< for sbatch, such as --partition=cpu
 };
 
@@ -24,7 +24,7 @@ struct Submitted {
 /// The batch script. Paths in it are absolute. $DISMANTLE_PLUGIN_PATH and $DISMANTLE_DATA are written into it.
 DISMANTLE_API std::string slurm_script(const SlurmJob& job);
 
-/// Writes `folder`/slurm.sh and submits it. @throws Error when there is no sbatch, or with what it says.
+/// Writes `folder`/slurm.sh and submits it. @throws Error when there is no sbatch, or with the message of sbatch.
 DISMANTLE_API Submitted submit(const SlurmJob& job);
 
 }  // namespace dismantle::bench

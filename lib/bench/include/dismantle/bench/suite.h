@@ -1,4 +1,4 @@
-/// A suite file: which planners meet which assemblies, how often, within which limits. Format: docs/benchmark.md.
+/// Suite files: planners, assemblies, repetitions and limits. Format: docs/benchmark.md.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace dismantle::bench {
 
-/// The `limits:` section. The same for every planner of a suite, so that they can be compared.
+/// The `limits:` section. It applies to every planner of a suite, so that they can be compared.
 struct Limits {
   double path_timeout = 120;    ///< seconds per attempt, 0 = none
   std::int64_t path_steps = 0;  ///< simulated steps per attempt, 0 = none
@@ -29,7 +29,7 @@ struct Limits {
 struct SuiteAssembly {
   std::string name;            ///< unique in the suite
   std::string category;        ///< column of the table of success rates
-  std::string part;            ///< plan just this part; empty: the whole assembly
+  std::string part;            ///< plan only this part; empty: the whole assembly
   std::filesystem::path path;  ///< absolute; empty for a sample
   std::string sample;
   ParamSet sample_values;
@@ -38,13 +38,13 @@ struct SuiteAssembly {
 struct SuitePlanner {
   std::string name;
   RunConfig config;                    ///< with the suite's limits; the seed is set per trial
-  std::shared_ptr<Registry> registry;  ///< of this planner alone
+  std::shared_ptr<Registry> registry;  ///< for this planner only
 };
 
 struct SuiteVariant {
   std::string name;
   bool rotate = false;                ///< turn the whole assembly by a random rotation drawn from the trial's seed
-  std::string part;                   ///< plan just this part, whatever the assembly says
+  std::string part;                   ///< plan only this part; overrides SuiteAssembly::part
   std::vector<std::string> planners;  ///< empty: all
 };
 
@@ -56,11 +56,11 @@ struct Suite {
   std::vector<SuiteVariant> variants;
   std::vector<std::int64_t> seeds;
   Limits limits;
-  double max_penetration = 0.01;  ///< assembly units; what the verifier allows, whatever a planner's configuration says
-  std::vector<std::string> notes;  ///< what was left aside because it is not there
+  double max_penetration = 0.01;   ///< assembly units; the verifier's tolerance, overrides planners' configurations
+  std::vector<std::string> notes;  ///< optional entries that were skipped, and why
 };
 
-/// Reads a suite and everything that it names. @throws ConfigError with all that is wrong.
+/// Reads a suite and everything that it names. @throws ConfigError with all problems found.
 DISMANTLE_API Suite read_suite(const std::filesystem::path& file);
 
 /// One cell of the matrix; indices into the suite.
@@ -68,7 +68,7 @@ struct Cell {
   std::size_t assembly = 0, variant = 0, planner = 0;
   std::int64_t seed = 1;
 };
-/// All cells, in a fixed order: assembly by assembly, so that a part of the whole compares all planners.
+/// All cells, ordered by assembly, so that an unfinished campaign already compares all planners.
 DISMANTLE_API std::vector<Cell> matrix(const Suite& suite);
 /// Every count-th cell, beginning with `index` (from 1).
 DISMANTLE_API std::vector<Cell> shard_of(const std::vector<Cell>& cells, unsigned index, unsigned count);

@@ -1,4 +1,4 @@
-/// One trial, as its processes see it: files in, files out. A process plans, another one verifies.
+/// One trial, as its processes see it: they read and write files. One process plans, another one verifies.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct TrialRequest {
   bool rotate = false;
   std::int64_t seed = 1;
   std::string part;               ///< empty: the whole assembly
-  std::filesystem::path inputs;   ///< folder for assemblies that are made: samples, turned ones, moved ones
-  std::string input_name;         ///< of such an assembly in that folder
-  double max_penetration = 0.01;  ///< of an assembly of size 10; for the verifier
+  std::filesystem::path inputs;   ///< folder for generated assemblies: samples, rotated ones, translated ones
+  std::string input_name;         ///< name of a generated assembly in `inputs`
+  double max_penetration = 0.01;  ///< the verifier's tolerance, for an assembly of size 10
 };
 
 /// The files in the folder of a trial.
@@ -32,20 +32,20 @@ struct TrialFiles {
         plan(folder / "plan.json"),
         verification(folder / "verification.json") {}
   std::filesystem::path request;
-  std::filesystem::path result;    ///< absent when the trial did not end by itself
+  std::filesystem::path result;    ///< absent when the trial was killed or crashed
   std::filesystem::path progress;  ///< a line "seconds removed" per step
-  std::filesystem::path plan;      ///< saved while it grows
+  std::filesystem::path plan;      ///< also saved during planning
   std::filesystem::path verification;
 };
 
-/// Exit status of a trial whose memory was not enough: it ends at the first request that is refused.
+/// Exit status of a trial that ran out of memory: it ends at the first allocation that fails.
 inline constexpr int kOutOfMemory = 86;
 
 DISMANTLE_API void write_request(const TrialRequest& request, const std::filesystem::path& folder);
 
-/// Plans what `folder` asks for. @throws ConfigError, InputError, PluginError as `dismantle plan` does.
+/// Executes the request in `folder`. @throws ConfigError, InputError, PluginError as `dismantle plan` does.
 DISMANTLE_API void plan_trial(const std::filesystem::path& folder);
-/// Checks the plan in `folder` with the verifier, in a process that no planner was loaded into.
+/// Verifies the plan in `folder`. Call it in a process that has not loaded any planner.
 DISMANTLE_API void verify_trial(const std::filesystem::path& folder);
 
 }  // namespace dismantle::bench

@@ -13,28 +13,28 @@ namespace dismantle {
 
 struct BookOptions {
   InputFrame frame;          ///< unit and up axis of the input
-  bool disassembly = false;  ///< how to take it apart; else how to put it together
-  std::string title;         ///< empty: the name of the plan's source, without the ending of a CAD file
-  /// Called before each page with its number (from 1) and how many there are. It may throw to stop.
+  bool disassembly = false;  ///< true: instructions for disassembly; false: for assembly
+  std::string title;         ///< empty: the name of the plan's source, without the extension of a CAD file
+  /// Called before each page with its number (from 1) and the number of pages. It may throw to stop.
   std::function<void(std::size_t page, std::size_t pages)> on_page = [](std::size_t, std::size_t) {};
 };
 
-/// One self-contained HTML file with pictures as PNG, made for paper too (a page per step). Without scripts.
+/// One self-contained HTML file with PNG pictures and without scripts. It can be printed, a page per step.
 /// @throws InputError when the plan moves a part that the assembly does not have, or has no steps.
 DISMANTLE_API std::string book_html(const Plan& plan, const Assembly& assembly, const BookOptions& options);
 
-/// The same as PDF, A4 landscape. The bytes depend on the fonts that are installed.
+/// The same as PDF, A4 landscape. The bytes depend on the installed fonts.
 /// @throws InputError as book_html(). @throws Error when the PDF library fails.
 DISMANTLE_API std::string book_pdf(const Plan& plan, const Assembly& assembly, const BookOptions& options);
 
-/// PNG of two parts as assembled, from above in front: `marked`, the smaller one best, in orange through what is before
-/// it, and a ring around the place `at` (input coordinates). What is further from `marked` than it is large may lie
-/// outside the picture. @throws std::out_of_range when the assembly has no such part.
+/// PNG of two parts as assembled, seen from the front and above. `marked` (preferably the smaller part) is drawn in
+/// orange, also where it is hidden, with a ring around the place `at` (input coordinates). Places further from `marked`
+/// than its size may lie outside the picture. @throws std::out_of_range when the assembly has no such part.
 DISMANTLE_API std::string pair_png(const Assembly& assembly, PartId other, PartId marked, const Eigen::Vector3d& at,
                                    bool y_up);
 
-/// The functions above for programs that load the library when they need it: pango and what it depends on would cost a
-/// program that is linked to them milliseconds at every start.
+/// The functions above for programs that load the library on demand: linking pango and its dependencies would delay
+/// every start of the program by milliseconds.
 struct BookLibrary {
   std::string (*html)(const Plan&, const Assembly&, const BookOptions&);
   std::string (*pdf)(const Plan&, const Assembly&, const BookOptions&);
