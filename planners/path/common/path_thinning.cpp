@@ -7,7 +7,7 @@
 namespace dismantle::path {
 namespace {
 
-/// Bound of the distance between where the two poses put any point of the ball.
+/// Upper bound of the distance that any point of the ball moves between the two poses.
 double apart(const Pose& a, const Pose& b, const Ball& ball) {
   return (a * ball.center - b * ball.center).norm() + angle_between(a.q, b.q) * ball.radius;
 }
@@ -24,7 +24,7 @@ std::vector<Ball> balls_of(const World& world) {
 Path thin(const Path& path, const std::vector<Ball>& bodies, double tolerance) {
   const std::size_t n = path.size();
   if (n <= 2) return path;
-  // Parameter of each instant: way covered so far, by the body that moves most.
+  // Parameter of each instant: length covered so far, by the body that moves most in each step.
   std::vector<double> way(n, 0.0);
   for (std::size_t k = 1; k < n; ++k) {
     double step = 0;

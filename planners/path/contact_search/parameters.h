@@ -12,16 +12,14 @@ struct Parameters : push::SearchParameters, push::ProposalParameters {
 
   static void describe(Schema<Parameters>& s) {
     push::describe_search(s);
-    s.add(
-        "proposals", &Parameters::proposals,
-        {.doc = "When translating, push first along directions that the contacts leave free, then along the axes, then "
-                "along free directions while pressing against a wall. Off: the axes only."});
-    s.add(
-        "twists", &Parameters::twists,
-        {.doc =
-             "When turning, try first the screw motions that the surfaces in contact leave free. Off: the axes only."});
+    s.add("proposals", &Parameters::proposals,
+          {.doc =
+               "When translating, push first along directions that the contacts allow, then along the axes, then along "
+               "free directions while pressing against a wall. Off: the axes only."});
+    s.add("twists", &Parameters::twists,
+          {.doc = "When turning, first try the screw motions that the surfaces in contact allow. Off: the axes only."});
     s.add("novelty", &Parameters::novelty,
-          {.doc = "Expand states first that are unlike the states expanded before. Off: first in, first out."});
+          {.doc = "First expand states that differ from the states expanded before. Off: first in, first out."});
     push::describe_effort(s);
     push::describe_proposals(s);
   }

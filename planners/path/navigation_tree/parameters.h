@@ -22,8 +22,8 @@ struct Parameters : free_space::SearchParameters {
          .min = 0,
          .max = 1e12,
          .doc = "State checks without progress after which the narrowest place ahead is blocked. A state check counts "
-                "as one for each 1000 distance queries that it makes, as a quarter at least. Larger: more parts are "
-                "found, those that stay cost more. 0: nothing is searched."});
+                "once for each 1000 distance queries that it makes, and at least a quarter. Larger: more parts are "
+                "removed, but parts that cannot be removed cost more. 0: no search."});
     s.add("detours", &Parameters::detours,
           {.unit = "1",
            .min = 0,

@@ -31,7 +31,7 @@ struct CancelAtEnd {
 
 }  // namespace
 
-/// With a step budget each member depends on what the one before it has used, so none can run ahead.
+/// With a step budget each member depends on what the one before it has used, so no member can run speculatively.
 bool PortfolioSearch::may_run_beside() const {
   if (!parameters_.speculative || order_.size() < 2 || query_.budget.max_steps > 0) return false;
   if (context_.executor == nullptr || context_.executor->threads() < 2) return false;

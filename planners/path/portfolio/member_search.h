@@ -36,7 +36,7 @@ class MemberSearch {
   std::uint64_t spent() const { return last_.stats.steps + last_.stats.state_checks; }
   /// The result after the last run().
   const PathResult& last() const { return last_; }
-  /// The budget is used up before the search is.
+  /// Sets the outcome for a budget that is used up before the search has ended.
   void time_out() { last_.fail(Outcome::timeout); }
 
  private:

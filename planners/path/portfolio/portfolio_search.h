@@ -61,7 +61,7 @@ class PortfolioSearch final : public PathSearch {
   const Parameters& parameters_;
   const PathQuery& query_;
   RunContext& context_;
-  const bool limited_;  ///< in depth
+  const bool limited_;  ///< the query has a depth limit
   Deadline deadline_;
   std::vector<MemberSearch> members_;                   ///< in the order of the list
   std::vector<MemberSearch*> order_;                    ///< those that participate, in the order in which they are run

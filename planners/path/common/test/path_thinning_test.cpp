@@ -1,4 +1,4 @@
-// What is left of a path reproduces all of it.
+// The instants kept by thinning reproduce the whole path.
 #include "dismantle/path/path_thinning.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ double distance_to(const std::vector<Pose>& a, const std::vector<Pose>& b, const
   return std::min(best, f(0.5 * (lo + hi)));
 }
 
-/// `thinned` is a subsequence with both ends, and every instant dropped lies on the motions that join what is left.
+/// `thinned` is a subsequence with both ends, and every dropped instant lies on the motions between the kept ones.
 void expect_reproduces(const Path& path, const Path& thinned, const std::vector<Ball>& bodies, double tolerance) {
   ASSERT_GE(thinned.size(), std::min<std::size_t>(2, path.size()));
   ASSERT_TRUE(same(path.front(), thinned.front()));
@@ -121,7 +121,7 @@ TEST(Thin, OneScrewIsTwoInstants) {
     Path path;
     for (int k = 0; k <= 40; ++k) path.push_back({screw_interpolate(Pose{}, end, k / 40.0)});
     const Path thinned = thin(path, {{random_vector(rng), 1.0}}, 1e-6);
-    // As few as the limit of turns allows, to within halving.
+    // As few as the limit of rotation allows, to within a factor of two.
     EXPECT_LE(thinned.size(), trial % 2 == 0 ? 2u : 2 + static_cast<std::size_t>(2 * turn / kMostTurn));
     for (std::size_t k = 1; k < thinned.size(); ++k)
       EXPECT_LE(angle_between(thinned[k - 1][0].q, thinned[k][0].q), kMostTurn + 1e-9);
@@ -146,7 +146,7 @@ TEST(Thin, KeepsCornersAndTurningPoints) {
 }
 
 TEST(Thin, WholeTurnsStayWholeTurns) {
-  // Ten turns of a nut: the screws between the instants left take the shorter way, so enough must be left.
+  // A nut: the screw between two kept instants takes the shorter rotation, so enough instants have to be kept.
   for (const double turns : {0.4, 1.0, 10.0}) {
     Path path;
     const int steps = static_cast<int>(turns * 60);
@@ -161,7 +161,7 @@ TEST(Thin, WholeTurnsStayWholeTurns) {
     double turned = 0;
     for (std::size_t k = 1; k < thinned.size(); ++k) turned += angle_between(thinned[k - 1][0].q, thinned[k][0].q);
     EXPECT_NEAR(turned, 2 * std::numbers::pi * turns, 1e-6);
-    // As few as the limit of turns allows, to within halving.
+    // As few as the limit of rotation allows, to within a factor of two.
     EXPECT_LE(thinned.size(), 4 + static_cast<std::size_t>(2 * 2 * std::numbers::pi * turns / kMostTurn));
   }
 }

@@ -25,8 +25,8 @@ inline const Registry& registry() {
   return *all;
 }
 
-/// Parameters of the preset `guided` with some of its values changed: by name, those of a member as
-/// "tolerant_rrt.state_checks"; and without some members.
+/// Parameters of the preset `guided` with `changes` and without some members. The keys of `changes` are parameter
+/// names; those of a member are written as "tolerant_rrt.state_checks".
 inline ParamSet guided(const std::map<std::string, ParamValue>& changes, const std::vector<std::string>& without = {}) {
   const RegisteredType& preset = registry().find(PluginKind::path_planner, "guided");
   ParamSet all;
@@ -53,7 +53,7 @@ struct Table {
   std::shared_ptr<Simulator> simulator = registry().create<Simulator>("sdf_penalty");
   std::shared_ptr<const PreparedAssembly> prepared;
   Verifier verifier;
-  std::atomic<std::size_t> checked = 0;  ///< paths
+  std::atomic<std::size_t> checked = 0;  ///< number of paths
   std::shared_ptr<Executor> executor;    ///< its idle threads may help
 
   explicit Table(Assembly a) : assembly(std::move(a)), verifier(assembly, {}) {

@@ -1,4 +1,4 @@
-// Screws and curved slides are undone for any orientation of the assembly, and the verifier agrees.
+// Screws and curved slides are removed for any orientation of the assembly, and the verifier accepts the paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace dismantle::contact_search {
 namespace {
 
-/// As `dismantle plan` prepares it; seed 0: as built, otherwise turned at random.
+/// The assembly as `dismantle plan` prepares it. Seed 0: as built; otherwise in a random orientation.
 Assembly turned_sample(const std::string& name, ParamSet given, std::int64_t seed) {
   RunContext context;
   PrepareReport report;
@@ -50,8 +50,8 @@ TEST(ContactSearchScrews, ANutIsUnscrewed) {
   expect_solved_in_any_orientation("bolt_and_nut", "nut",
                                    {{"turns", 1.0}, {"segments", std::int64_t{32}}, {"clearance", 0.12}});
 }
-/// Where the contacts at rest determine the screw of a thread, the nut is removed without simulated steps. Where they do
-/// not, as with much clearance, the search finds the screw.
+/// Where the contacts at rest determine the screw of a thread, the nut is removed without simulated steps. Where they
+/// do not, as with much clearance, the search finds the screw.
 TEST(ContactSearchScrews, NutsOfAnySizeAreUnscrewed) {
   Rng rng(5);
   int without_simulation = 0;

@@ -134,7 +134,7 @@ void NavigationFunction::rasterize(const std::array<Vec3, 3>& corners) {
   const int u = (up + 1) % 3, v = (up + 2) % 3;
   Aabb around;
   for (const auto& p : c) around.extend(p);
-  // A surface in the face of a cell touches both cells, in spite of rounding.
+  // A surface in the face between two cells touches both, despite rounding.
   const double rounding = geometry::kRounding * (count_[0] + count_[1] + count_[2]);  // cells
   const auto first = [&](double x, int axis) {
     return std::clamp(static_cast<std::int32_t>(std::floor(x - rounding)), 0,
@@ -216,7 +216,7 @@ void NavigationFunction::compute_routes() {
   cost_.assign(clearance_.size(), geometry::kNoIndex);
   next_.assign(clearance_.size(), geometry::kNoIndex);
   length_.assign(clearance_.size(), 0);
-  // Of a cell, in thirds: three, and more near walls by the inverse square of the clearance.
+  // Cost of a cell, in thirds: 3, plus a cost near walls by the inverse square of the clearance.
   const auto cell_cost = [&](std::uint32_t cell) {
     const std::uint32_t clear = std::clamp<std::uint32_t>(clearance_[cell], 3, 1000);
     return 3 + 27 * wall_cost_ / (clear * clear);
@@ -252,8 +252,8 @@ void NavigationFunction::compute_routes() {
   }
 }
 
-/// Each cell without a route is assigned to the nearest cell with one. Of two that are equally near it takes the one
-/// with the longer route: otherwise a point within a thin wall would be attracted to the far side.
+/// Each cell without a route is assigned to the nearest cell with one. If two are equally near, the one with the longer
+/// route is chosen: otherwise a point within a thin wall would be attracted to the far side.
 void NavigationFunction::extend_into_walls() {
   cells_to_route_.assign(cost_.size(), unreached);
   std::vector<std::uint32_t> layer, next;

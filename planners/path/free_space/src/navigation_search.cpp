@@ -16,7 +16,7 @@ using Vec3 = Eigen::Vector3d;
 using geometry::Twist;
 
 /// Radius of the ball that stands for the body in the navigation function: the lower quartile, so that one thin end of
-/// the body does not decide.
+/// the body does not determine it.
 double ball_radius(const std::vector<MedialBall>& balls) {
   std::vector<double> radii;
   for (const auto& b : balls) radii.push_back(b.radius);
@@ -43,7 +43,7 @@ bool thinner_than_overlap(const PathQuery& query, std::int64_t control_points) {
   double overlap = 0;
   for (const auto& m : query.scene.moving)
     for (const auto& s : query.scene.fixed) overlap = std::max(overlap, query.assembly.initial_overlap(m.part, s.part));
-  // Half a radius is a quarter of the thickness: what the verifier tolerates of a thin wall.
+  // Half a radius is a quarter of the thickness, the penetration that the verifier tolerates in a thin wall.
   return overlap > 0 && overlap > 0.5 * ball_radius(control_points_of(query, control_points));
 }
 
@@ -83,7 +83,7 @@ bool NavigationSearch::route_from_body() const {
   return count > 0 && 2 * static_cast<std::size_t>(count) >= control_points_.size();
 }
 
-/// Groups all nodes of the tree by the navigation function as it is now.
+/// Groups all nodes of the tree again, with the current navigation function.
 void NavigationSearch::rebuild_cells() {
   cell_of_key_.clear();
   cells_.clear();
@@ -101,8 +101,8 @@ void NavigationSearch::rebuild_cells() {
   progress_at_ = work();
 }
 
-/// A ball may pass where the body does not. Blocks the narrowest place within one diameter of the body ahead of the
-/// best node; two cells more for a body that is smaller than a cell.
+/// A ball may pass where the body does not. Blocks the narrowest place ahead of the best node, within one diameter of
+/// the body and two cells (for bodies smaller than a cell).
 bool NavigationSearch::detour() {
   const double reach = 2 * tree_.radius() + 2 * navigation_.cell();
   if (!navigation_.close_narrowest(tree_[best_].pose * tree_.center(), reach)) return false;
@@ -193,7 +193,8 @@ std::vector<double> NavigationSearch::sample_weights() {
   return weights;
 }
 
-/// The rigid motion that fits best to what the navigation function wants of each control point. Points move by about 1.
+/// The rigid motion that best fits the directions of the navigation function at the control points. Points move by
+/// about 1.
 NavigationSearch::PoseTree::Step NavigationSearch::descent_step(std::uint32_t node,
                                                                 const std::vector<double>& weights) const {
   std::vector<Vec3> points, directions;
@@ -231,13 +232,13 @@ NavigationSearch::PoseTree::Step NavigationSearch::slippage_step(std::uint32_t n
   return {q * motion.linear, q * motion.angular};
 }
 
-/// Extends one node by steps that descend the navigation function, follow a slippable motion, or go anywhere; with a
-/// random step added, the same in all of them. Steps grow as long as the poses are valid.
+/// Extends one node by steps that descend the navigation function, follow a slippable motion, or are random. One random
+/// step is drawn per extension and added to each step. Steps grow as long as the poses are valid.
 bool NavigationSearch::extend() {
   std::uint32_t at = select_node();
   if (tree_[at].cut) return false;
   const auto in_cube = [&] { return Vec3(rng_.uniform(-1, 1), rng_.uniform(-1, 1), rng_.uniform(-1, 1)); };
-  // A wound part leaves a hole as a corkscrew leaves a cork.
+  // A helical part leaves a hole along its own screw.
   const Twist* slippage = !slippable_motions_.empty() && rng_.uniform() < parameters_.slippage_bias
                               ? &slippable_motions_[rng_.below(slippable_motions_.size())]
                               : nullptr;
@@ -290,7 +291,7 @@ bool NavigationSearch::extend() {
   return false;
 }
 
-/// Is the search unlikely to get further? Takes a detour first where the progress until now justifies one.
+/// True if the search is unlikely to get further. Takes a detour first if the progress so far justifies one.
 bool NavigationSearch::should_give_up() {
   const bool play = !thin_moved_ && at_start_.back() - best_remaining_ < parameters_.play * tree_.radius();
   only_play_ = only_play_ && play;

@@ -1,4 +1,4 @@
-// Routes through free space get shorter, never lead through a wall, and do not exist where everything is closed.
+// Along a route the remaining length falls. Routes never lead through a wall, and do not exist in closed space.
 #include "dismantle/free_space/navigation_function.h"
 
 #include <gtest/gtest.h>

@@ -12,7 +12,7 @@ using path::test::linked_ring;
 using path::test::open_ring;
 using path::test::Table;
 
-/// Without the other trees, which sometimes solve the assembly as well.
+/// The preset without the other trees, because these sometimes solve the assembly as well.
 ParamSet forest(std::int64_t after, std::int64_t steps) {
   std::vector<std::string> without{"navigation_tree", "tolerant_rrt"};
   if (steps == 0) without.emplace_back("tunnel_forest");

@@ -24,8 +24,10 @@ TEST(Portfolio, SolvesWhereOneMemberDoes) {
       EXPECT_EQ(set.log.runs.back().first, by) << "the search ends with it";
     } else {
       EXPECT_EQ(set.status, SearchStatus::exhausted);
-      for (std::size_t k = 0; k < set.scripts.size(); ++k) EXPECT_EQ(set.spent(k), set.scripts[k].work) << "only when all are";
-      EXPECT_EQ(r.outcome(), set.scripts[0].used_up ? Outcome::depth_limit : Outcome::exhausted) << "what the first says";
+      for (std::size_t k = 0; k < set.scripts.size(); ++k)
+        EXPECT_EQ(set.spent(k), set.scripts[k].work) << "only when all are";
+      EXPECT_EQ(r.outcome(), set.scripts[0].used_up ? Outcome::depth_limit : Outcome::exhausted)
+          << "what the first says";
       EXPECT_EQ(r.message, "member 0");
     }
   }
@@ -112,7 +114,7 @@ TEST(Portfolio, TurnsGrow) {
   set.add({.work = 30}, {.whole = true});
   set.run();
   using Runs = std::vector<std::pair<std::size_t, std::uint64_t>>;
-  // The second begins in the round in which the first has spent 25; the first is alone at the end.
+  // The second member begins in the round in which the first has spent 25. At the end only the first is left.
   EXPECT_EQ(set.log.runs, (Runs{{0, 10}, {2, 30}, {0, 20}, {1, 20}, {0, 40}, {1, 25}, {0, 930}}));
 }
 
@@ -131,14 +133,14 @@ TEST(Portfolio, WhenMembersTakePart) {
   EXPECT_EQ(run_by({.least_depth = 3}, 2), -1);
   EXPECT_EQ(run_by({.least_depth = 3}, 3), 3);
   EXPECT_EQ(run_by({.least_depth = 3}, 0), 0);
-  // The block is 0.4 times as large as the tube, about.
+  // The block is about 0.4 times as large as the tube.
   EXPECT_EQ(run_by({.least_depth = 1, .least_depth_large = 3, .large = 0.2}, 2), -1);
   EXPECT_EQ(run_by({.least_depth = 1, .least_depth_large = 3, .large = 0.9}, 2), 2);
   EXPECT_EQ(run_by({.large = 0.2, .size = Size::small}, 0), -1);
   EXPECT_EQ(run_by({.large = 0.2, .size = Size::large}, 0), 0);
   EXPECT_EQ(run_by({.large = 0.9, .size = Size::small}, 0), 0);
   EXPECT_EQ(run_by({.large = 0.9, .size = Size::large}, 0), -1);
-  // The verifier has refused what the first has found, and it has nothing else.
+  // `when_refused` requires that the first member is exhausted and that the verifier has refused paths of it.
   EXPECT_EQ(run_by({.least_depth = 3, .when_refused = true}, 2, 0), -1);
   EXPECT_EQ(run_by({.least_depth = 3, .when_refused = true}, 2, 1), 0);
   EXPECT_EQ(run_by({.least_depth = 3, .when_refused = true}, 2, 1, false), -1);
@@ -205,7 +207,7 @@ TEST(Portfolio, EachMemberResumesWhereItHadStopped) {
   }
 }
 
-/// Whether or not a thread was idle.
+/// The result is the same whether or not a thread was idle.
 TEST(Portfolio, TheSameWithIdleThreads) {
   Rng rng(7);
   for (int round = 0; round < 100; ++round) {

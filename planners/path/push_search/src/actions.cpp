@@ -50,7 +50,7 @@ std::vector<Action> screw_actions(const World& world, double force, const Eigen:
 
 namespace {
 
-/// Body i alone is given a wrench: a force or a torque along `axis`.
+/// Gives body i a force or a torque along `axis`.
 void drive(Action& action, const World& world, std::size_t i, bool turns, const Vec3& axis) {
   Wrench& wrench = action.wrenches[i];
   (turns ? wrench.torque : wrench.force) = turns ? Vec3(world.torque_arm(i) * axis) : axis;

@@ -1,4 +1,4 @@
-// Macro motions: a screw is followed by geometry alone as far as it leads, and corrected where it runs into a surface.
+// Macro motions: a screw is followed by geometry alone as far as it is clear, and corrected where it meets a surface.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,7 +29,7 @@ Twist about(const Twist& twist, const Eigen::Vector3d& was, const Eigen::Vector3
 Search::Stretch Search::glide(const Twist& twist, const State& start, const State& origin, double clear,
                               std::uint32_t first) {
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
-  // A step that grows may pass a thin obstacle; the verifier sees it, and from then on steps do not grow.
+  // A long step may miss a thin obstacle. The verifier finds it, and from then on steps do not grow.
   const double growth = short_glides_ ? 0 : tactics_.glide_growth;
   double way = 0, wall = std::numeric_limits<double>::infinity();
   bool left_origin = false;
@@ -43,7 +43,7 @@ Search::Stretch Search::glide(const Twist& twist, const State& start, const Stat
       wall = way + step;
       continue;
     }
-    // Separation and known states are tested as often as if every step had been short: a bent tube leads back in.
+    // Separation and known states are tested at short distances in long steps, too: a bent tube may lead back in.
     const int pieces = static_cast<int>(std::ceil(step / glide_step()));
     for (int k = 1; k <= pieces; ++k) {
       const double along = way + k * step / pieces;
@@ -57,7 +57,7 @@ Search::Stretch Search::glide(const Twist& twist, const State& start, const Stat
   }
 }
 
-/// Moves the run along the screw. Instants and states are as dense as if every step had been short.
+/// Moves the run along the screw. Instants and states are recorded at short distances, whatever the steps of glide().
 void Search::record(const Twist& twist, double way, unsigned depth, Run& run) {
   const State start = run.state;
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
@@ -76,9 +76,9 @@ void Search::record(const Twist& twist, double way, unsigned depth, Run& run) {
   run.length += way;
 }
 
-/// Follows a screw. Where it is blocked, the part is moved away from its contacts a little before, the screw is fitted
-/// to that pose, and the part restarts from where it began: a thread is one screw, and the verifier proves one screw
-/// with the least effort. Where the new screw leads no further the surface has no single screw, as a bent tube: the
+/// Follows a screw. Where it is blocked, the part goes back a little and is moved away from its contacts. The screw is
+/// fitted to that pose, and the part restarts from its first pose: a thread is one screw, which the verifier proves
+/// with the least effort. If the new screw leads no further, the surface has no single screw (a bent tube), and the
 /// curve is followed piece by piece. The rest is simulated with a wrench that rotates with the part.
 Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned depth, PathResult& result) {
   const State origin = nodes_[static_cast<std::size_t>(from)].state;
@@ -95,7 +95,7 @@ Search::RunEnd Search::follow_screw(std::int32_t from, Twist twist, unsigned dep
   State room = run.state, stuck = run.state;
   twist = about(twist, center_of(origin), center_of(run.state));
   Twist best_twist = twist, from_room = twist;
-  double best = 0;  // of all screws from run.state
+  double best = 0;  // longest clear length of the screws from run.state
   while (true) {
     const Stretch glided = glide(twist, run.state, origin, best, first);
     if (glided.end == GlideEnd::stop) return RunEnd::stop;

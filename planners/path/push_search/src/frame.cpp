@@ -16,7 +16,7 @@ using geometry::FaceAxis;
 std::vector<FaceAxis> facings(const Assembly& assembly, const std::vector<PlacedPart>& parts) {
   std::vector<FaceAxis> all;
   for (const PlacedPart& p : parts) {
-    if (p.part >= assembly.parts.size()) continue;  // a world may move what has no mesh
+    if (p.part >= assembly.parts.size()) continue;  // a world may move parts without a mesh
     const Mesh& mesh = *assembly.parts[p.part].mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Vec3 n = p.pose.q * geometry::area_vector(mesh, t);
@@ -27,7 +27,7 @@ std::vector<FaceAxis> facings(const Assembly& assembly, const std::vector<Placed
   return all;
 }
 
-/// The axis with most area among those that are square to `to` (zero: all); zero when there is none.
+/// The axis with the most area among those perpendicular to `to` (zero: among all); zero if there is none.
 Vec3 main_axis(const std::vector<FaceAxis>& all, const Vec3& to, double facet_angle) {
   std::vector<FaceAxis> axes;
   for (const FaceAxis& f : all)

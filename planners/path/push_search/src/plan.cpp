@@ -9,7 +9,7 @@
 namespace dismantle::push {
 namespace {
 
-/// The result of the later search, with what the earlier one has counted and touched.
+/// The result of the later search, with the statistics and obstacles of the earlier one.
 PathResult merged(const PathResult& earlier, PathResult later) {
   later.stats += earlier.stats;
   for (const PartId part : earlier.blocked_by)
@@ -19,7 +19,7 @@ PathResult merged(const PathResult& earlier, PathResult later) {
   return later;
 }
 
-/// What an earlier search in that space has reached; null where there was none.
+/// The tree of an earlier search in that motion space; null if there is none.
 const Tree* reached_in(const PathQuery& query, MotionSpace space) {
   const auto* reached = dynamic_cast<const Reached*>(query.resume_from);
   if (reached == nullptr) return nullptr;
@@ -27,7 +27,7 @@ const Tree* reached_in(const PathQuery& query, MotionSpace space) {
   return tree ? &*tree : nullptr;
 }
 
-/// True for searches of one part that follow screws: they ask first whether nothing but a screw leads on.
+/// True for searches with `motion: auto` that follow screws: they first test whether only a screw leads out.
 bool may_screw(const PathQuery& query, const Tactics& tactics) {
   return tactics.motion == Motion::automatic && query.goal.any_of.empty() && !tactics.turning.empty() &&
          tactics.turning.front() == Stage::twists;
@@ -39,12 +39,12 @@ Search begun(const PathQuery& query, MotionSpace space, const Tactics& tactics, 
   return search;
 }
 
-/// What is left until a pause after `used` of it. At least one state, so that a search advances; 0 = no pause.
+/// The rest of `pause_after` once `used` is spent. At least 1, so that the search advances; 0 = no pause.
 std::uint64_t rest_of_pause(std::uint64_t pause_after, std::uint64_t used) {
   return pause_after == 0 ? 0 : std::max<std::uint64_t>(pause_after - std::min(pause_after, used), 1);
 }
 
-/// It ended without a path, but neither by a limit of time nor of steps.
+/// The search ended without a path, but not because of a limit of time or steps.
 bool ended_without_path(const PathResult& result) {
   return result.outcome() == Outcome::exhausted || result.outcome() == Outcome::depth_limit;
 }
@@ -110,10 +110,10 @@ std::shared_ptr<const Reached> ByTurns::reached() const {
   return reached;
 }
 
-/// Under a depth limit the sequence planner asks for all parts in turn: most of them are blocked, and the search has to
-/// end soon. A part can slide or rotate in its play for long, so simulated steps are limited, too. Where parts move
-/// independently, a state has many more actions, so only simulated steps are counted, and rotation is searched from the
-/// first level on, because one of the parts mostly rotates.
+/// Under a depth limit the sequence planner asks for all parts in turn. Most of them are blocked, so the search has to
+/// end soon. A part can slide or rotate in its play for a long time, so simulated steps are limited, too. Where parts
+/// move independently, a state has many more actions, so only simulated steps are limited; and rotation is searched
+/// from the first level on, because usually one of the parts rotates.
 std::vector<ContactSearch::Leg> ContactSearch::legs_of(const PathQuery& query, const Tactics& tactics) {
   if (tactics.motion != Motion::automatic)
     return {{tactics.motion == Motion::translation ? MotionSpace::translation : MotionSpace::rigid}};
@@ -121,11 +121,11 @@ std::vector<ContactSearch::Leg> ContactSearch::legs_of(const PathQuery& query, c
   const auto level = static_cast<std::uint64_t>(depth);
   const std::uint64_t share = static_cast<std::uint64_t>(tactics.level_steps) * level;
   if (!query.goal.any_of.empty()) {
-    const unsigned rank = 1 + depth / 2;  // one driven, and two along one axis;
-                                          // from the second level on across, too
+    const unsigned rank = 1 + depth / 2;  // one driven, and two along one axis; from the
+                                          // second level on also two across
     return {{MotionSpace::translation, rank, 0, share}, {MotionSpace::rigid, rank, 0, share}};
   }
-  // The rank: at the first level what the contacts leave free, and the axes.
+  // The rank is limited to the depth: at the first level, free directions and axes.
   std::vector<Leg> legs{
       {MotionSpace::translation, depth, static_cast<std::uint64_t>(tactics.translation_nodes) * level, share}};
   if (depth > 1)
@@ -167,7 +167,7 @@ SearchStatus ContactSearch::run(const Budget& portion) {
   return only_the_portion ? SearchStatus::paused : status_of(now_.outcome());
 }
 
-/// Where nothing but a screw leads out, a leg for that comes before the others.
+/// If only a screw leads out, a leg for screws comes before the others.
 void ContactSearch::put_screws_first() {
   if (std::exchange(asked_for_screws_, true) || legs_.empty() || !may_screw(query_, tactics_)) return;
   const Leg translation = legs_.front();
@@ -178,7 +178,7 @@ void ContactSearch::put_screws_first() {
     begin_leg(translation, std::move(search));
 }
 
-/// One after the other, the first that finds something ending it.
+/// Runs the legs in order. Only a leg that is exhausted is followed by the next one.
 SearchStatus ContactSearch::run_legs(Search::Limits limits) {
   put_screws_first();
   const double begin = now_.stats.cost;
@@ -190,7 +190,7 @@ SearchStatus ContactSearch::run_legs(Search::Limits limits) {
     ended_ = now_;
     limits.pause_after = rest_of_pause(pause_after, static_cast<std::uint64_t>(now_.stats.cost - begin));
     any_ = true;
-    // What cannot move may still be turned, which the first level leaves out.
+    // A part that cannot translate may still rotate, which the first level does not search.
     if (legs_.empty() && tactics_.motion == Motion::automatic && query_.budget.max_depth == 1 &&
         query_.goal.any_of.empty())
       now_.fail(Outcome::depth_limit);
@@ -199,13 +199,13 @@ SearchStatus ContactSearch::run_legs(Search::Limits limits) {
 }
 
 void ContactSearch::begin_leg(const Leg& leg, Search search) {
-  if (leg.space == MotionSpace::rigid && reached_->rigid) search.resume(*reached_->rigid);  // of the leg for screws
+  if (leg.space == MotionSpace::rigid && reached_->rigid) search.resume(*reached_->rigid);  // tree of the screw leg
   current_.emplace(std::move(search));
   if (leg.share) share_left_ = share_ = *leg.share - std::min(current_->spared(), *leg.share / 2);
 }
 
-/// A leg that ends because it has had its share may be resumed. The work that an earlier search has saved counts, up to
-/// a half. `exhausted`: the next leg follows.
+/// A leg that ends because its share is used up can be resumed. Work saved by resuming counts, up to half of the share.
+/// `exhausted`: the next leg follows.
 SearchStatus ContactSearch::run_leg(const Leg& leg, Search::Limits limits) {
   if (!current_) begin_leg(leg, begun(query_, leg.space, tactics_, context_));
   limits.rank = leg.rank;
@@ -230,10 +230,10 @@ SearchStatus ContactSearch::run_leg(const Leg& leg, Search::Limits limits) {
   return status;
 }
 
-/// What the current leg has reached.
+/// Keeps the tree of the current leg.
 void ContactSearch::keep_tree() {
   if (!current_) return;
-  if (reached_.use_count() > 1) reached_ = std::make_shared<Reached>(*reached_);  // results are immutable
+  if (reached_.use_count() > 1) reached_ = std::make_shared<Reached>(*reached_);  // results must not change afterwards
   (legs_.front().space == MotionSpace::translation ? reached_->translation : reached_->rigid) = current_->tree();
 }
 

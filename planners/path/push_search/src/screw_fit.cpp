@@ -7,7 +7,7 @@
 namespace dismantle::push {
 namespace {
 
-/// Half turns with a smaller sine do not tell their axis.
+/// If the sine of half the rotation angle is smaller, the rotation does not determine its axis.
 constexpr double kTellsAxis = 0.3;
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace dismantle::push {
 namespace {
 
 bool same_path(const Path& a, const Path& b) {
-  const double same = std::sqrt(geometry::kRounding);  // simulated twice, in the same way
+  const double same = std::sqrt(geometry::kRounding);  // repeated simulations differ by rounding only
   if (a.size() != b.size()) return false;
   for (std::size_t k = 0; k < a.size(); ++k)
     for (std::size_t i = 0; i < a[k].size(); ++i)
@@ -76,12 +76,12 @@ std::int32_t Search::add_node(std::int32_t parent, unsigned depth, const State& 
 unsigned Search::rank(const Node& node) const {
   const auto lag = static_cast<unsigned>(tactics_.middle_lag);
   unsigned stage = static_cast<unsigned>(node.stage) + (node.middle ? lag : 0);
-  // Motions of one part alone are the subject of other queries.
+  // Other queries search for motions of a single part.
   if (!query_.goal.any_of.empty() && node.parent >= 0 && way_from_start(node.state) < tactics_.similarity_translation)
     stage += lag;
   if (!tactics_.novelty) return stage;
   const auto near = static_cast<unsigned>(places_.count_similar(node.state));
-  // A state is in its own place once it has been searched from.
+  // `near` includes the state itself once it has been expanded.
   return stage + near - (node.stage > 0 && near > 0 ? 1 : 0);
 }
 
@@ -106,7 +106,7 @@ Path Search::path_to(std::int32_t node) const {
   return path;
 }
 
-/// The fixed parts that are touched there.
+/// The fixed parts that the moving parts touch in this state; counts them.
 std::vector<PartId> Search::note_contacts(const State& state) {
   std::vector<Contact> contacts;
   world_->contacts(state, contacts);
@@ -131,7 +131,7 @@ bool Search::out_of_budget() const {
 Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult& result) {
   Path path = path::thin(path_to(last), bodies_, tactics_.thinning);
   for (const Path& refused : refusals_)
-    if (same_path(refused, path)) return RunEnd::blocked;  // what the checker said of it could not be learned
+    if (same_path(refused, path)) return RunEnd::blocked;  // the world could not learn from the earlier refusal
   std::uint64_t refused_forms = 0;
   PathCheck first;
   const auto form = [&](std::size_t k) -> std::optional<Path> {
@@ -139,7 +139,7 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
     return k == 1 && !query_.goal.any_of.empty() ? std::optional(with_room(path)) : std::nullopt;
   };
   const auto learn = [&](const PathCheck& check, const Path&) {
-    if (refused_forms == 1) first = check;  // with room it is not the path of these states any more
+    if (refused_forms == 1) first = check;  // the second form is not the path of these states any more
     return true;
   };
   const auto accept = [&](VerifiedPath verified) {
@@ -156,11 +156,11 @@ Search::RunEnd Search::verify(std::int32_t last, const State& start, PathResult&
   return RunEnd::refused_learned;
 }
 
-/// Applies one action from a node until the state is out, moves no more, or (turning) is similar to a past one.
+/// Applies one action from a node until the part is separated, stops, or (turning) is similar to a known state.
 Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage stage, unsigned depth,
                               PathResult& result) {
   const auto first_of_run = static_cast<std::uint32_t>(nodes_.size());
-  // A part that leans passes places that were seen from the middle of their room: it goes on, but round only once.
+  // A leaning part passes close to states that are known already: its run continues, but for one turn at most.
   const bool leans = turning() && stage == Stage::leaning;
   const path::StateSet& known = leans ? fine_ : seen_;
   double turned = 0;
@@ -168,7 +168,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
   const State start = state;
   std::int32_t last = from;
   bool left_start = false;
-  std::uint32_t left_behind = first_of_run;  // states of this run before that one are not near any more
+  std::uint32_t left_behind = first_of_run;  // the run has moved away from its states before this one
   Path way;                                  // since `last`
   while (true) {
     if (out_of_budget()) return RunEnd::stop;
@@ -183,8 +183,8 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
       return verify(add_node(last, depth, state, std::move(way), false), start, result);
     bool ended = report.stalled;
     if (turning()) {
-      // The start of the run is a past state too, but only once the run has left it.
-      // So are states of the run itself: else a part that rotates freely would never stop.
+      // The start and the other states of the run count as known only after the run has left them. They have to count,
+      // because otherwise a freely rotating part would never stop.
       const auto size = static_cast<std::uint32_t>(nodes_.size());
       left_start = left_start || !known.similar(state, start);
       if (leans) {
@@ -206,7 +206,7 @@ Search::RunEnd Search::follow(std::int32_t from, const Action& action, Stage sta
   }
   const std::vector<PartId> touched = note_contacts(state);
   if (fine_.similar(state, nodes_[static_cast<std::size_t>(last)].state)) {
-    // Nothing is gained since the last recorded state: that one is the end of the run.
+    // No progress since the last recorded state, which therefore is the end of the run.
     note_touched(last, touched);
     if (last == from) return RunEnd::blocked;
     Node& end = nodes_[static_cast<std::size_t>(last)];
@@ -283,7 +283,7 @@ Search::RunEnd Search::expand(std::int32_t id, PathResult& result) {
     for (const Action& action : actions_at(nodes_[static_cast<std::size_t>(id)], stages_[stage]))
       if (over(end = follow(id, action, stages_[stage], depth, result))) break;
   }
-  if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // a resumed search does the rest
+  if (end == RunEnd::stop) nodes_[static_cast<std::size_t>(id)].stage = stage;  // a resumed search repeats it
   if (over(end)) return end == RunEnd::blocked ? RunEnd::refused : end;
   nodes_[static_cast<std::size_t>(id)].work += steps_ + state_checks_ - before;
   if (stage + 1 < stages_.size()) enqueue(id);
@@ -303,7 +303,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
     waiting_.erase(waiting_.begin());
     const Node& node = nodes_[static_cast<std::size_t>(next.node)];
     const unsigned now = rank(node);
-    if (now > next.rank) {  // its place has been searched from since
+    if (now > next.rank) {  // similar states have been expanded since
       waiting_.insert({now, next.depth, next.node});
       continue;
     }
@@ -314,7 +314,7 @@ Search::RunEnd Search::sweep(std::uint64_t expansions, PathResult& result) {
   return RunEnd::blocked;
 }
 
-/// Enqueues the states in the middle of the runs so far, when no other state waits. False when none of them is new.
+/// Called when no state waits: enqueues the states in the middle of runs. False if none of them is new.
 bool Search::take_up_middles() {
   passed_before_ += passed_.size();
   for (Middle& m : std::exchange(passed_, {}))
@@ -342,18 +342,18 @@ PathResult Search::run(const Limits& limits) {
     if (end == RunEnd::refused_learned || end == RunEnd::solved) break;
   }
   while (end != RunEnd::solved) {
-    // A strict world may leave a part room to move far.
+    // The number of states is limited, because a part may be able to move far in a strict world, too.
     const auto strict_nodes = static_cast<std::uint64_t>(tactics_.translation_nodes);
     const bool overlapping = may_relax_ && world_->overlap_is_local();
     end = sweep(overlapping ? std::min(limits.expansions - 1, strict_nodes - 1) + 1 : limits.expansions, result);
     if (end == RunEnd::refused_learned && refused_ <= static_cast<std::uint64_t>(tactics_.max_refusals)) {
-      reset();  // states found so far may have passed the same place
+      reset();  // states found so far may have passed through the same penetration
       continue;
     }
     if (end != RunEnd::blocked || !overlapping || paused_) break;
     world_->allow_overlap_everywhere();
     may_relax_ = false;
-    reset();  // the search restarts with all the overlap that the verifier allows
+    reset();  // the search restarts with the overlap that the verifier allows
   }
   if (end == RunEnd::solved) {
     result.message.clear();

@@ -1,11 +1,11 @@
-// Where each part moves in its own way, until one of them is out.
+// Searches in which parts move independently until one of them is separated.
 #include <algorithm>
 
 #include "dismantle/push/search.h"
 
 namespace dismantle::push {
 
-/// Is one part separated from all others, or, without a goal of single parts, the group from the rest?
+/// True if a part of Goal::any_of is separated from all others or, without any_of, the group from the fixed parts.
 bool Search::out(const State& state) {
   if (query_.goal.any_of.empty()) return world_->separated(state);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -17,8 +17,8 @@ bool Search::out(const State& state) {
   return false;
 }
 
-/// Of the centre that came furthest. Each in its own way: of the part that came second furthest, turns included; where
-/// that is nothing, one part has moved alone.
+/// Displacement of the centre that has moved furthest. If parts move independently: of the part that has moved second
+/// furthest, rotation included; 0 if only one part has moved.
 double Search::way_from_start(const State& state) const {
   std::vector<double> ways;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -31,8 +31,8 @@ double Search::way_from_start(const State& state) const {
   return query_.goal.any_of.empty() ? ways.back() : ways[ways.size() - 2];
 }
 
-/// Parts that drive each other rub along their surfaces all the way, which is hard to prove harmless: the same path,
-/// smoother, with some room between them wherever there is any. Begin and end stay as they are.
+/// The same path, thinned, with clearance between the parts wherever possible: parts that drive each other stay in
+/// contact along the whole path, which is hard to verify. The first and the last instant do not change.
 Path Search::with_room(const Path& rubbing) {
   Path path = path::thin(rubbing, bodies_, touch_distance());
   for (std::size_t k = 1; k + 1 < path.size() && !out_of_budget(); ++k) {

@@ -1,4 +1,4 @@
-// Going on from what an earlier search has reached.
+// Resuming from the tree of an earlier search.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -20,9 +20,9 @@ Tree Search::tree() const {
   return tree;
 }
 
-/// A run that ended at parts that are still there would most likely end there again. One that ended at a part that is
-/// not there any more may lead on now, from where it ended: that state is given all its actions again, as if it were
-/// new. All other states keep the actions that they have had.
+/// A run that ended at parts that are still present would most likely end there again. A run that ended at a part that
+/// is absent now may lead further: the state at its end is given all its actions again, like a new state. All other
+/// states keep the stages that they have had.
 void Search::resume(const Tree& tree) {
   const std::vector<PartId> fixed = path::fixed_parts(query_.scene);
   std::vector<PartId> left;
@@ -57,14 +57,14 @@ void Search::resume(const Tree& tree) {
     spared_ += node.work;
   }
   resumed_ = nodes_.size();
-  for (std::size_t id = 0; id < nodes_.size(); ++id)  // whose places have all been noted by now
+  for (std::size_t id = 0; id < nodes_.size(); ++id)  // ranks depend on all expanded states
     if (nodes_[id].may_wait && nodes_[id].stage < stages_.size()) enqueue(static_cast<std::int32_t>(id));
   passed_ = tree.passed;
   passed_before_ = tree.passed_before;
 }
 
-/// States taken over that are out, now that others are; those with the fewest actions first, no more than may be
-/// refused.
+/// States of the resumed tree that are separated now that other parts have left. Those with the fewest actions come
+/// first; no more than the verifier may refuse.
 std::vector<std::int32_t> Search::out_by_now() {
   std::vector<std::int32_t> all;
   if (!std::exchange(others_left_, false)) return all;

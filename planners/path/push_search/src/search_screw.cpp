@@ -11,10 +11,11 @@
 
 namespace dismantle::push {
 
-/// How far along the screw the hulls are apart, were nothing in the way; roughly, infinite if they never are.
+/// Approximate length along the screw after which the hulls are disjoint, without obstacles; infinite if they never
+/// are.
 double Search::way_out(const State& from, const Twist& twist, const Eigen::Vector3d& center) {
-  // A part that advances by less than the tolerance in a turn does not leave by that, but may be out for a part of the
-  // turn.
+  // An advance of less than the tolerance per turn does not separate the part, but the rotation may, for a part of the
+  // turn: one turn is examined.
   const bool turns = !twist.angular.isZero(0);
   const double turn = turns ? 2 * std::numbers::pi / twist.angular.norm() : 0;
   const double advance = turns ? std::abs(twist.linear.dot(twist.angular.normalized())) : twist.linear.norm();
@@ -33,8 +34,8 @@ double Search::way_out(const State& from, const Twist& twist, const Eigen::Vecto
   return std::numeric_limits<double>::infinity();
 }
 
-/// What the bodies touch when they are pushed along each axis, as if they touched it where they are: a part that stands
-/// free in its play touches nothing, though the surfaces around guide it.
+/// Pushes the bodies along each axis and adds the contacts found there, moved back to `state`: a part with clearance on
+/// all sides touches nothing, although the surfaces around guide it.
 void Search::add_contacts_of_pushes(const State& state, std::vector<Contact>& contacts) {
   std::vector<Contact> there;
   for (const Action& action : unit_actions(*world_, tactics_.force, false, axes_)) {
@@ -57,7 +58,7 @@ void Search::add_contacts_of_pushes(const State& state, std::vector<Contact>& co
   }
 }
 
-/// Along what the contacts let slip, both ways, the shorter way out first.
+/// Slippable motions along the contacts, in both directions, the shortest way out first.
 std::vector<Twist> Search::twists_at(const Node& node) {
   const Eigen::Vector3d center = node.state.bodies[0].pose * bodies_[0].center;
   const double arm = world_->torque_arm(0);
@@ -80,7 +81,7 @@ std::vector<Twist> Search::twists_at(const Node& node) {
   return twists;
 }
 
-/// The wrench that drives the bodies along a screw from where they are, turning with them.
+/// Wrenches that drive the bodies from `state` along a screw. They rotate with the bodies.
 Action Search::along(const Twist& twist, const State& state, const Eigen::Vector3d& lean) const {
   Action action;
   action.in_body_frame = true;
@@ -95,8 +96,8 @@ Action Search::along(const Twist& twist, const State& state, const Eigen::Vector
   return action;
 }
 
-/// All that the contacts where the query begins leave free turns, and one of these motions leads out: nothing but a
-/// screw will do. What stands free in its play, and what can be pushed somewhere, is not asked further.
+/// At the start of the query, every motion that the contacts guide has a rotation, and one of them separates the part.
+/// False without further tests for parts that touch nothing or can translate.
 bool Search::screw_leads_out() {
   const State start = world_->initial_state();
   const Eigen::Vector3d center = start.bodies[0].pose * bodies_[0].center;
@@ -111,7 +112,7 @@ bool Search::screw_leads_out() {
   });
 }
 
-/// Along the turns that the contacts leave free, while leaning along their axes: the way to find a slot there.
+/// Rotations that the contacts allow, with pressure along their axes in both directions, to find a slot there.
 std::vector<Action> Search::leaning_turns(const Node& node) {
   std::vector<Action> actions;
   for (const Twist& twist : twists_at(node)) {

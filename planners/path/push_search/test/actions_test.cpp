@@ -1,4 +1,4 @@
-/// Laws of proposals: turned input gives turned proposals.
+/// Laws of proposals: they rotate with the input.
 #include "dismantle/push/actions.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-/// A simulator whose worlds are mazes for a point: answers are known without any physics.
+/// A simulator whose worlds are mazes for points: the answers are known without physics.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,17 +20,16 @@ namespace dismantle::push::test {
 
 using Eigen::Vector3d;
 
-/// Free space, as a union of boxes. A point outside of `exit` is out.
+/// Free space, as a union of boxes. A point outside `exit` is separated.
 struct Maze {
   std::vector<Aabb> free{};
   Aabb exit{Vector3d::Constant(-5), Vector3d::Constant(5)};
-  std::vector<Aabb> free_after_learning{};  ///< empty: nothing to learn
+  std::vector<Aabb> free_after_learning{};  ///< after a contact sample; empty: as before
   double speed = 2.5;                       ///< units / s
   std::uint64_t steps_per_advance = 10;
-  /// Points that hold each other: is shown where a step would bring them, and may move those that nothing pushes;
-  /// false: nobody moves.
+  /// Couples points: gets the state after a step, and may move the points that have no wrench. False: no point moves.
   std::function<bool(State&, const Action&)> link{};
-  std::map<PartId, Aabb> gates{};  ///< closed while this part stay fixed
+  std::map<PartId, Aabb> gates{};  ///< closed while this part is fixed
   bool inside(const Vector3d& p, bool learned, const Scene& scene) const {
     if (gate_at(p, scene)) return false;
     for (const auto& box : learned && !free_after_learning.empty() ? free_after_learning : free)
@@ -44,7 +43,7 @@ struct Maze {
   }
 };
 
-/// What the planner did, counted by the worlds.
+/// Counts what the planner did in the worlds.
 struct Notes {
   std::uint64_t worlds = 0, advances = 0, steps = 0, learned = 0;
   std::function<void()> on_advance;
@@ -128,7 +127,7 @@ class MazeWorld final : public World {
   }
 
  private:
-  /// As far as it goes; along a wall if the wall is in the way.
+  /// Moves the point as far as it is free, along a wall if the wall blocks it.
   bool move(Vector3d& p, const Vector3d& way) const {
     const Vector3d before = p;
     if (maze_.inside(p + way, learned_, scene_)) {
@@ -137,7 +136,7 @@ class MazeWorld final : public World {
       for (int axis = 0; axis < 3; ++axis)
         if (const Vector3d next = p + way[axis] * Vector3d::Unit(axis); maze_.inside(next, learned_, scene_)) p = next;
     }
-    return (p - before).norm() > 1e-3 * way.norm();  // what creeps is stalled
+    return (p - before).norm() > 1e-3 * way.norm();  // a creeping point counts as stalled
   }
 
   const Maze& maze_;
@@ -183,7 +182,7 @@ inline Aabb tunnel(const Vector3d& from, const Vector3d& to, double half = 0.04)
   return box;
 }
 
-/// One search in a maze, with all that it said.
+/// One search in a maze, with its result and its candidate paths.
 struct MazeRun {
   PathResult result;
   std::vector<Path> checked;
@@ -198,8 +197,8 @@ inline Ruling accept(const Path&) {
   return ruling;
 }
 
-/// `moving` points start at the origin; part 9 stay fixed, and the gates that are `closed`. With `leaving` each goes
-/// its own way. Goes on from what was `reached`.
+/// `moving` points start at the origin. Part 9 is fixed, and so are the `closed` gates. With `leaving`, the points move
+/// independently. Resumes from `reached`.
 inline void search(MazeRun& run, const Maze& maze, const ParamSet& given = {}, const Budget& effort = {},
                    const Rule& rule = accept, RunContext context = {}, std::size_t moving = 1,
                    Capabilities has = {true, true, true, 4}, const char* planner = "bfs",

@@ -1,4 +1,4 @@
-/// Mazes made at random for tests of searches over pushes.
+/// Random mazes for tests of push searches.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace dismantle::push::test {
 
 inline constexpr PartId kNear = 10, kFar = 11;
 
-/// A random way of tunnels that turn at right angles and never meet, with a side branch to the wall at every bend; the
-/// last one leads out. Gates stand across one of the first tunnels and one of the last.
+/// A random chain of tunnels with bends at right angles that never meet, and a dead end at every bend. The last tunnel
+/// leads out. Gates block one of the first tunnels and one of the last.
 struct RandomMaze {
   Maze maze;
   unsigned bends = 0;

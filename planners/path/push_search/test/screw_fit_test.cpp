@@ -1,4 +1,4 @@
-// Two poses on a screw tell it, though what was known of it before is a little wrong.
+// Two poses on a screw determine it, even if the rough screw is slightly wrong.
 #include "dismantle/push/screw_fit.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(FittedScrew, GoesThroughAllPosesOfTheScrew) {
     const Pose from{any(rng), rotation_from_vector(any(rng))};
     const Vector3d center = 0.3 * any(rng);
     const double turned = rng.uniform(0.3, 60), radius = rng.uniform(0.3, 3);
-    if (std::abs(std::sin(turned / 2)) < 0.35) continue;  // the turn does not tell its axis
+    if (std::abs(std::sin(turned / 2)) < 0.35) continue;  // the rotation does not determine its axis
     ++told;
     const Pose to = screw(from, turned);
     const Screw off{(screw.axis + 0.03 * any(rng)).normalized(), screw.point + 0.1 * any(rng),

@@ -1,4 +1,4 @@
-// Which contacts tell the surfaces that guide a body.
+// Selection of the contacts with surfaces that guide a body.
 #include "dismantle/push/touching_surfaces.h"
 
 #include <gtest/gtest.h>

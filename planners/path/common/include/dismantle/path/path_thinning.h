@@ -1,4 +1,4 @@
-/// Simulated paths carry a pose per time step; most of them lie on straight or screw motions.
+/// Thinning of simulated paths: they have a pose per time step, and most of these lie on straight or screw motions.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ struct Ball {
   double radius = 0;
 };
 
-/// Of the moving parts of a world. The radius is 0 where they do not turn.
+/// Balls of the moving parts of a world. The radius is 0 if the motion space has no rotation.
 std::vector<Ball> balls_of(const World& world);
 
-/// The largest turn, in rad, that thin() leaves between two instants: small ones are verified in far less time than
-/// large ones.
+/// Largest rotation (rad) between two instants for which thin() drops those in between: small rotations are verified in
+/// far less time.
 constexpr double kMostTurn = 0.25;
 
 /// Drops instants that the screw motions between the instants kept reproduce to within `tolerance`

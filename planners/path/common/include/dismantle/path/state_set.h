@@ -18,7 +18,7 @@ class StateSet {
 
   void add(const State& state, std::uint32_t label);
   void clear();
-  /// True when a state is similar whose label lies outside [first, last) (own run: labels are given in order).
+  /// True if a similar state has a label outside [ignore_first, ignore_last). A run ignores its own labels in this way.
   bool has_similar(const State& state, std::uint32_t ignore_first = 0, std::uint32_t ignore_last = 0) const;
   std::size_t count_similar(const State& state) const;
   bool similar(const State& a, const State& b) const;

@@ -9,7 +9,7 @@
 
 namespace dismantle::path {
 
-/// Fixed parts sorted by the number of touches, most first; equal ones by number.
+/// Fixed parts sorted by descending number of touches; ties by part id.
 std::vector<PartId> most_touched(const std::map<PartId, std::uint64_t>& touched, const std::vector<PlacedPart>& moving);
 
 /// Fixed parts of the contacts that are nearer than `distance`, ascending, without repetition.

@@ -19,22 +19,22 @@ namespace dismantle::free_space {
 /// units.
 class NavigationFunction {
  public:
-  /// `ball`: radius of the ball that has to pass. It may be one cell wider than its route.
+  /// `ball`: radius of the ball that has to pass. It may exceed the clearance of a route by one cell.
   NavigationFunction(const Assembly& assembly, const std::vector<PlacedPart>& fixed, double ball,
                      const GridParameters& parameters);
 
   double cell() const { return cell_; }  ///< edge of a cell
   /// Length of the route to the outside; negative outside of the grid. A point that is not in a free cell with a route
-  /// has the length of the nearest such cell and GridParameters::blocked_length more for each cell up to there.
+  /// gets the length of the nearest such cell, plus GridParameters::blocked_length for each cell up to there.
   double remaining(const Eigen::Vector3d& p) const;
-  /// Number of cells from the cell of `p` to the nearest one with a route; 0: it has one itself.
+  /// Number of cells from the cell of `p` to the nearest one with a route; 0: the cell itself has one.
   unsigned cells_to_route(const Eigen::Vector3d& p) const;
   /// Centres of the cells along the route from the cell of `p`, that cell first. Empty: `p` is outside.
   std::vector<Eigen::Vector3d> route(const Eigen::Vector3d& p) const;
   /// A point on the route a few cells ahead, or outside; never `p` itself.
   Eigen::Vector3d lookahead(const Eigen::Vector3d& p) const;
-  /// Blocks the narrowest place within the first `reach` of the route from `p`, and computes all routes again: a ball
-  /// passes there, but the body did not. False when there is no such place.
+  /// Blocks the narrowest place within the first `reach` of the route from `p`, and computes all routes again. For
+  /// places where a ball passes but the body does not. False if there is no such place.
   bool close_narrowest(const Eigen::Vector3d& p, double reach);
 
  private:
@@ -56,7 +56,7 @@ class NavigationFunction {
   float blocked_length_;
   Aabb box_;
   double cell_ = 0;
-  std::uint16_t min_clearance_ = 1;  // of a free cell, in thirds of a cell
+  std::uint16_t min_clearance_ = 1;  // least clearance of a free cell, in thirds of a cell
   Index count_{};
   std::vector<std::uint16_t> clearance_;  // to the nearest cell with a surface, in thirds of a cell
   std::vector<std::uint32_t> cost_;       // of the route, in thirds of a cell that is far from walls

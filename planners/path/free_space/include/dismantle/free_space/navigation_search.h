@@ -17,8 +17,8 @@
 
 namespace dismantle::free_space {
 
-/// Is the moving group thinner than its initial overlap, so that it could pass through walls where that overlap is
-/// allowed?
+/// True if the moving group is thinner than its initial overlap: it could pass through walls where that overlap is
+/// allowed.
 bool thinner_than_overlap(const PathQuery& query, std::int64_t control_points = SearchParameters{}.control_points);
 
 /// The value of a pose is the mean of the navigation function over all control points of the body, or over the foremost
@@ -26,7 +26,7 @@ bool thinner_than_overlap(const PathQuery& query, std::int64_t control_points = 
 /// makes its value worse.
 class NavigationSearch final : public PathSearch {
  public:
-  /// When the search gives up. Unit of work: 1000 distance queries; a state check counts as a quarter at least.
+  /// Limits at which the search gives up. Unit of work: 1000 distance queries; a state check counts at least a quarter.
   struct Effort {
     double patience;   ///< work without progress, after which the narrowest place ahead is blocked
     unsigned detours;  ///< number of places that may be blocked
@@ -35,16 +35,16 @@ class NavigationSearch final : public PathSearch {
   NavigationSearch(const SearchParameters& parameters, const PathQuery& query, RunContext& context,
                    const Effort& effort, tolerant_walk::Overlap overlap, tolerant_walk::GeometryCache& cache);
 
-  /// Is there a route to the outside from most of the body? Without one nothing can be searched.
+  /// True if most of the body has a route to the outside. Otherwise no search is possible.
   bool has_route_out() const { return has_route_out_; }
-  /// Is the body separated at the start already?
+  /// True if the body is separated at the start already.
   bool starts_separated() { return tree_.separated(Pose{}); }
-  /// Outcomes as of tolerant_walk::RrtSearch. Resumes from PathQuery::resume_from if that is the state of such a
+  /// Outcomes: see tolerant_walk::RrtSearch. Resumes from PathQuery::resume_from if that is the state of such a
   /// search.
   SearchStatus run(const Budget& portion) override;
   PathResult result() override;
   std::uint64_t state_checks() const { return tree_.state_checks(); }
-  /// Until now the body was found to have some play at the start, and nothing more.
+  /// True as long as the body has shown no more than some play at the start.
   bool only_play() const { return only_play_; }
 
  private:
@@ -94,7 +94,7 @@ class NavigationSearch final : public PathSearch {
   std::vector<ProjectionCell> cells_;
   std::array<std::set<std::pair<double, std::uint32_t>>, kRanks> cells_by_score_;
   std::uint32_t best_ = 0;                           // the node that has come furthest
-  double best_remaining_ = 0, goal_checked_at_ = 0;  // remaining length: there; at the last check for the goal
+  double best_remaining_ = 0, goal_checked_at_ = 0;  // remaining length at `best_`, and at the last goal check
   Remaining least_{};                                // at the last progress
   double progress_at_ = 0;                           // work at the last progress
   std::uint64_t first_check_ = 0;                    // state checks and work at the start, or at the last refusal

@@ -35,7 +35,7 @@ struct SearchParameters : tolerant_walk::TreeParameters, GridParameters {
   }
 };
 
-/// Declares what bounds the search.
+/// Declares the limits of the search.
 template <class P>
 void describe_effort(Schema<P>& s) {
   using path::inherited;
@@ -49,7 +49,7 @@ void describe_effort(Schema<P>& s) {
         {.unit = "1",
          .min = 1,
          .max = 1e9,
-         .doc = "Advanced. After this many state checks a group that has come no further than `play` is given up. "
+         .doc = "Advanced. After this many state checks the search ends if the group has come no further than `play`. "
                 "Smaller: groups that are held cost less, but a hidden narrow exit is missed more often."});
   s.add("play", inherited<P>(&SearchParameters::play),
         {.unit = "radius",
@@ -60,17 +60,18 @@ void describe_effort(Schema<P>& s) {
         {.unit = "radius",
          .min = 0,
          .max = 1,
-         .doc = "Advanced. Displacement, in radii of the group, beyond which a group that is thinner than its initial "
-                "overlap is certainly not held, however little progress that was."});
-  s.add("min_progress", inherited<P>(&SearchParameters::min_progress),
-        {.unit = "1",
-         .min = 0,
-         .max = 1,
-         .doc = "Advanced. Share of the route, or one diameter of the group if that is less, that the search must have "
-                "come to take detours. Larger: it gives up sooner."});
+         .doc = "Advanced. A group thinner than its initial overlap is not held if its displacement exceeds this, in "
+                "radii of the group, however little progress it has made."});
+  s.add(
+      "min_progress", inherited<P>(&SearchParameters::min_progress),
+      {.unit = "1",
+       .min = 0,
+       .max = 1,
+       .doc = "Advanced. Progress that the search must have made before it takes detours: this share of the route, or "
+              "one diameter of the group if that is less. Larger: it gives up sooner."});
 }
 
-/// Declares what the grid is made of.
+/// Declares the parameters of the grid.
 template <class P>
 void describe_grid(Schema<P>& s) {
   using path::inherited;
@@ -78,8 +79,8 @@ void describe_grid(Schema<P>& s) {
         {.unit = "1",
          .min = 1000,
          .max = 1e8,
-         .doc = "About this many cells are laid over the box of the fixed parts to find free space. More: narrower "
-                "gaps are seen; time and memory grow in proportion."});
+         .doc = "Approximate number of cells of the grid over the box of the fixed parts. More: narrower gaps are "
+                "found; time and memory grow in proportion."});
   s.add("wall_cost", inherited<P>(&GridParameters::wall_cost),
         {.unit = "cell",
          .min = 0,
@@ -90,8 +91,8 @@ void describe_grid(Schema<P>& s) {
         {.unit = "cell",
          .min = 1,
          .max = 1e6,
-         .doc = "Advanced. Additional length of a route for each cell up to the nearest free one. Larger: control "
-                "points leave walls before they follow the route."});
+         .doc = "Advanced. Additional length of a route for each cell from inside a wall to the nearest free cell. "
+                "Larger: control points leave walls before they follow the route."});
 }
 
 /// Declares how the tree grows.
@@ -103,7 +104,7 @@ void describe_growth(Schema<P>& s) {
          .min = 4,
          .max = 1000,
          .doc = "Advanced. Points of the group at which the navigation function is evaluated, at least four for each "
-                "part. More: bodies of intricate shape are guided better, each step costs more."});
+                "part. More: bodies of intricate shape are guided better, but each step costs more."});
   s.add("descent_bias", inherited<P>(&SearchParameters::descent_bias),
         {.unit = "1",
          .min = 0,

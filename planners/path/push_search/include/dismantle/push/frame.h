@@ -1,4 +1,4 @@
-/// Axes and extents that turn with the assembly.
+/// Axes and extents that rotate with the assembly.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,21 +8,21 @@
 
 namespace dismantle::push {
 
-/// Columns: three orthonormal axes (right-handed, world) told by the parts alone: the normal of most of the surface of
-/// the moving parts, then the one of most surface among those square to it, of the moving parts or else of those that
-/// stay fixed. Round parts without a second one: towards the point furthest from the first axis. Turned input gives
-/// turned axes, up to their signs, and the order of axes that have equally much surface.
+/// Columns: three orthonormal axes (right-handed, world frame) that depend on the parts only. The first is the normal
+/// with the most area on the moving parts. The second is the one with the most area among the normals perpendicular to
+/// it, of the moving parts or else of the fixed parts; if there is none, it points to the vertex furthest from the
+/// first axis. A rotated assembly has rotated axes, up to their signs and up to the order of axes with equal area.
 ///
-/// Normals closer than `facet_angle` (rad) belong to one axis, and two are square to each other within it.
+/// Normals closer than `facet_angle` (rad) belong to one axis; normals are perpendicular to within the same angle.
 Eigen::Matrix3d own_axes(const Assembly& assembly, const Scene& scene, double facet_angle);
 
 /// Bounding boxes of the moving and of the fixed parts along given axes.
 class Extents {
  public:
   Extents(const Assembly& assembly, const Scene& scene, const Eigen::Matrix3d& axes);
-  /// How far the moving parts have to go along `direction` (world, unit) until the boxes are apart; infinite for none.
+  /// Distance along `direction` (world, unit) after which the boxes are disjoint; infinite for a zero direction.
   double way_out(const Eigen::Vector3d& direction) const;
-  /// The diagonals of both: parts whose boxes overlap are separated by a translation of this length.
+  /// Sum of the diagonals of both boxes: a translation of this length separates boxes that overlap.
   double longest_way_out() const;
 
  private:

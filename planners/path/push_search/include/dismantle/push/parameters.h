@@ -1,4 +1,4 @@
-/// Declarations of the parameters that planners searching over pushes have.
+/// Declares the parameters of the planners that use the push search.
 #pragma once
 
 #include "dismantle/parameters.h"
@@ -7,7 +7,7 @@
 
 namespace dismantle::push {
 
-/// Declares the first of them, for a struct that derives from SearchParameters.
+/// Declares the first group of parameters, for a struct that derives from SearchParameters.
 template <class P>
 void describe_search(Schema<P>& s) {
   using path::inherited;
@@ -36,22 +36,20 @@ void describe_search(Schema<P>& s) {
          .doc = "States are similar if their orientations also differ by less than this (table 6)."});
 }
 
-/// Declares the others; they come after the actions of the planner itself.
+/// Declares the other search parameters. Call it after the planner has declared its own kinds of actions.
 template <class P>
 void describe_effort(Schema<P>& s) {
   using path::inherited;
-  s.add(
-      "diagonals", inherited<P>(&SearchParameters::diagonals),
-      {.doc =
-           "When the unit actions are exhausted, also push along the 20 diagonals; with rotation, apply a torque and a "
-           "force along its axis together."});
-  s.add(
-      "intermediate", inherited<P>(&SearchParameters::intermediate),
-      {.unit = "1",
-       .min = 0,
-       .max = 1e6,
-       .doc = "States in the middle of runs to search from when their ends are exhausted (turning: any number above 0 "
-              "means all of them, after the ends of the same depth)."});
+  s.add("diagonals", inherited<P>(&SearchParameters::diagonals),
+        {.doc = "When the unit actions are exhausted, also push along the 20 diagonals; with rotation, combine a "
+                "torque with "
+                "a force along its axis."});
+  s.add("intermediate", inherited<P>(&SearchParameters::intermediate),
+        {.unit = "1",
+         .min = 0,
+         .max = 1e6,
+         .doc = "Up to this many states in the middle of runs are expanded when the ends of runs are exhausted (with "
+                "rotation: any number above 0 means all of them, after the ends of the same depth)."});
   s.add("end_similarity", inherited<P>(&SearchParameters::end_similarity),
         {.unit = "similarity",
          .min = 1e-3,
@@ -62,8 +60,8 @@ void describe_effort(Schema<P>& s) {
         {.unit = "1",
          .min = 0,
          .max = 100,
-         .doc = "Advanced. States in the middle of runs, and states in which one part alone has moved where each moves "
-                "in its own way, wait as long as states that have had this many stages of actions."});
+         .doc = "Advanced. Number of stages of actions by which two kinds of states are delayed: those in the middle "
+                "of runs and, if parts move independently, those in which only one part has moved."});
   path::add_thinning(s, inherited<P>(&SearchParameters::thinning));
   s.add("max_refusals", inherited<P>(&SearchParameters::max_refusals),
         {.unit = "1", .min = 0, .doc = "Paths that the verifier may refuse before the search gives up."});
@@ -87,18 +85,18 @@ void describe_effort(Schema<P>& s) {
         {.unit = "max_penetration",
          .min = 0,
          .max = 100,
-         .doc = "Advanced. Distance that a part is moved away from what it touches, where there is room, before it "
-                "follows a screw, and on a path on which parts drive each other. As a multiple of "
+         .doc = "Advanced. Distance by which a part is moved away from its contacts, where possible, before it follows "
+                "a screw, and along a path on which parts drive each other. As a multiple of "
                 "verify.max_penetration."});
   s.add("touch_distance", inherited<P>(&SearchParameters::touch_distance),
         {.unit = "max_penetration",
          .min = 1e-3,
          .max = 0.9,
-         .doc = "Advanced. Surfaces that are nearer than this touch, and penetration up to this counts as none. As a "
-                "share of verify.max_penetration."});
+         .doc = "Advanced. Surfaces nearer than this count as touching, and penetration up to this counts as zero. As "
+                "a share of verify.max_penetration."});
 }
 
-/// Declares those of the actions that contacts propose.
+/// Declares the parameters of the actions that contacts propose.
 template <class P>
 void describe_proposals(Schema<P>& s) {
   using path::inherited;
@@ -106,48 +104,49 @@ void describe_proposals(Schema<P>& s) {
         {.unit = "similarity_translation",
          .min = 1,
          .max = 1000,
-         .doc = "Advanced. Under `novelty` states nearer to each other than this are alike, as a multiple of "
+         .doc = "Advanced. With `novelty`, states nearer to each other than this count as one place. As a multiple of "
                 "`similarity_translation`."});
-  s.add(
-      "facet_angle", inherited<P>(&ProposalParameters::facet_angle),
-      {.unit = "rad",
-       .min = 1e-4,
-       .max = 0.5,
-       .doc = "Advanced. Normals and directions that differ by less than this angle are one, and a direction may lead "
-              "into a contact by it. Round fits consist of facets; more than half the angle between two of them."});
+  s.add("facet_angle", inherited<P>(&ProposalParameters::facet_angle),
+        {.unit = "rad",
+         .min = 1e-4,
+         .max = 0.5,
+         .doc =
+             "Advanced. Normals and directions that differ by less than this angle count as equal, and a direction may "
+             "point into a contact by up to this angle. Set it to more than half the angle between two facets of a "
+             "round fit."});
   s.add("free_directions", inherited<P>(&ProposalParameters::free_directions),
         {.unit = "1",
          .min = 1,
          .max = 1000,
-         .doc = "Advanced. Most directions per state along which contacts let the part slide, the shortest way out "
-                "first."});
+         .doc = "Advanced. Largest number of directions per state along which the contacts let the part slide. Those "
+                "with the shortest way out come first."});
   s.add("lean", inherited<P>(&ProposalParameters::lean),
         {.unit = "1",
          .min = 0.01,
          .max = 1,
-         .doc = "Advanced. Share of the force with which a part is pressed against a wall while it slides along it, or "
+         .doc = "Advanced. Share of `force` that presses a part against a wall while it slides along the wall, or "
                 "along its axis while it turns."});
   s.add("glide_step", inherited<P>(&ProposalParameters::glide_step),
         {.unit = "max_penetration",
          .min = 1,
          .max = 1000,
-         .doc = "Advanced. First distance between two state checks along a screw, and distance of the poses of its "
-                "path, as a multiple of verify.max_penetration. Larger: fewer checks; thin obstacles are passed, which "
-                "the verifier refuses."});
+         .doc = "Advanced. First distance between two state checks along a screw, and distance between the poses of "
+                "its path, as a multiple of verify.max_penetration. Larger: fewer checks, but thin obstacles are "
+                "missed, and the verifier refuses the path."});
   s.add("glide_growth", inherited<P>(&ProposalParameters::glide_growth),
         {.unit = "1",
          .min = 0,
          .max = 1,
-         .doc = "Advanced. Distance between two state checks along a screw as a share of the length that was clear. "
+         .doc = "Advanced. Distance between two state checks along a screw, as a share of the clear length so far. "
                 "0: always `glide_step`."});
   s.add("glide_kept", inherited<P>(&ProposalParameters::glide_kept),
         {.unit = "1",
          .min = 0.01,
          .max = 1,
-         .doc = "Advanced. Share of the clear length at which a screw that is blocked is fitted anew."});
+         .doc = "Advanced. A blocked screw is fitted again at this share of its clear length."});
 }
 
-/// The last stages of both kinds.
+/// Adds the last stages of translation and of rotation.
 inline void add_diagonals(Tactics& t) {
   t.translating.push_back(Stage::diagonals);
   t.turning.push_back(Stage::screws);

@@ -1,4 +1,4 @@
-/// Contact search: a path planner's searches over pushes.
+/// Contact search: answers a path query by push searches in one or both motion spaces.
 #pragma once
 
 #include <functional>
@@ -12,22 +12,22 @@
 
 namespace dismantle::push {
 
-/// What the simulator has to be capable of.
+/// Capabilities that the simulator must have.
 Capabilities required();
-/// The query's simulator is capable of it.
+/// True if the query's simulator has these capabilities and can move all parts of the query.
 bool fits(const PathQuery& query);
 
-/// Search by translation and by rotation in turns of growing rank, until both are exhausted: what is new to each kind
-/// of motion comes before the rest of the other.
+/// Searches by translation and by rotation in turns of growing rank, until both are exhausted. So states of low rank in
+/// one motion space come before states of high rank in the other.
 class ByTurns {
  public:
-  /// All three outlive this.
+  /// All arguments outlive this.
   ByTurns(const PathQuery& query, const Tactics& tactics, RunContext& context);
 
-  /// Goes on where the last call stopped; Limits::rank is its own affair. `depth_limit`: it was paused.
+  /// Continues where the last call stopped. Ignores Limits::rank. Outcome `depth_limit`: paused.
   PathResult run(const Search::Limits& limits);
   bool paused() const { return paused_; }
-  /// What both have reached.
+  /// The search trees of both.
   std::shared_ptr<const Reached> reached() const;
 
  private:
@@ -36,20 +36,19 @@ class ByTurns {
   RunContext& context_;
   Search translation_;
   std::optional<Search> rotation_;
-  PathResult first_, second_;  ///< what each said last
+  PathResult first_, second_;  ///< last results of translation and of rotation
   unsigned rank_ = 0;
-  bool turning_ = false;             ///< whose turn it is
-  std::optional<bool> screw_first_;  ///< asked for when run() is called first; false once that turn is over
+  bool turning_ = false;             ///< the current turn is that of rotation
+  std::optional<bool> screw_first_;  ///< a turn for screws comes first; set by the first run(), false after that turn
   bool paused_ = false;
 };
 
-/// Searches in the motion space that the tactics name, or, with `motion: auto`,
-/// by translation and by rotation: in turns of growing rank until both are
-/// exhausted; under a depth limit one after the other, with a number of states
-/// for each. Resumes from PathQuery::resume_from where that is one of its own.
+/// Searches in the motion space that the tactics name. With `motion: auto`, searches by translation and by rotation: in
+/// turns of growing rank until both are exhausted or, under a depth limit, one after the other, each with a limited
+/// number of states. Resumes from PathQuery::resume_from if that is a Reached.
 class ContactSearch final : public PathSearch {
  public:
-  /// All outlive this. `between`: see Search::Limits; may be empty.
+  /// All arguments outlive this. `between`: see Search::Limits; may be empty.
   ContactSearch(const PathQuery& query, const Tactics& tactics, RunContext& context,
                 std::function<void()> between = {});
 
@@ -57,12 +56,12 @@ class ContactSearch final : public PathSearch {
   PathResult result() override;
 
  private:
-  /// One motion space, with its part of the effort.
+  /// The search in one motion space, with its limits.
   struct Leg {
     MotionSpace space = MotionSpace::translation;
     unsigned rank = ~0U;
     std::uint64_t expansions = 0;          ///< states, 0 = no limit
-    std::optional<std::uint64_t> share{};  ///< of the steps that are left: at most this number, or all
+    std::optional<std::uint64_t> share{};  ///< most steps that it may use; absent: all that are left
   };
   static std::vector<Leg> legs_of(const PathQuery& query, const Tactics& tactics);
   SearchStatus run_legs(Search::Limits limits);
@@ -78,19 +77,17 @@ class ContactSearch final : public PathSearch {
   Deadline deadline_;
   std::uint64_t steps_left_;
   std::optional<ByTurns> turns_;
-  std::vector<Leg> legs_;  ///< those still to come, the current one first; where
-                           ///< there are no turns
+  std::vector<Leg> legs_;  ///< not finished, the current one first; unused with `turns_`
   std::optional<Search> current_;
   bool asked_for_screws_ = false;
   std::uint64_t share_left_ = 0, share_ = 0;  ///< of the current leg
   bool any_ = false;                          ///< a leg has ended
   PathResult ended_,
-      now_;  ///< of the legs that have ended; with the current one
+      now_;  ///< results: of the legs that have ended; with the current one
   std::shared_ptr<Reached> reached_ = std::make_shared<Reached>();
 };
 
-/// A search as above, or one that is over because the simulator cannot do what
-/// it needs.
+/// A ContactSearch. If the simulator lacks a required capability, a search that has already ended with `unsupported`.
 std::unique_ptr<PathSearch> start(const PathQuery& query, const Tactics& tactics, RunContext& context,
                                   std::function<void()> between = {});
 

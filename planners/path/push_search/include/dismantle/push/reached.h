@@ -1,4 +1,4 @@
-/// What a search over pushes has reached, for one that resumes it.
+/// Search trees of a push search, kept so that a later search can resume from them.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace dismantle::push {
 
-/// A state of the search tree, and how it is reached.
+/// A state of the search tree, and the motion from its parent.
 struct Node {
   State state;
   std::int32_t parent = -1;
   unsigned depth = 0;             ///< actions from the start
-  Path way{};                     ///< instants after the parent's, this one's last
-  std::size_t stage = 0;          ///< the next to come
-  bool middle = false;            ///< of a run
-  bool may_wait = false;          ///< may be expanded; otherwise it is only a known state
-  std::vector<PartId> touched{};  ///< fixed parts that ended runs there; ascending
-  std::uint64_t work = 0;         ///< simulated steps and state checks of the runs from it
+  Path way{};                     ///< instants after the parent's, up to its own
+  std::size_t stage = 0;          ///< the next one to be applied
+  bool middle = false;            ///< in the middle of a run, not at its end
+  bool may_wait = false;          ///< may be expanded; otherwise only compared with new states
+  std::vector<PartId> touched{};  ///< fixed parts touched where runs ended in this state; ascending
+  std::uint64_t work = 0;         ///< simulated steps and state checks of the runs that began here
 };
 
-/// A state in the middle of a run that is no node yet.
+/// A state in the middle of a run that is not a node yet.
 struct Middle {
   std::int32_t from;
   unsigned depth;
@@ -32,7 +32,7 @@ struct Middle {
   Path way;
 };
 
-/// Of a search in one motion space.
+/// The search tree of one motion space.
 struct Tree {
   std::vector<PartId> fixed;  ///< ascending
   std::vector<Node> nodes;    ///< parents before their children
@@ -45,7 +45,7 @@ struct Tree {
 
 class Reached final : public SearchState {
  public:
-  std::optional<Tree> translation, rigid;  ///< absent: nothing was searched there
+  std::optional<Tree> translation, rigid;  ///< absent: this motion space was not searched
 };
 
 }  // namespace dismantle::push

@@ -8,11 +8,11 @@
 
 namespace dismantle::push {
 
-/// The screw that has led from `from` to `to` by a turn of about `turned` rad (right to within a half turn) about
-/// nearly `rough`. Where both poses are in the middle of their room it is closer to the truth than what contacts tell,
-/// and the longer the way, the closer. `local_center` in the frame of the part, where the velocity of the result
-/// belongs to; |linear| + radius |angular| = 1. Where the turn does not tell its axis (a whole number of half turns)
-/// that of `rough` is kept.
+/// The screw from `from` to `to`, with an axis near that of `rough` and a rotation of about `turned` rad (correct to
+/// within half a turn). If both poses are clear of the surfaces, it is more accurate than a screw fitted to contacts,
+/// and more so the longer the motion. The linear velocity of the result is that of `local_center` (frame of the part)
+/// at `to`; |linear| + radius |angular| = 1. If the rotation does not determine its axis (nearly a whole number of
+/// turns), the axis of `rough` is kept.
 geometry::Twist fitted_screw(const geometry::Twist& rough, const Pose& from, const Pose& to,
                              const Eigen::Vector3d& local_center, double radius, double turned);
 

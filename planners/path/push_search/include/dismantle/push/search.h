@@ -1,4 +1,4 @@
-/// Search over pushes in a simulator: Algorithm 1, and what else the tactics allow.
+/// Push search in a simulator: Algorithm 1 and its extensions.
 #pragma once
 
 #include <compare>
@@ -19,11 +19,11 @@ namespace dismantle::push {
 
 using geometry::Twist;
 
-/// One search in one motion space. States form a tree; each knows the instants that lead to it.
+/// One search in one motion space. States form a tree; each has the instants of the motion from its parent.
 ///
-/// A translating run ends where the part stops: under a constant force it cannot move in circles, and states in the
-/// middle of runs are expanded last. A run with rotation can, and often has to be stopped half-way: the state after
-/// each planning time step is a node, and the run ends at states that are known.
+/// A translating run ends where the part stops, because under a constant force it cannot move in circles. States in the
+/// middle of such runs are expanded last. A run with rotation can move in circles, and often has to be stopped
+/// half-way: the state after each planning time step is a node, and the run ends at known states.
 ///
 /// Best first: the rank of a state grows with the number of similar states that were expanded and with the number of
 /// stages of actions that it has had. States of equal rank are expanded in order of depth.
@@ -31,16 +31,16 @@ class Search {
  public:
   Search(const PathQuery& query, MotionSpace space, const Tactics& tactics, RunContext& context);
 
-  /// Before the first run(): begins with the states of an earlier search of the same moving parts from the same poses,
-  /// among these fixed parts and perhaps others. States where runs ended at those others are expanded again; no run is
-  /// repeated. `tree` is what tree() returned.
+  /// Call it before the first run(). The search begins with `tree`, the result of tree() of an earlier search with the
+  /// same moving parts, the same poses, and these fixed parts and perhaps others. States where runs ended at those
+  /// other parts are expanded again; other runs are not repeated.
   void resume(const Tree& tree);
-  /// What has been reached so far.
+  /// The search tree so far.
   Tree tree() const;
-  /// Simulated steps and state checks that resume() saves.
+  /// Simulated steps and state checks saved by resume().
   std::uint64_t spared() const { return spared_; }
 
-  /// True if every motion that the contacts of the start leave free is a rotation or screw, and one of these separates
+  /// True if every motion that the contacts of the start allow is a rotation or screw, and one of these separates
   /// the part: then translations are useless. Cheap.
   bool screw_leads_out();
 
@@ -49,13 +49,12 @@ class Search {
     Deadline deadline;
     std::uint64_t* steps_left = nullptr;  ///< simulated steps and state checks, counted down;
                                           ///< nullptr = no limit
-    /// States expanded in this call and those that were paused before it; 0 = no limit. States of an earlier search
-    /// count, up to a half.
+    /// States expanded in this call and in the paused calls before it; 0 = no limit. Expansions of the resumed search
+    /// count, up to half of the limit.
     std::uint64_t expansions = 0;
-    unsigned rank = ~0U;            ///< states that wait longer than this are left waiting
+    unsigned rank = ~0U;            ///< states of greater rank are not expanded
     std::uint64_t pause_after = 0;  ///< steps and state checks of this call, rounded up to whole states; 0 = no pause
-    std::function<void()> between;  ///< called before each state is given
-                                    ///< actions, may wait; may be empty
+    std::function<void()> between;  ///< called before each expansion, may block; may be empty
   };
   /// Continues where the last call stopped. `depth_limit`: states of greater depth or rank are left; `exhausted`: none.
   PathResult run(const Limits& limits);
@@ -70,8 +69,8 @@ class Search {
   struct Run {
     State state;
     std::int32_t last = -1;  ///< node recorded last
-    Path way;                ///< since then
-    double length = 0;       ///< of all glides together
+    Path way;                ///< instants since then
+    double length = 0;       ///< total length of the glides
   };
 
   void reset();
@@ -117,34 +116,34 @@ class Search {
   RunContext& context_;
   std::unique_ptr<World> world_;
   std::vector<path::Ball> bodies_;
-  Eigen::Matrix3d axes_;  ///< columns: what the unit actions push along
-  Extents extents_;       ///< where the query begins
+  Eigen::Matrix3d axes_;  ///< columns: directions of the unit actions
+  Extents extents_;       ///< at the start of the query
   const std::vector<Stage>& stages_;
   path::StateSet seen_,
       fine_;  ///< every recorded state, at the paper's and at a finer resolution
   std::vector<Node> nodes_;
-  path::StateSet places_;  ///< states searched from, at a coarser resolution
+  path::StateSet places_;  ///< expanded states, at a coarser resolution
   struct Waiting {
     unsigned rank, depth;
     std::int32_t node;
     auto operator<=>(const Waiting&) const = default;
   };
   std::set<Waiting> waiting_;
-  std::size_t beyond_limit_ = 0;   ///< states too deep to search from
+  std::size_t beyond_limit_ = 0;   ///< states too deep to be expanded
   std::vector<Middle> passed_;     ///< states in the middle of runs that are not nodes yet
-  std::size_t passed_before_ = 0;  ///< ... and how many became nodes or were dropped
+  std::size_t passed_before_ = 0;  ///< number of those that became nodes or were dropped
   std::vector<Path> refusals_;
   Limits limits_;
-  std::uint64_t pause_at_ = 0;  ///< work in all at which this call pauses
+  std::uint64_t pause_at_ = 0;  ///< total work at which this call pauses
   bool paused_ = false;
-  bool sweep_paused_ = false;    ///< under a limit of expansions, which goes on to hold
-  std::uint64_t sweep_end_ = 0;  ///< expansions at which it ends
+  bool sweep_paused_ = false;    ///< paused under a limit of expansions, which stays in force
+  std::uint64_t sweep_end_ = 0;  ///< number of expansions at which the sweep ends
   bool may_relax_ = true;
-  bool short_glides_ = false;  ///< the verifier refused one
+  bool short_glides_ = false;  ///< the verifier has refused a glide
   std::vector<path::ContactSample> samples_;
   bool begun_ = false;                                 ///< run() has been called
-  bool others_left_ = false;                           ///< there are fewer fixed parts than in the search resumed
-  std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes taken over
+  bool others_left_ = false;                           ///< fixed parts of the resumed search are absent now
+  std::uint64_t spared_ = 0, kept_ = 0, resumed_ = 0;  ///< work, expansions and nodes of the resumed tree
   std::map<PartId, std::uint64_t> touched_;
   double farthest_ = -1;
   std::vector<Pose> best_;

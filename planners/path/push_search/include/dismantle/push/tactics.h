@@ -1,4 +1,4 @@
-/// Parameters of a push search, and the stages of actions in which the planners that share it differ.
+/// Parameters of a push search, and its stages of actions. The planners that share the search differ in the stages.
 #pragma once
 
 #include <cstdint>
@@ -10,22 +10,22 @@ namespace dismantle::push {
 
 using path::Motion;
 
-/// Kinds of actions; a state is given one stage at a time.
+/// Kinds of actions. Each expansion of a state applies one stage.
 enum class Stage {
-  twists,     ///< screw motions that the surfaces in contact leave free; in SE(3) only
-  free,       ///< directions that the contacts leave free
-  axes,       ///< forces along three axes, both ways; in SE(3) torques about them, too
-  leaning,    ///< free directions while pressing against a wall beside
+  twists,     ///< screw motions that the surfaces in contact allow; in SE(3) only
+  free,       ///< directions that the contacts allow
+  axes,       ///< forces along three axes in both directions; in SE(3) also torques about them
+  leaning,    ///< free directions while pressing against an adjacent wall
   diagonals,  ///< forces along the 20 diagonals
-  screws,     ///< a torque and a force along its axis together; in SE(3) only
-  // For queries in which each part moves in its own way (Goal::any_of):
+  screws,     ///< a torque combined with a force along its axis; in SE(3) only
+  // For queries whose parts move independently (Goal::any_of):
   one_driven,  ///< a force along one of three axes (in SE(3) also a torque about
-               ///< it) on one part; contact drags others
-  two_along,   ///< on two parts simultaneously, along the same axis, in all combinations
-  two_across,  ///< on two parts simultaneously, along different axes
+               ///< it) on one part; contact moves the others
+  two_along,   ///< the same on two parts simultaneously, along one axis, in all combinations
+  two_across,  ///< the same on two parts simultaneously, along different axes
 };
 
-/// Parameters that all planners searching over pushes have; a planner's own struct derives from this one.
+/// Parameters common to all push searches. A planner's own parameter struct derives from this one.
 struct SearchParameters {
   Motion motion = Motion::automatic;
   // Table 6.
@@ -33,7 +33,7 @@ struct SearchParameters {
   double force = 100;
   double similarity_translation = 0.05;
   double similarity_rotation = 0.5;
-  // Beyond Algorithm 1; see the README of bfs.
+  // Extensions of Algorithm 1; see the README of bfs.
   bool diagonals = true;
   std::int64_t intermediate = 256;
   double thinning = 1e-4;
@@ -58,17 +58,17 @@ struct ProposalParameters {
   double glide_kept = 0.75;
 };
 
-/// What the planners that share the search set beside the parameters.
+/// Everything that a planner sets for the search: its parameters and its stages of actions.
 struct Tactics : SearchParameters, ProposalParameters {
   std::vector<Stage> translating, turning;
-  /// Where each part moves in its own way, translating and turning. How many actions there are grows with the square of
-  /// the number of parts, not exponentially: a part that is given no wrench of its own is dragged along.
+  /// Stages if parts move independently, translating and turning. The number of actions grows with the square of the
+  /// number of parts, not exponentially: at most two parts are driven, and contact moves the others.
   std::vector<Stage> each_its_way{Stage::one_driven, Stage::two_along, Stage::two_across};
-  /// Axes of the parts themselves (frame.h), so that nothing depends on how the assembly lies; else the world's.
+  /// True: axes from the parts' own faces (frame.h), independent of the orientation of the assembly. False: world axes.
   bool own_axes = false;
   bool novelty = false;
-  /// motion auto without a depth limit: rank to which translation is searched first, and by how much less rotation is
-  /// after it.
+  /// With `motion: auto` and no depth limit, translation is first searched up to `first_rank`. Rotation follows up to
+  /// the rank of translation minus `turning_lag`.
   unsigned first_rank = 0, turning_lag = 0;
 };
 

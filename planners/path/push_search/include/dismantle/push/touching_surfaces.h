@@ -1,4 +1,4 @@
-/// The surfaces that guide a body, from its contacts.
+/// Samples of the surfaces that guide a body, from its contacts.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace dismantle::push {
 
-/// Points of fixed parts that the world lists as contacts of what moves (world axes). Contacts with edges and corners
-/// are left out: their normals are not those of the surface.
+/// Contact points and normals on the fixed parts (world frame). Contacts with edges and corners are left out, because
+/// their normals are not those of the surface.
 std::vector<geometry::SurfaceSample> touching_surfaces(const std::vector<Contact>& contacts,
                                                        const std::vector<PlacedPart>& moving);
 
