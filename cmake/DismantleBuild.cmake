@@ -1,4 +1,4 @@
-# Settings that every target of the project shares.
+# Settings of all targets.
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release)
 endif()
 
-# One tree for programs, one for libraries, one for plugins: the layout of the install.
+# Output folders for programs, libraries and plugins, in the layout of the install.
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 set(DISMANTLE_PLUGIN_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib/dismantle/plugins")
@@ -30,15 +30,15 @@ dismantle_built_with(fmt "${fmt_VERSION}")
 
 add_library(dismantle_settings INTERFACE)
 target_compile_options(dismantle_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor)
-# GCC 12 sees overflows in moves of std::string that are not there (its bugs 105329, 105651).
+# GCC 12 reports false overflows in moves of std::string (GCC bugs 105329, 105651).
 target_compile_options(dismantle_settings INTERFACE
   "$<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
 # The same source must give the same floating-point results in every build type of one compiler.
 target_compile_options(dismantle_settings INTERFACE -ffp-contract=off)
-# Nobody replaces a function of a library from outside, so calls within one need not go through its table.
+# Library functions are never interposed, so calls inside a library can bypass the PLT.
 target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
 target_link_options(dismantle_settings INTERFACE -Wl,-Bsymbolic-functions)
-# A library names all libraries that it uses. (A sanitizer's own symbols come with the program.)
+# A library must link all libraries that it uses. (With sanitizers the program provides their symbols.)
 if(NOT CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
   target_link_options(dismantle_settings INTERFACE "LINKER:-z,defs")
 endif()
@@ -46,9 +46,9 @@ if(DISMANTLE_CCACHE)
   target_compile_options(dismantle_settings INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endif()
 
-# Headers that most files need cost two to three seconds a file: compiled once for all libraries and plugins, and once
-# more, with Google Test, for all test programs.
-# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON with -DDISMANTLE_UNITY=OFF shows what a file forgot to include.
+# Headers that most files include cost two to three seconds per file. They are precompiled once for all libraries and
+# plugins, and once more, with Google Test, for all test programs.
+# -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON with -DDISMANTLE_UNITY=OFF reveals missing includes.
 set(DISMANTLE_COMMON_HEADERS
   <Eigen/Core> <Eigen/Geometry>
   <algorithm> <array> <atomic> <cerrno> <chrono> <cmath> <condition_variable> <cstdint> <cstring> <deque> <filesystem>
@@ -65,8 +65,8 @@ function(dismantle_pch name)
   target_precompile_headers(${name} PRIVATE ${ARGN})
 endfunction()
 
-# A precompiled header serves only what is compiled with the same macros that it looks at, and as the same kind of
-# position-independent code.
+# A precompiled header is valid only for targets with the same macros and the same kind of position-independent
+# code.
 function(dismantle_reuse_pch target name)
   target_precompile_headers(${target} REUSE_FROM ${name})
   target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
@@ -81,13 +81,13 @@ function(dismantle_precompile target)
   dismantle_reuse_pch(${target} dismantle_common_pch)
   dismantle_unity(${target} BATCH 8)
 endfunction()
-# The libraries of lib/ export their types: the types of the headers that these are made of must be visible, too.
+# The libraries of lib/ export their types, so the header types in them must be visible too.
 dismantle_pch(dismantle_library_pch ${DISMANTLE_COMMON_HEADERS})
 set_target_properties(dismantle_library_pch PROPERTIES CXX_VISIBILITY_PRESET default)
 
-# dismantle_unity(TARGET [EXCEPT FOLDER] | TARGET BATCH N): the files of one folder are compiled as one unit, or N at a time, so
-# that what they have in common is compiled once; two helpers of one folder cannot have the same name. OFF compiles less after
-# a change in one file.
+# dismantle_unity(TARGET [EXCEPT FOLDER] | TARGET BATCH N): compiles the files of one folder as one unit, or N files at a time,
+# so that common headers are compiled once. Two helpers in one folder cannot have the same name. OFF compiles less after a
+# change in one file.
 option(DISMANTLE_UNITY "Compile the files of one folder together" ON)
 function(dismantle_unity target)
   if(NOT DISMANTLE_UNITY)
@@ -117,8 +117,8 @@ function(dismantle_unity target)
   endforeach()
 endfunction()
 
-# dismantle_add_late_library(NAME SOURCES ... LIBRARIES ...): a library that a plugin or a program loads when it first needs it
-# (dismantle/plugin/late_library.h), with what only that needs. It lies where the other libraries are.
+# dismantle_add_late_library(NAME SOURCES ... LIBRARIES ...): a library that a plugin or a program loads on first use
+# (dismantle/plugin/late_library.h), with its own dependencies. It is in the folder of the other libraries.
 function(dismantle_add_late_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
@@ -127,7 +127,7 @@ function(dismantle_add_late_library name)
   install(TARGETS ${name} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 endfunction()
 
-# A program of Google Test. The libraries under test keep their optimisation; the tests themselves are compiled once and run once.
+# Settings of a Google Test program. Low optimisation, because each test runs once; the libraries under test keep theirs.
 function(dismantle_use_test_pch target)
   if(NOT TARGET dismantle_test_pch)
     dismantle_pch(dismantle_test_pch ${DISMANTLE_COMMON_HEADERS} <gtest/gtest.h>)
@@ -138,8 +138,8 @@ function(dismantle_use_test_pch target)
 endfunction()
 
 # dismantle_add_test(NAME SOURCES ... LIBRARIES ... [NEEDS FOLDER...] [USES FOLDER...]): a Google Test program, run as one
-# CTest test. It loads the plugins of the folders when it runs: without one of NEEDS it is left out, and says so; those of
-# USES it can do without.
+# CTest test. It loads the plugins of these folders at run time. If one of NEEDS is missing, the test is left out with a
+# message; those of USES are optional.
 function(dismantle_add_test name)
   if(NOT DISMANTLE_BUILD_TESTS)
     return()
@@ -156,12 +156,12 @@ function(dismantle_add_test name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/tests")
   dismantle_uses(${name} ${ARG_NEEDS} ${ARG_USES})
   add_test(NAME ${name} COMMAND ${name})
-  set(limit 900)  # s, against tests that hang; sanitizers make them twenty times as slow
+  set(limit 900)  # s, against hanging tests; sanitizers slow tests down up to twenty times
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
     set(limit 7200)
   endif()
   if("$ENV{DISMANTLE_TESTS}" STREQUAL "nightly")
-    set(limit 86400)  # the long form has up to a thousand times as many trials
+    set(limit 86400)  # the nightly form has up to a thousand times as many trials
   endif()
   set_tests_properties(${name} PROPERTIES TIMEOUT ${limit}
     ENVIRONMENT "DISMANTLE_PLUGIN_PATH=${DISMANTLE_PLUGIN_OUTPUT_DIRECTORY}")

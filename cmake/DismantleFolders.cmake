@@ -1,6 +1,6 @@
-# One folder is one plugin. The project builds and passes its tests without any of them: what is missing is left out by name.
+# One folder is one plugin. The project builds and passes its tests without any of them; missing plugins are listed by name.
 #
-# The plugins that this project ships, by folder; `dismantle_folders` finds new ones by itself, tests know these.
+# The folders of the plugins of this project, for tests. `dismantle_folders` also finds other plugin folders.
 set(DISMANTLE_SHIPPED_PLUGINS
   plugins/importers/mesh_files plugins/importers/step
   simulators/fcl simulators/sdf_penalty simulators/sdf_velocity
@@ -24,16 +24,16 @@ if(DISMANTLE_MISSING_PLUGINS)
   message(STATUS "Plugins left out: ${DISMANTLE_MISSING_PLUGINS}")
 endif()
 
-# What the program uses when a configuration names nothing else (configs/default.yaml), and the files of the samples.
+# The plugins of the default configuration (configs/default.yaml), and those that read the samples.
 set(DISMANTLE_DEFAULT_PLUGINS plugins/importers/mesh_files simulators/sdf_penalty
   planners/path/portfolio planners/path/contact_search planners/path/navigation_tree planners/path/tolerant_rrt planners/path/tunnel_forest
   planners/sequence/blocking planners/transfer/rrt_connect)
 
-# What proves that parts cannot be separated.
+# The immobility provers.
 set(DISMANTLE_PROVER_PLUGINS ${DISMANTLE_SHIPPED_PLUGINS})
 list(FILTER DISMANTLE_PROVER_PLUGINS INCLUDE REGEX "^planners/immobility/")
 
-# dismantle_folders(DEPTH): adds each folder that many levels below this one that has a CMakeLists.txt.
+# dismantle_folders(DEPTH): adds each folder with a CMakeLists.txt that is DEPTH levels below the current one.
 function(dismantle_folders depth)
   string(REPEAT "*/" ${depth} pattern)
   file(GLOB lists RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS "${pattern}CMakeLists.txt")
@@ -46,7 +46,7 @@ function(dismantle_folders depth)
   endforeach()
 endfunction()
 
-# dismantle_missing(OUT FOLDER...): those of these plugin folders that are not part of this build.
+# dismantle_missing(OUT FOLDER...): returns the given plugin folders that are not part of this build.
 function(dismantle_missing out)
   set(missing "")
   foreach(folder IN LISTS ARGN)
@@ -57,7 +57,7 @@ function(dismantle_missing out)
   set(${out} "${missing}" PARENT_SCOPE)
 endfunction()
 
-# dismantle_left_out(OUT NAME FOLDER...): does a test that needs these plugins have to be left out? Says so.
+# dismantle_left_out(OUT NAME FOLDER...): the missing plugins among those that test NAME needs; prints them.
 function(dismantle_left_out out name)
   dismantle_missing(missing ${ARGN})
   if(missing)
@@ -66,15 +66,15 @@ function(dismantle_left_out out name)
   set(${out} "${missing}" PARENT_SCOPE)
 endfunction()
 
-# dismantle_uses(TARGET FOLDER...): the target loads these plugins when it runs, so they are built before; those that are
-# missing are left out. `all` stands for every plugin of the build.
+# dismantle_uses(TARGET FOLDER...): the target loads these plugins at run time, so they are built before it; missing ones are
+# ignored. `all` stands for every plugin of the build.
 function(dismantle_uses target)
   foreach(folder IN LISTS ARGN)
     set_property(GLOBAL APPEND PROPERTY DISMANTLE_USES "${target}|${folder}")
   endforeach()
 endfunction()
 
-# The name of a plugin's target is known when its folder has been read.
+# Deferred, because the target of a plugin is known only after its folder was read.
 function(dismantle_resolve_uses)
   get_property(uses GLOBAL PROPERTY DISMANTLE_USES)
   get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)

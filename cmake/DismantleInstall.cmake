@@ -23,7 +23,7 @@ install(EXPORT dismantleTargets NAMESPACE dismantle:: DESTINATION "${DISMANTLE_P
 
 configure_package_config_file(cmake/dismantleConfig.cmake.in "${CMAKE_BINARY_DIR}/package/dismantleConfig.cmake"
   INSTALL_DESTINATION "${DISMANTLE_PACKAGE_DIR}")
-# Before 1.0 every minor version may break its callers.
+# Before 1.0 every minor version may break compatibility.
 write_basic_package_version_file("${CMAKE_BINARY_DIR}/package/dismantleConfigVersion.cmake"
   VERSION "${PROJECT_VERSION}" COMPATIBILITY SameMinorVersion)
 install(FILES
@@ -35,10 +35,10 @@ install(DIRECTORY configs DESTINATION "${CMAKE_INSTALL_DATADIR}/dismantle" FILES
 install(FILES README.md LICENSE CHANGELOG.md CONTRIBUTING.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
-# What there is to run, without the tests: the program and the built-in plugins.
+# The programs and the built-in plugins, without tests.
 get_property(built_in GLOBAL PROPERTY DISMANTLE_BUILT_IN_PLUGINS)
 add_custom_target(programs DEPENDS dismantle ${built_in})
-# What `cmake --install` builds and installs (CMakeLists.txt): no tests but the contract tests, which plugin authors run.
+# Targets that `cmake --install` builds and installs (CMakeLists.txt): of the tests only the contract tests, for plugin authors.
 set(installed programs manual ${libraries})
 foreach(target dismantle_contract_tests dismantle_python)
   if(TARGET ${target})

@@ -1,5 +1,5 @@
 # dismantle_add_library(NAME [PUBLIC lib...] [PRIVATE lib...]): the library of a folder of lib/, from src/**.cpp, with its public
-# headers in include/. It exports all of its symbols, so that its own tests reach what is not in the public headers.
+# headers in include/. It exports all symbols, so that its tests can also use internal ones.
 function(dismantle_add_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "src/*.cpp")

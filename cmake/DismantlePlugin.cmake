@@ -1,7 +1,7 @@
 # dismantle_add_plugin(NAME SOURCES ... [LIBRARIES ...] [OFFERS "KIND ID"...])
-# A shared library in the plugin folder that exports nothing but its header and, where OFFERS lists all that it registers,
-# in that order ("path_planner acme.rrt"), that list: then it is loaded only when one of these is asked for. Installed with
-# the package, so that plugins out of tree are built the same way.
+# A shared library in the plugin folder that exports only its header and the list OFFERS. OFFERS lists all registered types in
+# order of registration ("path_planner acme.rrt"); with it the library is loaded only when one of them is requested. Installed
+# with the package, so that out-of-tree plugins are built the same way.
 function(dismantle_add_plugin name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;OFFERS" ${ARGN})
   add_library(${name} MODULE ${ARG_SOURCES})
@@ -27,8 +27,8 @@ function(dismantle_add_plugin name)
   endif()
 endfunction()
 
-# dismantle_offers(NAME "KIND ID"...): adds the list of what the plugin NAME registers, as a symbol that is read from the bytes
-# of the file.
+# dismantle_offers(NAME "KIND ID"...): adds the list of types of the plugin NAME, as a symbol that is read from the bytes of the
+# file.
 function(dismantle_offers name)
   list(JOIN ARGN ", " offers)
   set(source "${CMAKE_CURRENT_BINARY_DIR}/${name}_offers.cpp")
@@ -42,8 +42,8 @@ const char dismantle_plugin_types[] = \"@offers@\";
   set_source_files_properties("${source}" PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# dismantle_add_contract_test(NAME): a test of CTest that tries the laws of its kind on the plugin NAME, as `dismantle plugins
-# check` does. Importers read the files in the folder `examples` of this project, if there is one.
+# dismantle_add_contract_test(NAME): a CTest test that tests the plugin NAME against the laws of its kind, like `dismantle
+# plugins check`. Importers read the files in the folder `examples` of the project, if it exists.
 function(dismantle_add_contract_test name)
   if(NOT TARGET dismantle::contract_tests)
     message(FATAL_ERROR "This Dismantle was installed without its contract tests: build it with -DDISMANTLE_BUILD_TESTS=ON, "

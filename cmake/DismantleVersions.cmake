@@ -1,6 +1,6 @@
-# The versions of the libraries that a build uses, for `dismantle --version`. Each folder tells what it found.
+# The versions of the libraries in a build, for `dismantle --version`. Each folder adds those that it found.
 
-# dismantle_built_with(NAME VERSION): an empty version is said to be unknown.
+# dismantle_built_with(NAME VERSION): an empty version is shown as unknown.
 function(dismantle_built_with name version)
   if(NOT version)
     set(version "(version unknown)")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks the comments of the public headers with Doxygen; exit status 1 when something is wrong, 77 when there is no Doxygen.
+"""Checks the comments of the public headers with Doxygen. Exit status 1: problems were found; 77: Doxygen is missing.
 
   tools/check_api_docs.py [--doxygen PROGRAM]
 
 - docs/Doxyfile gives no warning;
-- every type, free function, enumeration and alias has a comment. Members of a class need none where their name says all.
+- every type, free function, enumeration and alias has a comment. Class members with clear names need none.
 """
 import argparse
 import os

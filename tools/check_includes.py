@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fails when the source tree breaks the rules of docs/architecture.md, "Layers":
+"""Fails when the source tree breaks the rules of docs/architecture.md, "The include rule":
 
 - core <- parallel <- geometry <- verification <- preparation, plan_io <- book, engine <- host <- apps, bench: no #include against the arrows;
 - a plugin includes core, geometry, the plugin sdk and the shared libraries of its kind (folders without a plugin: KIND/common and
@@ -16,7 +16,7 @@ FILE_MAX_LINES = 400
 CLASS_MAX_METHODS = 40
 FOLDERS = ("core", "lib", "plugins", "simulators", "planners", "apps", "tests")
 
-# What the code of a place may include besides itself and core.
+# What the code of a folder may include besides itself and core.
 BELOW_ENGINE = {"lib/geometry", "lib/verification", "lib/preparation", "lib/plan_io"}
 ALLOWED = {
     "core": set(),
@@ -35,7 +35,7 @@ ALLOWED = {
     "apps": BELOW_ENGINE | {"lib/book", "lib/engine", "lib/samples", "lib/bench", "plugins/sdk", "plugins/host"},
 }
 PLUGIN_MAY = {"lib/geometry", "plugins/sdk"}
-# The folders of plugins, and how deep the plugins are below.
+# Folders of plugin kinds, and the depth of the plugin folders below them.
 KINDS = {"simulators": 1, "plugins/importers": 1, "planners": 2}
 
 
@@ -68,14 +68,14 @@ def plugin_folder(file):
 
 
 def shared_for(folder, libraries):
-    """The libraries without a plugin that a folder may include: those of its kind, and planners/common/* for all planners."""
+    """The non-plugin libraries that a folder may include: those of its kind, and planners/common/* for all planners."""
     beside = os.path.dirname(folder) + "/"
     return {lib for lib in libraries if lib.startswith(beside) or
             (folder.startswith("planners/") and lib.startswith("planners/common/"))}
 
 
 def without_comments(text):
-    """Comments, strings and characters blanked, line breaks kept."""
+    """Blanks comments, strings and characters; keeps line breaks."""
     pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
     return pattern.sub(lambda m: re.sub(r"[^\n]", " ", m.group(0)), text)
 
@@ -84,7 +84,7 @@ CLASS = re.compile(r"\b(?:class|struct)\s+(?:DISMANTLE_API\s+)?(\w+)\s*(?:final\
 
 
 def classes(text):
-    """(name, body) of each class, nested ones apart."""
+    """(name, body) of each class; nested classes are separate."""
     for match in CLASS.finditer(text):
         depth, at = 1, match.end()
         while depth and at < len(text):
@@ -94,7 +94,7 @@ def classes(text):
 
 
 def method_count(body):
-    """Declarations with a parameter list at the class's own level. Initialisers and bodies are cut out before."""
+    """Counts declarations with a parameter list at class level, after removing initialisers and bodies."""
     flat, depth = [], 0
     for c in body:
         if c == "{":
@@ -132,11 +132,11 @@ def check(root):
 
     with_plugin = {place_of(f) for f in files if plugin_folder(f) and not is_test(f) and "\nDISMANTLE_PLUGIN(" in text[f]}
     libraries = {plugin_folder(f) for f in files if plugin_folder(f)} - with_plugin
-    include_path = {}  # the header of a library, by the path that it is included by
+    include_path = {}  # include path -> header of a library
     for f in files:
         if f.endswith(".h") and "/include/" in f:
             include_path.setdefault(f.split("/include/", 1)[1], []).append(f)
-    # Headers of a plugin's folder that other folders include by their plain name.
+    # Headers in a plugin folder that other folders include by file name.
     beside_cmake = {}
     for f in files:
         if f.endswith(".h") and plugin_folder(f) and not is_test(f):
@@ -144,7 +144,7 @@ def check(root):
             beside_cmake.setdefault(os.path.relpath(f, os.path.dirname(plugin_folder(f))), []).append(f)
 
     def target_of(file, included):
-        """The file that is included; None for one of another project."""
+        """The included file; None for headers of other projects."""
         beside = os.path.normpath(os.path.join(os.path.dirname(file), included))
         if beside in known:
             return beside

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the links of all Markdown pages to files of the repository and to headings; exit status 1 when one leads nowhere."""
+"""Checks the links in all Markdown pages to repository files and headings. Exit status 1: a link is broken."""
 import os
 import re
 import sys
@@ -20,7 +20,7 @@ def without_code(text):
 
 
 def anchors(page):
-    """As GitHub makes them of headings."""
+    """Heading anchors in GitHub's form."""
     with open(page, encoding="utf-8") as file:
         text = re.sub(r"^```.*?^```$", "", file.read(), flags=re.MULTILINE | re.DOTALL)
     headings = re.findall(r"^#+ +(.*)$", text, re.MULTILINE)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Builds and tests the project without each of its plugin folders in turn: one folder is one plugin, and a project without it
-builds and passes (docs/architecture.md). For each folder: configures with -DDISMANTLE_WITHOUT=FOLDER, builds the programs and
-the tests that are left, and runs the fast ones. One build folder serves all, so that only what depends on a folder is built
-anew; with ccache the second run is cheap.
+"""Builds and tests the project without each of its plugin folders in turn. One folder is one plugin, and the project must
+build and pass without it (docs/architecture.md). For each folder: configures with -DDISMANTLE_WITHOUT=FOLDER, builds the
+programs and the remaining tests, and runs the fast tests. All use the same build folder, so that only dependent targets are
+rebuilt; with ccache the second run is cheap.
 
   tools/check_without_each.py                       all folders of DISMANTLE_SHIPPED_PLUGINS (cmake/DismantleFolders.cmake)
-  tools/check_without_each.py planners/path/bfs     these
-  tools/check_without_each.py --configure-only      nothing but the configuration, seconds a folder
+  tools/check_without_each.py planners/path/bfs     only these folders
+  tools/check_without_each.py --configure-only      only configure: seconds per folder
   tools/check_without_each.py --tests REGEX         other tests than the fast ones
 
 Exit status 0: all passed. Each line of the summary names the folder, the tests that were left out, and the time."""
@@ -18,11 +18,11 @@ import sys
 import time
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-# Tests that take seconds, of every library and of what loads plugins.
+# Tests that take seconds: of every library, and tests that load plugins.
 FAST = ("core_tests geometry_tests preparation_tests plan_io_tests book_tests engine_tests plugins_tests plugins_good_tests configs_tests "
         "shipped_plugins_are_found sdf_tests sdf_world_tests path_common_tests push_search_tests ompl_common_tests progressive_tests "
         "queue_tests random_tests mesh_files_test cli_tests").split()
-# What these tests run besides the programs.
+# Targets that these tests run besides the programs.
 HELPERS = ("dismantle_contract_tests", "evil_planners")
 
 
@@ -33,14 +33,14 @@ def shipped():
 
 
 def run(log, *command):
-    """Status of a command whose output goes to the log."""
+    """Runs a command with output to the log; returns its exit status."""
     log.write(f"\n$ {' '.join(command)}\n")
     log.flush()
     return subprocess.run(command, cwd=ROOT, stdout=log, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL).returncode
 
 
 def check(folder, build, jobs, tests, configure_only, log):
-    """What failed, or an empty string; and the tests that were left out."""
+    """Returns the failed stage, or an empty string, and the tests that were left out."""
     at = log.tell()
     if run(log, "cmake", "-S", ".", "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DDISMANTLE_BUILD_BENCH=OFF",
            f"-DDISMANTLE_WITHOUT={folder}"):

@@ -3,8 +3,8 @@
 
   tools/make_gallery.py --data DIR [--program build/release/bin/dismantle] [--work build/gallery] [--only NAME]...
 
-DIR has `step/` and `cad/` with the assemblies that ENTRIES names; those that are missing are left out of the page. Plans are kept in
-the work folder and not made again: delete it for new ones. Needs node, Chromium, and the viewer (built with the project)."""
+DIR contains `step/` and `cad/` with the assemblies of ENTRIES; missing assemblies are left out of the page. Plans are kept in
+the work folder and reused: delete it for new plans. Needs node, Chromium, and the viewer (built with the project)."""
 import argparse
 import json
 import os
@@ -13,7 +13,7 @@ import sys
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
-# Name, title, input (a sample with its options, or a path below DIR), whose it is, words, options of `plan`, shots of the viewer.
+# Name, title, input (a sample with its options, or a path below DIR), author, description, options of `plan`, viewer shots.
 ENTRIES = [
     ("as1_oc_214", "Plate with brackets, bolts and nuts", "step/as1_oc_214.stp", "CAx-IF public test case, BSD-3-Clause",
      "One STEP file with repeated parts and colours: 18 parts of 5 shapes.", [],
@@ -33,7 +33,7 @@ ENTRIES = [
      "made by `dismantle sample bolt_and_nut`", "A thread: the only way out is a screw motion.", [],
      [{"step": 0, "share": 0.75, "size": [1180, 720]}, {"explode": 1, "size": [1180, 720]}]),
 ]
-BOOK = ("as1_oc_214", [0, 1, 7, 12])  # pages of instructions that are shown
+BOOK = ("as1_oc_214", [0, 1, 7, 12])  # pages of instructions to show
 
 
 def run(*command, statuses=(0,)):
@@ -43,7 +43,7 @@ def run(*command, statuses=(0,)):
 
 
 def plan_of(entry, arguments):
-    """The folder of the plan of an entry; None when its input is missing."""
+    """The folder with the plan of an entry; None when its input is missing."""
     name, _, source, _, _, options, _ = entry
     folder = os.path.join(arguments.work, name)
     if isinstance(source, list):

@@ -3,9 +3,9 @@
 
   tools/make_results.py [--data DIR] [--program build/release/bin/dismantle] [--work build/results] [--jobs N]
 
-Runs the suites configs/bench/results_*.yaml with `dismantle bench`, which goes on where an earlier run stopped (delete the work
-folder to begin anew), and writes what `dismantle report` says of them: README.md with the tables, one picture of success over time and
-one CSV file of all trials for each suite. DIR has the assemblies of others; without it the samples alone are compared.
+Runs the suites configs/bench/results_*.yaml with `dismantle bench`, which resumes an earlier run (delete the work folder to start
+again), and writes the output of `dismantle report`: README.md with the tables, and for each suite a plot of success over time and
+a CSV file of all trials. DIR contains the third-party assemblies; without it only the samples are compared.
 """
 import argparse
 import csv
@@ -50,7 +50,7 @@ PAPER_TIMES = """| the paper | small (3-9) | medium (10-49) | large (50+) | over
 | Prog. BFS | 4.5 | 10.1 | 19.4 | 6.7 |
 """
 
-# Suite, title, words, tables of `dismantle report`, each with a title and the paper's figures.
+# Suite, title, description, tables of `dismantle report`, each with a title and the paper's figures.
 SECTIONS = [
     ("two_part", "Two parts (table 2, left)",
      "One part is taken out, the other one is fixed. Path planners, each asked for the same path.",
@@ -96,18 +96,18 @@ def machine():
 
 
 def markdown(rows):
-    """Rows of text, the first one is the head."""
+    """A table in Markdown; the first row is the header."""
     lines = ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in rows]
     return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]]) + "\n"
 
 
 def suite_of(name, arguments):
-    """The suite, seen from the page."""
+    """Path of the suite, relative to the page."""
     return os.path.relpath(os.path.join(arguments.suites, f"results_{name}.yaml"), arguments.out)
 
 
 class Results:
-    """What one suite gave."""
+    """The results of one suite."""
 
     def __init__(self, name, arguments):
         self.program, self.folder = arguments.program, os.path.join(arguments.work, name)
@@ -122,18 +122,18 @@ class Results:
 
     def table(self, name):
         rows = list(csv.reader(io.StringIO(self.report("csv", "--table", name))))
-        if len(rows[0]) == 3 and rows[0][2] == "overall":  # of one category
+        if len(rows[0]) == 3 and rows[0][2] == "overall":  # a single category
             rows = [row[:2] for row in rows]
         return rows
 
     def best(self, most=4):
-        """Who solved most, in words."""
+        """The planners that solved most trials, as text."""
         solved, given = {}, {}
         for t in self.trials:
             if t["variant"] == "plain":
                 given[t["planner"]] = given.get(t["planner"], 0) + 1
                 solved[t["planner"]] = solved.get(t["planner"], 0) + (t["solved"] == "yes")
-        order = sorted(solved, key=lambda planner: -solved[planner])  # stable: as in the suite
+        order = sorted(solved, key=lambda planner: -solved[planner])  # stable: ties in the order of the suite
         return ", ".join(f"`{p}` {solved[p]} of {given[p]}" for p in order[:most])
 
     def seconds(self):

@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # Sourced by quickstart and check. Needs $root, the root of the repository.
 
-# packages_for [OPTION...]: those that every build needs, and those that are for these options of check only.
+# packages_for [OPTION...]: the packages of every build, and those for these options of check.
 # shellcheck disable=SC2154  # root is set by the script that sources this
 packages_for() {
   local first rest
@@ -16,7 +16,7 @@ packages_for() {
 
 missing_packages() {
   local package there
-  # Also what another package provides: NodeSource's nodejs contains npm, and excludes Debian's.
+  # Includes provided packages: NodeSource's nodejs contains npm and conflicts with Debian's.
   there="$(dpkg-query -W -f='${db:Status-Status} ${Package}, ${Provides}\n' | sed -n 's/^installed //p' |
     tr ',' '\n' | sed -e 's/^ *//' -e 's/ .*//')"
   while read -r package; do
@@ -26,7 +26,7 @@ missing_packages() {
   done < <(packages_for "$@")
 }
 
-# install_packages [OPTION...]: installs what is missing of tools/packages.txt; silent, and without network, when nothing is.
+# install_packages [OPTION...]: installs the missing packages of tools/packages.txt. If none is missing, it is silent and needs no network.
 install_packages() {
   if ! command -v dpkg-query >/dev/null; then
     echo "This is not Debian: the packages of tools/packages.txt (or their like) must be there already." >&2

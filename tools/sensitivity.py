@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""How much plans depend on each parameter: varies one at a time, by half and by double, and prints what changes.
+"""Measures how much plans depend on each parameter: halves and doubles one at a time, and prints the changes.
 
     tools/sensitivity.py -o sensitivity             # samples, and assemblies of $DISMANTLE_DATA if it is set
     tools/sensitivity.py -o sensitivity --random 200 --only sequence_planner.
     tools/sensitivity.py -o features --features --random 0 --seconds 60  # switches, and plugins of lists, one left out at a time
-    tools/sensitivity.py -o sensitivity --table > docs/parameters.md  # what has been run so far, as Markdown
+    tools/sensitivity.py -o sensitivity --table > docs/parameters.md  # Markdown table of the runs so far
 
-A switch is turned; of a list of plugins one is left out. A value beyond the parameter's range is left out. Runs are made with one thread, and kept in
-OUT/runs.jsonl: a run that is there is not made again, so that the work can be ended and resumed at any time. Random
-assemblies are samples with random dimensions and rotations. An assembly that takes longer than --seconds with the
-defaults is left out; a run may take 40 times what the defaults take, at least a minute, and counts as lost after that.
+Switches are inverted; one plugin of a list is left out at a time. Values outside the parameter's range are skipped. Runs use one thread and are kept in
+OUT/runs.jsonl. Existing runs are not repeated, so that the work can be stopped and resumed at any time. Random
+assemblies are samples with random dimensions and rotations. Assemblies that take longer than --seconds with the
+defaults are skipped. A run may take 40 times as long as with the defaults, at least a minute, and counts as lost after that.
 """
 import argparse
 import collections
@@ -27,7 +27,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 SECTIONS = ("simulator", "path_planner", "sequence_planner", "transfer_planner", "immobility", "force", "verify")
 SEARCH_ONLY = ("path_planner.", "simulator.")
-ALWAYS_LEFT_OUT = {  # what the user asks for, or what matters under a time limit only
+ALWAYS_LEFT_OUT = {  # choices of the user, and parameters that matter only under a time limit
     "verify.max_penetration", "immobility.deadline_share", "force.share", "force.verified_share", "force.quick_margin",
     "force.overtime"}
 
@@ -44,7 +44,7 @@ defaults; small differences are noise. One that no plan here depends on may stil
 
 
 def call(command, seconds=None):
-    """Exit status, output and errors; status None when it takes longer."""
+    """Exit status, output and errors; status None after the time limit."""
     try:
         done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=seconds)
     except subprocess.TimeoutExpired:
@@ -53,7 +53,7 @@ def call(command, seconds=None):
 
 
 def sample_parameters(program):
-    """By sample: name, default, least and largest value of its numbers."""
+    """By sample: name, default, smallest and largest value of its numeric parameters."""
     samples, current = collections.OrderedDict(), None
     for line in call([program, "sample", "list"])[1].splitlines():
         if head := re.match(r"(\w+): ", line):
@@ -64,7 +64,7 @@ def sample_parameters(program):
 
 
 def make_samples(program, folder, count):
-    """The samples as they are, and `count` with random dimensions."""
+    """The samples with defaults, and `count` samples with random dimensions."""
     samples, made = sample_parameters(program), []
     for k in range(-len(samples), count):
         name = list(samples)[k % len(samples)]
@@ -78,13 +78,13 @@ def make_samples(program, folder, count):
                 settings += ["--set", "%s=%s" % (key, round(value) if whole else round(value, 4))]
             settings += ["--set", "rotate_seed=%d" % draw.randrange(1, 10 ** 6)]
         if not target.exists() and call([program, "sample", name, "-o", target, "-q", *settings])[0] != 0:
-            continue  # dimensions that do not go together
+            continue  # incompatible dimensions
         made.append(target)
     return made
 
 
 def parameters_of(resolved):
-    """Keys for --set with their values, from resolved.yaml; and the lists of plugins in it, by key."""
+    """Keys for --set with their values, and lists of plugins by key, from resolved.yaml."""
     path, found, lists = [], collections.OrderedDict(), collections.OrderedDict()
     for line in resolved.splitlines():
         match = re.match(r"( *)(- )?([\w]+): *([^#]*)", line)
@@ -92,7 +92,7 @@ def parameters_of(resolved):
             continue
         depth, item, key, value = len(match[1]) + (2 if match[2] else 0), match[2], match[3], match[4].strip()
         path = [p for p in path if p[0] < depth]
-        if item and key == "type":  # plugins in a list are named by their type
+        if item and key == "type":  # plugins in a list are identified by their type
             path = [p for p in path if p[0] < depth - 1]
             lists.setdefault(".".join(p[1] for p in path), []).append(value)
             path.append((depth - 1, value))
@@ -105,7 +105,7 @@ def parameters_of(resolved):
 
 
 def lists_without_one(parameters, lists):
-    """By the name of a plugin in a list: the setting that leaves it out, all others with their parameters."""
+    """Plugin name in a list -> setting without it, with all others and their parameters."""
     settings = collections.OrderedDict()
     for key, types in lists.items():
         def item(kind):
@@ -118,7 +118,7 @@ def lists_without_one(parameters, lists):
 
 
 def ranges_of(schema):
-    """By the name of a parameter: (least, largest, is whole), the widest of all plugins that have one of this name."""
+    """Parameter name -> (smallest, largest, is integer): the widest range of all plugins with this parameter."""
     ranges = {}
 
     def visit(node):
@@ -140,7 +140,7 @@ def ranges_of(schema):
 
 
 def variations(key, value, ranges):
-    """What to put in its place: pairs of a name and a value."""
+    """Replacement values: pairs of a name and a value."""
     if value in ("true", "false"):
         return [("turned", "false" if value == "true" else "true")]
     try:
@@ -162,13 +162,13 @@ def variations(key, value, ranges):
 
 
 def plan(program, assembly, folder, settings, seconds):
-    """What came of one run."""
+    """Result of one run."""
     out = folder / "plan"
     command = [program, "plan", assembly, "-o", out, "--threads", "1", "--format", "json", "-q"]
     for setting in settings:
         command += ["--set", setting]
     status, text, errors = call(command, seconds)
-    if status is None:  # no --timeout: a plan that is cut short by the clock differs for that reason
+    if status is None:  # no --timeout: a plan that a deadline cuts short would differ
         return {"status": 1, "removed": 0, "forced": 0, "seconds": seconds, "searches": 0, "moves": "none"}
     if status not in (0, 1):
         return {"status": status, "error": errors.strip()[-200:]}
@@ -189,11 +189,11 @@ def read_runs(file):
 
 
 def write_table(runs):
-    """Markdown: a row for each parameter that was varied."""
+    """Prints a Markdown table with a row for each varied parameter."""
     base = {a: r for (k, _, a), r in runs.items() if k == ""}
     rows = collections.OrderedDict()
     for (key, label, assembly), run in runs.items():
-        if key and assembly in base and run["status"] != 2:  # 2: beyond its range
+        if key and assembly in base and run["status"] != 2:  # 2: outside its range
             rows.setdefault((key, run["default"]), collections.OrderedDict()).setdefault(label, []).append((base[assembly], run))
     print(HEAD % len({assembly for key, _, assembly in runs if key}))
     print("| parameter | default | value | assemblies | lost | gained | other plan | CPU time |")
@@ -261,7 +261,7 @@ def main():
         sys.exit("no assembly is planned in %g s: %s plan %s" % (
             options.seconds, shlex.quote(str(options.program)), shlex.quote(str(assemblies[0]) if assemblies else "")))
 
-    if not (options.output / "plan" / "resolved.yaml").exists():  # all of these runs were made before
+    if not (options.output / "plan" / "resolved.yaml").exists():  # all these runs exist already
         plan(options.program, used[0][0], options.output, [], 40 * options.seconds)
     resolved = (options.output / "plan" / "resolved.yaml").read_text()
     schema = json.loads((ROOT / "docs/reference/dismantle.schema.json").read_text())
@@ -275,9 +275,9 @@ def main():
         differ = asked = 0
         for assembly, base in used:
             if key.startswith(SEARCH_ONLY) and base["searches"] == 0:
-                continue  # nothing was searched for
+                continue  # there was no search
             run = record(key, label, value, default, setting, assembly, max(60.0, 40 * base["seconds"]))
-            if run["status"] == 2:  # beyond its range
+            if run["status"] == 2:  # outside its range
                 break
             asked += 1
             differ += run.get("moves") != base["moves"]
