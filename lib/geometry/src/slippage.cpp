@@ -66,12 +66,6 @@ int count_slipping(const Vec6& stiffness) {
   // from zero.
   int slips = 0;
   while (slips < 6 && stiffness[slips] < 0.02 * stiffness[5]) ++slips;
-  // With much clearance nothing slips exactly. Then eigenvalues up to 6 % count, too, if they are at most 20 times the
-  // last one that slips, and the next one is more than 3 times as large: a gap in the spectrum.
-  int nearly = slips;
-  const double like = slips > 0 ? std::min(0.06 * stiffness[5], 20 * stiffness[slips - 1]) : 0;
-  while (nearly < 6 && stiffness[nearly] < like) ++nearly;
-  if (nearly < 6 && nearly > slips && stiffness[nearly] > 3 * stiffness[nearly - 1]) slips = nearly;
   return slips;
 }
 
