@@ -128,17 +128,23 @@ SequenceResult plan_one(const Assembly& assembly, PartId part, Oracle& oracle, R
   return result;
 }
 
-/// Proofs for parts that are left and have none, the same whichever planners were used.
-void prove_left(std::vector<Unsolved>& unsolved, const std::vector<PartId>& left, Oracle& oracle,
+/// Proofs for parts that are left and have none, the same whichever planners were used. A proof explains more than the
+/// message of a search does.
+void prove_left(std::vector<Unsolved>& unsolved, const PlanBuilder& builder, Oracle& oracle,
                 const ProofOptions& options, const RunContext& context) {
   std::size_t asked = 0;
   for (Unsolved& u : unsolved) {
-    if (u.certificate != nullptr || context.should_stop()) continue;
-    if (u.outcome != Outcome::depth_limit && u.outcome != Outcome::exhausted && u.outcome != Outcome::timeout) continue;
-    if (asked++ == options.final_parts) return;
-    u.certificate = oracle.proofs().at_last(u.part, u.blocked_by, left, context);
-    if (u.certificate == nullptr || !u.certificate->full_tolerance) continue;
-    u.outcome = Outcome::infeasible;
+    const bool open =
+        u.certificate == nullptr && !context.should_stop() && asked < options.final_parts &&
+        (u.outcome == Outcome::depth_limit || u.outcome == Outcome::exhausted || u.outcome == Outcome::timeout);
+    if (open) {
+      ++asked;
+      std::vector<PartId> group{u.part};
+      for (const PlacedPart& other : builder.around(u.part)) group.push_back(other.part);
+      u.certificate = oracle.proofs().at_last(u.part, u.blocked_by, group, context);
+    }
+    if (u.certificate == nullptr) continue;
+    if (u.certificate->full_tolerance) u.outcome = Outcome::infeasible;
     u.message = u.certificate->text;
     u.blocked_by = u.certificate->parts;
     std::erase(u.blocked_by, u.part);
@@ -251,20 +257,18 @@ RunResult run(const Assembly& assembly, const PlanningSetup& setup, const RunOpt
               fmt::format("the sequence planner reports success with {} parts still together", builder.left().size()));
     }
     std::vector<Unsolved> unsolved = reasons(sequence, builder.left());
-    prove_left(unsolved, builder.left(), oracle, options.proofs, own);
+    prove_left(unsolved, builder, oracle, options.proofs, own);
     builder.set_unsolved(unsolved, places);
     own.deadline = context.deadline;
     if (forces && result.outcome != Outcome::crashed && !own.cancel.cancelled()) {
-      ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options)
-          .run(own);
+      ForceSteps(assembly, verifier, oracle, builder, *setup.sequence_planner, recorder, options).run(own);
       simulator.rethrow_failure();
       if (builder.fulfilled() && builder.forced() == 0) result.outcome = Outcome::solved;
       builder.drop_solved();
     }
   }
   AssemblyPlan back;
-  const bool puts_together =
-      setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
+  const bool puts_together = setup.transfer_planner && options.layout.enabled && !builder.recorded().empty();
   const auto put_together = [&] {
     if (!puts_together) return;
     RunContext putting = own;
