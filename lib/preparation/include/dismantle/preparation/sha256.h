@@ -11,6 +11,7 @@
 
 namespace dismantle {
 
+/// The 32 bytes of a digest.
 using Sha256Digest = std::array<unsigned char, 32>;
 
 /// Of bytes that come piece by piece. All functions throw Error when OpenSSL has no SHA-256.
