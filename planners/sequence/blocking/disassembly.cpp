@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "blocking/strategies/merge_immobile.h"
 #include "blocking/strategies/pair_search.h"
 #include "blocking/strategies/partial_translation.h"
 #include "blocking/strategies/path_search.h"
@@ -28,14 +27,9 @@ Disassembly::Disassembly(const BlockingParams& params, const Assembly& assembly,
   if (sweep_ && params.straight) {
     straight_ = std::make_unique<StraightMotion>(state_, oracle, *sweep_, directions_of(assembly));
     state_.add_listener(*straight_);
-    if (params.merge_immobile) immobility_ = std::make_unique<Immobility>(state_, *straight_, history_, oracle, params);
   }
-  lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle, immobility_.get(), straight_.get());
-  if (immobility_)
-    immobility_->before_proof = [this](const GroupState& group, const ImmobilityQuestion& question) {
-      return lookahead_->before_proof(group, question);
-    };
-  searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get(), immobility_.get());
+  lookahead_ = std::make_unique<Lookahead>(state_, history_, oracle);
+  searcher_ = std::make_unique<PathSearcher>(state_, history_, *lookahead_, oracle, straight_.get());
   make_strategies();
 }
 
@@ -48,17 +42,15 @@ void Disassembly::make_strategies() {
   }
   if (params_.repeated_paths && sweep_) list_.add(std::make_unique<RepeatedPath>(state_, oracle_, *sweep_, params_));
   if (params_.translation_states > 0 && sweep_)
-    list_.add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), *lookahead_, params_));
-  if (immobility_) list_.add(std::make_unique<MergeImmobile>(*immobility_));
+    list_.add(std::make_unique<PartialTranslation>(state_, oracle_, straight_.get(), params_));
   if (straight_ && params_.rotations)
     list_.add(std::make_unique<RotationInPlace>(state_, oracle_, *straight_, *sweep_, params_));
   if (straight_ && params_.simultaneous)
     list_.add(std::make_unique<SimultaneousMotion>(state_, oracle_, *straight_, *lookahead_, history_, params_,
                                                    params_.max_depth, params_.play * oracle_.tolerance()));
-  list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, immobility_.get(), params_));
-  list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, immobility_.get(), params_));
+  list_.add(std::make_unique<PathSearch>(state_, history_, *searcher_, params_));
+  list_.add(std::make_unique<PairSearch>(state_, history_, *searcher_, *lookahead_, params_));
   list_.add(std::make_unique<PostponedSearch>(state_, history_, *searcher_, params_));
-  if (immobility_) list_.add(std::make_unique<MergeImmobileLate>(*immobility_));
 }
 
 SequenceResult Disassembly::run() {

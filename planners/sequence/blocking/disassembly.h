@@ -27,7 +27,6 @@ class Disassembly {
   SearchHistory history_;
   std::unique_ptr<PairSweep> sweep_;          // null without geometry
   std::unique_ptr<StraightMotion> straight_;  // null when switched off, or without geometry
-  std::unique_ptr<Immobility> immobility_;    // null when switched off, or without geometry
   std::unique_ptr<Lookahead> lookahead_;
   std::unique_ptr<PathSearcher> searcher_;
   StrategyList list_;

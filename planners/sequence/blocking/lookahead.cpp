@@ -4,9 +4,8 @@
 #include <utility>
 
 namespace dismantle::blocking {
-Lookahead::Lookahead(const DisassemblyState& state, const SearchHistory& history, PathOracle& oracle,
-                     Immobility* immobility, const StraightMotion* straight)
-    : state_(state), history_(history), oracle_(oracle), immobility_(immobility), straight_(straight) {}
+Lookahead::Lookahead(const DisassemblyState& state, const SearchHistory& history, PathOracle& oracle)
+    : state_(state), history_(history), oracle_(oracle) {}
 
 bool Lookahead::is_active() const { return state_.context().threads > 1; }
 
@@ -30,8 +29,6 @@ void Lookahead::before_search(const GroupState& group, const Attempt& now, const
     ahead.insert(ahead.end(), success.begin(), success.end());
   }
   if (ahead.size() > 1 + most()) ahead.resize(1 + most());
-  // Proofs come first: whether they are needed may change, but not their answers.
-  if (immobility_ != nullptr) immobility_->begin(likely_proofs(group));
   oracle_.prefetch(ahead, state_.context());
 }
 
@@ -47,23 +44,6 @@ void Lookahead::before_attempts(const Attempt& now, Attempts next) const {
   if (next.size() > most()) next.resize(most());
   next.insert(next.begin(), now);
   oracle_.prefetch(next, state_.context());
-}
-
-void Lookahead::before_translations(const GroupState& group) const {
-  if (!is_active() || immobility_ == nullptr) return;
-  std::vector<ImmobilityQuestion> questions = immobility_->cage_questions(group);
-  std::erase_if(questions, [&](const ImmobilityQuestion& q) {
-    return immobility_->was_asked(q) || straight_->passes_any_known(q.a, q.b) || straight_->passes_any_known(q.b, q.a);
-  });
-  immobility_->begin(questions);
-}
-
-std::vector<ImmobilityQuestion> Lookahead::before_proof(const GroupState& group,
-                                                        const ImmobilityQuestion& question) const {
-  if (!is_active()) return {};
-  // Quick proofs are over before a search is.
-  if (question.kind != ImmobilityQuestion::Kind::cage) oracle_.prefetch(next_searches(group), state_.context());
-  return likely_proofs(group);
 }
 
 /// Little is found to depth 1, or where a search went as deep before.
@@ -94,18 +74,6 @@ Lookahead::Attempts Lookahead::after_success_of(const GroupState& group, const A
   std::erase(left.members, state_.subassembly_of(now.moving.front().part));
   add_round(left, ahead);
   if (left.search_depth < history_.max_depth(left)) add_next_round(left, ahead);
-  return ahead;
-}
-
-/// What is searched next as things are.
-Lookahead::Attempts Lookahead::next_searches(const GroupState& group) const {
-  Attempts ahead;
-  if (!group.searches_exhausted)
-    add_round(group, ahead);
-  else if (group.is_pair() && !group.pair_finished)
-    add_waiting(group, history_.next_depth_of_pair(group, other_pairs_wait()), group.waiting, ahead);
-  add_other_groups(ahead);
-  if (ahead.size() > most()) ahead.resize(most());
   return ahead;
 }
 
@@ -154,35 +122,6 @@ void Lookahead::add_waiting(const GroupState& group, unsigned depth, const Subas
     if (!group.contains(s) || !history_.reached_depth_limit(s) || !state_.may_leave(group, {s})) continue;
     attempts.push_back(history_.attempt_for(group, s, depth));
   }
-}
-
-/// Proofs about pairs, the likeliest to be sought first: flat pieces of this group; pairs that only wait for proofs;
-/// parts that were searched to some depth and have one other in their way; other groups of two.
-std::vector<ImmobilityQuestion> Lookahead::likely_proofs(const GroupState& now) const {
-  std::vector<ImmobilityQuestion> all;
-  if (immobility_ == nullptr) return all;
-  for (const ImmobilityQuestion& q : immobility_->flat_questions(now))
-    if (straight_->blocks_all_known(q.a, q.b)) all.push_back(q);
-  std::vector<const GroupState*> groups{&now};
-  for (const GroupState& g : state_.waiting()) groups.push_back(&g);
-  const auto add_pairs = [&](bool searched) {
-    for (const GroupState* g : groups) {
-      if (!g->is_pair() || g->searches_finished != searched) continue;
-      const SubassemblyId a = g->members[0], b = g->members[1];
-      if (searched || history_.reached_depth_limit(a) || history_.reached_depth_limit(b))
-        immobility_->add_questions(ImmobilityQuestion::Kind::confined_half, a, b, all);
-    }
-  };
-  add_pairs(true);
-  for (const GroupState* g : groups)
-    for (const SubassemblyId s : g->members) {
-      if (g->is_pair() || !history_.reached_depth_limit(s) || history_.last(s)->depth <= 1) continue;
-      if (const auto blocker = immobility_->only_blocker(*g, s))
-        immobility_->add_questions(ImmobilityQuestion::Kind::confined_full, s, *blocker, all);
-    }
-  add_pairs(false);
-  std::erase_if(all, [&](const ImmobilityQuestion& q) { return immobility_->was_asked(q); });
-  return all;
 }
 
 }  // namespace dismantle::blocking

@@ -8,7 +8,7 @@ using S = Schema<BlockingParams>;
 void StraightParams::describe(S& s) {
   s.add<bool>("straight", &StraightParams::straight,
               {.doc = "Remove parts in straight lines wherever nothing is in the way (strategies target_first, "
-                      "free_part), and use what is known of that (groups, merge_immobile, rotations, simultaneous). "
+                      "free_part), and use what is known of that (groups, rotations, simultaneous). "
                       "Off: every path is "
                       "searched for by the path planner."});
 }
@@ -87,52 +87,6 @@ void PartialTranslationParams::describe(S& s) {
               "The effort grows with the square."});
   s.add<unsigned>("translation_axes", &PartialTranslationParams::translation_axes,
                   {.unit = "1", .min = 1, .max = 32, .doc = "Advanced. Axes along which parts move, at most."});
-}
-
-void ImmobilityParams::describe(S& s) {
-  s.add<bool>("merge_immobile", &ImmobilityParams::merge_immobile,
-              {.doc = "Strategies merge_immobile, merge_immobile_late: prove that parts cannot be separated (a ring in "
-                      "a groove, a bent bar in a hole), and move those as one. Expensive proofs wait for unsuccessful "
-                      "searches."});
-  s.add<unsigned>(
-      "cage_proofs", &ImmobilityParams::cage_proofs,
-      {.unit = "1", .doc = "Advanced. Quick proofs about pairs, at most, in a run; up to two seconds each."});
-  s.add<std::int64_t>(
-      "cage_proof_steps", &ImmobilityParams::cage_proof_steps,
-      {.unit = "1",
-       .min = 0,
-       .max = 1e12,
-       .doc = "Advanced. Steps and state checks that the searches for a part have cost before quick proofs "
-              "about it are sought; all are once the searches are over."});
-  s.add<unsigned>("flat_proofs", &ImmobilityParams::flat_proofs,
-                  {.unit = "1",
-                   .doc = "Advanced. Proofs about flat pieces of searched parts, at most, in a run; up to ten seconds "
-                          "each."});
-  s.add<std::int64_t>("flat_proof_steps", &ImmobilityParams::flat_proof_steps,
-                      {.unit = "1", .min = 0, .max = 1e12, .doc = "Advanced. The same for proofs about flat pieces."});
-  s.add<unsigned>("early_confinement_proofs", &ImmobilityParams::early_confinement_proofs,
-                  {.unit = "1",
-                   .doc = "Advanced. Proofs of confinement for the full tolerance, at most, in a run; up to half a "
-                          "minute each."});
-  s.add<unsigned>(
-      "late_confinement_proofs", &ImmobilityParams::late_confinement_proofs,
-      {.unit = "1",
-       .doc = "Advanced. Proofs of confinement for half of the tolerance, after all searches, at most, in a "
-              "run; up to half a minute each."});
-  s.add<unsigned>("proof_depth", &ImmobilityParams::proof_depth,
-                  {.unit = "1",
-                   .min = 1,
-                   .doc = "Advanced. Depth of an unsuccessful path search after which confinement is proved."});
-  s.add<unsigned>("interlocked_parts", &ImmobilityParams::interlocked_parts,
-                  {.unit = "1",
-                   .doc = "Advanced. Largest group that is proved immobile as a whole; the effort grows with the cube "
-                          "of the number of parts."});
-  s.add<double>("late_share", &ImmobilityParams::late_share,
-                {.unit = "1",
-                 .min = 0.01,
-                 .max = 1,
-                 .doc = "Advanced. Share of verify.max_penetration that motions may use in proofs about confined pairs "
-                        "after all searches, and about whole groups. Smaller: more is proved, of less."});
 }
 
 void RotationParams::describe(S& s) {
@@ -217,11 +171,6 @@ void PathSearchParams::describe(S& s) {
                   {.unit = "1",
                    .min = 1,
                    .doc = "Advanced. Depth of the searches for one pair while other pairs wait, doubled up to this."});
-  s.add<unsigned>(
-      "pair_proof_depth", &PathSearchParams::pair_proof_depth,
-      {.unit = "1",
-       .doc = "Advanced. Depth of an unsuccessful search of a pair after which confinement is proved before "
-              "a search without limit."});
 }
 
 }  // namespace blocking
@@ -236,7 +185,6 @@ void BlockingParams::describe(Schema<BlockingParams>& schema) {
   FreeGroupParams::describe(schema);
   RepeatedPathParams::describe(schema);
   PartialTranslationParams::describe(schema);
-  ImmobilityParams::describe(schema);
   RotationParams::describe(schema);
   SimultaneousMotionParams::describe(schema);
   PathSearchParams::describe(schema);

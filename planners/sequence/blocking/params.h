@@ -45,20 +45,6 @@ struct PartialTranslationParams {
   static void describe(Schema<BlockingParams>& schema);
 };
 
-struct ImmobilityParams {
-  bool merge_immobile = true;
-  unsigned cage_proofs = 120;
-  std::int64_t cage_proof_steps = 2'000;
-  unsigned flat_proofs = 30;
-  std::int64_t flat_proof_steps = 20'000;
-  unsigned early_confinement_proofs = 6;
-  unsigned late_confinement_proofs = 8;
-  unsigned proof_depth = 4;
-  unsigned interlocked_parts = 8;
-  double late_share = 0.5;
-  static void describe(Schema<BlockingParams>& schema);
-};
-
 struct RotationParams {
   bool rotations = true;
   unsigned rotation_axes = 2;
@@ -90,7 +76,6 @@ struct PathSearchParams {
   unsigned touched_parts = 3;
   double cost_octaves = 0.5;
   unsigned pair_depth = 64;
-  unsigned pair_proof_depth = 4;
   static void describe(Schema<BlockingParams>& schema);
 };
 
@@ -100,7 +85,6 @@ struct BlockingParams : blocking::StraightParams,
                         blocking::FreeGroupParams,
                         blocking::RepeatedPathParams,
                         blocking::PartialTranslationParams,
-                        blocking::ImmobilityParams,
                         blocking::RotationParams,
                         blocking::SimultaneousMotionParams,
                         blocking::PathSearchParams {

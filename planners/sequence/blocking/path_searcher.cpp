@@ -6,13 +6,8 @@
 namespace dismantle::blocking {
 
 PathSearcher::PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead,
-                           PathOracle& oracle, StraightMotion* straight, Immobility* immobility)
-    : state_(state),
-      history_(history),
-      lookahead_(lookahead),
-      oracle_(oracle),
-      straight_(straight),
-      immobility_(immobility) {}
+                           PathOracle& oracle, StraightMotion* straight)
+    : state_(state), history_(history), lookahead_(lookahead), oracle_(oracle), straight_(straight) {}
 
 Subassemblies PathSearcher::candidates(const GroupState& group) {
   Subassemblies single;
@@ -40,9 +35,7 @@ void PathSearcher::sort_by_use(const GroupState& group, Subassemblies& ids) {
 
 bool PathSearcher::search_each(GroupState& group, const Subassemblies& ids, unsigned depth) {
   for (std::size_t k = 0; k < ids.size() && !state_.stop(); ++k)
-    if ((immobility_ != nullptr && immobility_->merge_flat(group, ids[k])) ||
-        search(group, ids[k], depth, {ids.begin() + static_cast<std::ptrdiff_t>(k) + 1, ids.end()}))
-      return true;
+    if (search(group, ids[k], depth, {ids.begin() + static_cast<std::ptrdiff_t>(k) + 1, ids.end()})) return true;
   return false;
 }
 
@@ -76,7 +69,7 @@ bool PathSearcher::search(GroupState& group, SubassemblyId id, unsigned depth, c
     state_.set_failure(
         {part, result.outcome(), result.blocked_by, result.best_pose, result.message, answer.certificate});
   history_.add(id, {depth, result.outcome(), result.blocked_by, group.members.size(), &answer}, result);
-  return immobility_ != nullptr && immobility_->merge_proved(group, answer);
+  return false;
 }
 
 }  // namespace dismantle::blocking

@@ -2,19 +2,20 @@
 #pragma once
 
 #include "blocking/lookahead.h"
+#include "blocking_graph/straight_motion.h"
 
 namespace dismantle::blocking {
 
 class PathSearcher {
  public:
-  /// `straight` and `immobility`: null when switched off. All must outlive this.
+  /// `straight`: null when switched off. All must outlive this.
   PathSearcher(DisassemblyState& state, SearchHistory& history, const Lookahead& lookahead, PathOracle& oracle,
-               StraightMotion* straight, Immobility* immobility);
+               StraightMotion* straight);
 
   /// Single parts that may leave. Those whose removal would free others come first, the housing last: searches are
   /// expensive, and a success makes many of them needless.
   Subassemblies candidates(const GroupState& group);
-  /// Until one of `ids` leaves, or is proved inseparable from another; true then.
+  /// Until one of `ids` leaves; true then.
   bool search_each(GroupState& group, const Subassemblies& ids, unsigned depth);
 
  private:
@@ -26,7 +27,6 @@ class PathSearcher {
   const Lookahead& lookahead_;
   PathOracle& oracle_;
   StraightMotion* straight_;
-  Immobility* immobility_;
 };
 
 }  // namespace dismantle::blocking

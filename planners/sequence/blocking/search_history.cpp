@@ -15,7 +15,6 @@ void SearchHistory::add(SubassemblyId id, PastSearch search, const PathResult& r
   const PartId part = state_.part_of(id);
   last_[part] = std::move(search);
   cost_[part] = cost_of(part, result);
-  spent_[part] += result.stats.cost;
   work_ += work_of({part}, result);
 }
 
@@ -28,10 +27,7 @@ Attempt SearchHistory::attempt_for(const GroupState& group, SubassemblyId id, un
 
 bool SearchHistory::reached_depth_limit(SubassemblyId id) const {
   const PastSearch* search = last(id);
-  if (search == nullptr) return false;
-  const Certificate* proof = search->answer != nullptr ? search->answer->certificate : nullptr;
-  return search->outcome == Outcome::depth_limit ||
-         (search->outcome == Outcome::infeasible && proof != nullptr && proof->poses.empty());
+  return search != nullptr && search->outcome == Outcome::depth_limit;
 }
 
 bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, unsigned depth) const {
@@ -48,13 +44,6 @@ bool SearchHistory::is_worthwhile(const GroupState& group, SubassemblyId id, uns
 unsigned SearchHistory::max_depth(const GroupState& group) const {
   return group.translations_exhausted ? std::min(params_.depth_without_translations, params_.max_depth)
                                       : params_.max_depth;
-}
-
-unsigned SearchHistory::depth_reached(const GroupState& group) const {
-  unsigned depth = 0;
-  for (const SubassemblyId s : group.members)
-    if (const PastSearch* search = last(s)) depth = std::max(depth, search->depth);
-  return depth;
 }
 
 unsigned SearchHistory::next_depth_of_pair(const GroupState& group, bool others_wait) const {

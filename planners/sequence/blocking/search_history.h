@@ -25,13 +25,6 @@ class SearchHistory final : public GroupListener {
 
   /// Null: none since the part was moved.
   const PastSearch* last(SubassemblyId id) const;
-  /// Was it ever searched?
-  bool was_searched(SubassemblyId id) const { return cost_.contains(state_.part_of(id)); }
-  /// What all its searches cost (SearchStats::cost).
-  double spent(SubassemblyId id) const {
-    const auto known = spent_.find(state_.part_of(id));
-    return known == spent_.end() ? 0 : known->second;
-  }
   void add(SubassemblyId id, PastSearch search, const PathResult& result);
   /// Work of all unsuccessful searches for single parts until now, and of any result for such parts. The same unit as
   /// sort_by_cost(): does not depend on the machine.
@@ -40,8 +33,7 @@ class SearchHistory final : public GroupListener {
 
   /// The search for a path of `id` out of its group. The oracle resumes the last one where it can.
   Attempt attempt_for(const GroupState& group, SubassemblyId id, unsigned depth) const;
-  /// Did its last search end because of the depth limit? Or with a proof that it and another part hold each other as
-  /// assembled: then it is merged when the turn of such proofs comes, as others that reached the limit.
+  /// Did its last search end because of the depth limit?
   bool reached_depth_limit(SubassemblyId id) const;
   /// A search that failed is not repeated to the same depth while all that it touched are in the group, or, from depth
   /// 2 on, those that it touched most: it would most likely fail again. It may succeed all the same (the hulls of
@@ -50,8 +42,6 @@ class SearchHistory final : public GroupListener {
   /// Largest depth worth searching. Where the search for partial translations has visited all arrangements, deep
   /// searches, which are for paths of many translations, have nothing to find.
   unsigned max_depth(const GroupState& group) const;
-  /// Of the deepest of the last searches for its members.
-  unsigned depth_reached(const GroupState& group) const;
   /// Twice that of the last search of the pair, or 0, no limit: where no other pairs wait, or it is very deep.
   unsigned next_depth_of_pair(const GroupState& group, bool others_wait) const;
   /// Sorts by what the last search cost: what was cheap is mostly cheap to search a little deeper, and a part that
@@ -71,7 +61,6 @@ class SearchHistory final : public GroupListener {
   const PathSearchParams& params_;
   std::map<PartId, PastSearch> last_;
   double work_ = 0;
-  std::map<PartId, double> spent_;
   std::map<PartId, int> cost_;  ///< of the last search for the part: about its logarithm
 };
 

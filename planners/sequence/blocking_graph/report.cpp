@@ -44,9 +44,8 @@ void Report::add_inseparable() {
   }
 }
 
-/// Parts that are inseparable from the beginning have no stored proof. The oracle repeats it without a search.
+/// The oracle repeats the proof without a search.
 Unsolved Report::proof_for(SubassemblyId id, PartId part) const {
-  if (const Unsolved* proof = state_.proof_of(part)) return *proof;
   Unsolved reason;
   reason.part = part;
   if (!state_.is_inseparable(part)) {

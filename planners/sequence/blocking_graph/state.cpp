@@ -86,11 +86,6 @@ bool DisassemblyState::is_inseparable(SubassemblyId id) const {
   return std::any_of(parts_[id].begin(), parts_[id].end(), [&](PartId part) { return inseparable_[part]; });
 }
 
-const Unsolved* DisassemblyState::proof_of(PartId part) const {
-  const auto known = proofs_.find(part);
-  return known == proofs_.end() ? nullptr : &known->second;
-}
-
 SubassemblyId DisassemblyState::housing_of(const GroupState& group) const {
   double largest = 0;
   SubassemblyId housing = group.members.front();
@@ -164,30 +159,6 @@ void DisassemblyState::commit(GroupState& group, const Subassemblies& ids, const
   }
   observer_.removed(removals_.back(), parts - separations_);
   show_progress(removal.parts.front());
-}
-
-void DisassemblyState::merge(GroupState& group, const std::vector<PartId>& parts, const Certificate& proof) {
-  context_.log(LogLevel::info, proof.text);
-  const Outcome outcome = proof.full_tolerance ? Outcome::infeasible : Outcome::exhausted;
-  for (const PartId part : parts) {
-    std::vector<PartId> rest = parts;
-    std::erase(rest, part);
-    inseparable_[part] = true;
-    proofs_.try_emplace(part, Unsolved{part, outcome, rest, {}, proof.text, &proof});
-  }
-  for (std::size_t i = 1; i < parts.size(); ++i)
-    if (of_part_[parts[i]] != of_part_[parts[0]]) merge_two(group, of_part_[parts[0]], of_part_[parts[i]]);
-}
-
-void DisassemblyState::merge_two(GroupState& group, SubassemblyId a, SubassemblyId b) {
-  for (const PartId id : parts_[b]) of_part_[id] = a;
-  parts_[a].insert(parts_[a].end(), parts_[b].begin(), parts_[b].end());
-  std::sort(parts_[a].begin(), parts_[a].end());
-  parts_[b].clear();
-  ++arrangement_;
-  std::erase(group.members, b);
-  for (GroupListener* listener : listeners_) listener->on_group_changed(group, {GroupChange::Kind::merged, {a, b}});
-  count("merged");
 }
 
 bool DisassemblyState::stop() {

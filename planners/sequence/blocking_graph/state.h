@@ -31,7 +31,6 @@ struct GroupState {
 
   unsigned search_depth = 1;        ///< of the next round of path searches; grows by one with every unsuccessful round
   bool searches_exhausted = false;  ///< deeper rounds would find nothing more, or are not allowed
-  bool searches_finished = false;   ///< unlimited searches for pairs and postponed ones are exhausted, too
   Subassemblies waiting;  ///< members whose last search reached its depth limit, in the order of the next round
 
   unsigned pair_depth = 1;     ///< groups of two: depth of the last search of the pair, doubled each time
@@ -51,7 +50,6 @@ struct GroupChange {
     translated,   ///< they were translated and stay in the group
     rotated,      ///< they were rotated in place and stay in the group
     one_removed,  ///< several moved simultaneously: one has left, the others stay in the group at their new poses
-    merged,       ///< they were merged into one subassembly with the number of the first
   };
   Kind kind = Kind::removed;
   Subassemblies moved;
@@ -99,7 +97,7 @@ class DisassemblyState {
 
   // Subassemblies.
   std::size_t subassemblies() const { return parts_.size(); }
-  /// Ascending. Empty: it was merged into another.
+  /// Ascending.
   const std::vector<PartId>& parts_of(SubassemblyId id) const { return parts_[id]; }
   std::vector<PartId> parts_of(const Subassemblies& ids) const;
   bool is_single(SubassemblyId id) const { return parts_[id].size() == 1; }
@@ -110,8 +108,6 @@ class DisassemblyState {
   /// Is a part of it proved inseparable from another?
   bool is_inseparable(SubassemblyId id) const;
   bool is_inseparable(PartId part) const { return inseparable_[part]; }
-  /// The proof that `part` is inseparable, if it was found during the run; else null.
-  const Unsolved* proof_of(PartId part) const;
   /// The member with the largest box.
   SubassemblyId housing_of(const GroupState& group) const;
 
@@ -121,7 +117,7 @@ class DisassemblyState {
   std::size_t orientation(PartId part) const { return orientation_[part]; }
   const Orientations& orientations() const { return orientations_; }
   void set_pose(PartId part, const Pose& pose);
-  /// Grows when a part moves and when subassemblies are merged.
+  /// Grows when a part moves.
   std::uint64_t arrangement() const { return arrangement_; }
 
   // Groups.
@@ -139,8 +135,6 @@ class DisassemblyState {
   /// Records a successful answer: the new poses, and which subassemblies have left the group.
   void commit(GroupState& group, const Subassemblies& ids, const Attempt& attempt, const AttemptResult& answer,
               GroupChange::Kind kind);
-  /// Merges all subassemblies that contain one of `parts`, which are proved inseparable.
-  void merge(GroupState& group, const std::vector<PartId>& parts, const Certificate& proof);
 
   // Progress and result.
   /// Should the run end? It was interrupted, or the target is removed.
@@ -157,8 +151,6 @@ class DisassemblyState {
   const Unsolved* failure_of(PartId part) const;
 
  private:
-  void merge_two(GroupState& group, SubassemblyId a, SubassemblyId b);
-
   const Assembly& assembly_;
   const Constraints& constraints_;
   SequenceObserver& observer_;
@@ -166,9 +158,8 @@ class DisassemblyState {
   std::vector<std::vector<PartId>> parts_;  // by subassembly
   Subassemblies of_part_;                   // by part
   std::vector<bool> inseparable_;           // by part
-  std::map<PartId, Unsolved> proofs_;
-  std::vector<Pose> poses_;               // by part
-  std::vector<std::size_t> orientation_;  // by part
+  std::vector<Pose> poses_;                 // by part
+  std::vector<std::size_t> orientation_;    // by part
   Orientations orientations_;
   std::uint64_t arrangement_ = 0;
   std::deque<GroupState> waiting_;

@@ -100,29 +100,6 @@ Subassemblies StraightMotion::fewest_blockers(const GroupState& group, Subassemb
   return fewest;
 }
 
-bool StraightMotion::passes_any(PartId a, PartId b) {
-  std::vector<std::size_t> list = directions_.of_part[a];
-  list.insert(list.end(), directions_.of_part[b].begin(), directions_.of_part[b].end());
-  return std::any_of(list.begin(), list.end(), [&](std::size_t d) { return !relations_.blocks(pair_of(a, b, d)); });
-}
-
-bool StraightMotion::blocks_all_known(PartId a, PartId b) const {
-  const auto blocked = [&](std::size_t d) {
-    const Pair pair = pair_of(a, b, d);
-    return relations_.known(pair) && relations_.known_to_block(pair);
-  };
-  return std::all_of(directions_.of_part[a].begin(), directions_.of_part[a].end(), blocked) &&
-         std::all_of(directions_.of_part[b].begin(), directions_.of_part[b].end(), blocked);
-}
-
-bool StraightMotion::passes_any_known(PartId a, PartId b) const {
-  const auto& list = directions_.of_part[a];
-  return std::any_of(list.begin(), list.end(), [&](std::size_t d) {
-    const Pair pair = pair_of(a, b, d);
-    return relations_.known(pair) && !relations_.known_to_block(pair);
-  });
-}
-
 bool StraightMotion::forget_blocker(SubassemblyId id, std::size_t direction, SubassemblyId blocker) {
   const auto known = blocker_[id].find(direction);
   if (known == blocker_[id].end() || known->second != blocker) return false;
@@ -144,8 +121,7 @@ const StraightMotion::FarEnd& StraightMotion::far_end(const GroupState& group, s
   const Eigen::Vector3d& d = directions_.all[direction];
   for (const SubassemblyId u : group.members)
     for (const PartId id : state_.parts_of(u)) {
-      const double end =
-          relations_.extent(id, direction, state_.orientation(id)).second + state_.pose(id).t.dot(d);
+      const double end = relations_.extent(id, direction, state_.orientation(id)).second + state_.pose(id).t.dot(d);
       if (end > far.end) {
         if (u != far.farthest) {
           far.next = far.farthest;
@@ -188,8 +164,8 @@ double StraightMotion::path_length(const GroupState& group, const Subassemblies&
     for (const SubassemblyId u : group.members) {
       if (std::find(ids.begin(), ids.end(), u) != ids.end()) continue;
       for (const PartId id : state_.parts_of(u))
-        theirs = std::max(theirs, relations_.extent(id, direction, state_.orientation(id)).second +
-                                      state_.pose(id).t.dot(d));
+        theirs = std::max(theirs,
+                          relations_.extent(id, direction, state_.orientation(id)).second + state_.pose(id).t.dot(d));
     }
   }
   return std::max(0.0, theirs - ours - shift.dot(d));

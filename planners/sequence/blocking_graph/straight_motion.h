@@ -45,12 +45,6 @@ class StraightMotion final : public GroupListener {
   /// Directions of `id`, the one with the shortest path out of the group first.
   std::vector<std::size_t> directions_of(const GroupState& group, SubassemblyId id) const;
   const Directions& directions() const { return directions_; }
-  /// Does `a` pass `b` along any direction of either?
-  bool passes_any(PartId a, PartId b);
-  /// Without new sweeps. `blocks_all_known`: every direction was examined and is blocked. `passes_any_known`: one was
-  /// examined and is free.
-  bool blocks_all_known(PartId a, PartId b) const;
-  bool passes_any_known(PartId a, PartId b) const;
 
   // For RotationInPlace, which examines pairs with one part rotated.
   /// Forgets the remembered blocker of the direction, if it is `blocker`. False: it is not.

@@ -12,11 +12,9 @@ namespace dismantle::blocking {
 enum class Cost {
   pair_sweeps,       ///< straight sweeps of pairs, remembered: fractions of a second
   arrangements,      ///< a search over arrangements of parts: up to a few seconds
-  quick_proofs,      ///< proofs about pairs: fractions of a second up to two each
   arc_sweeps,        ///< sweeps of rotating parts: up to a few seconds
   limited_search,    ///< path searches of limited depth
   unlimited_search,  ///< path searches that may take all the time there is
-  long_proofs,       ///< proofs that take up to half a minute each
 };
 
 /// What the planner does after a strategy.

@@ -15,14 +15,10 @@ Result PairSearch::apply(GroupState& group) {
   return Result::defer;
 }
 
-/// True: they came apart, or are merged. After deep searches that found nothing one without limit most likely takes all
-/// the time that it may, and a proof that the two are inseparable takes seconds: it comes first.
+/// True: they came apart.
 bool PairSearch::search(GroupState& group) {
   const unsigned depth = history_.next_depth_of_pair(group, lookahead_.other_pairs_wait());
   const bool unlimited = depth == 0;
-  if (unlimited && immobility_ != nullptr && history_.depth_reached(group) >= params_.pair_proof_depth &&
-      immobility_->merge_confined_late(group))
-    return true;
   if (!unlimited) group.pair_depth = depth;
   const Subassemblies candidates = searcher_.candidates(group);
   Subassemblies open;

@@ -8,15 +8,9 @@ namespace dismantle::blocking {
 
 class PairSearch final : public Strategy {
  public:
-  /// `immobility`: null when proofs are switched off.
   PairSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const Lookahead& lookahead,
-             Immobility* immobility, const PathSearchParams& params)
-      : state_(state),
-        history_(history),
-        searcher_(searcher),
-        lookahead_(lookahead),
-        immobility_(immobility),
-        params_(params) {}
+             const PathSearchParams& params)
+      : state_(state), history_(history), searcher_(searcher), lookahead_(lookahead), params_(params) {}
   std::string_view name() const noexcept override { return "pair_search"; }
   Cost cost() const noexcept override { return Cost::unlimited_search; }
   Result apply(GroupState& group) override;
@@ -28,7 +22,6 @@ class PairSearch final : public Strategy {
   SearchHistory& history_;
   PathSearcher& searcher_;
   const Lookahead& lookahead_;
-  Immobility* immobility_;
   const PathSearchParams& params_;
 };
 

@@ -13,11 +13,10 @@ bool is_translation(const Pose& p) { return p.q.vec().cwiseAbs().maxCoeff() == 0
 }  // namespace
 
 PartialTranslation::PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight,
-                                       const Lookahead& lookahead, const PartialTranslationParams& params)
+                                       const PartialTranslationParams& params)
     : state_(state),
       oracle_(oracle),
       straight_(straight),
-      lookahead_(lookahead),
       params_(params),
       translations_(state.assembly(), oracle.tolerance(), params) {}
 
@@ -38,7 +37,6 @@ bool PartialTranslation::search(GroupState& group) {
     return state_.is_single(s) && is_translation(state_.pose(state_.part_of(s)));
   };
   if (!std::all_of(group.members.begin(), group.members.end(), suits)) return false;
-  lookahead_.before_translations(group);
   for (unsigned refusals = 0; refusals < params_.translation_refusals && !state_.stop(); ++refusals) {
     const TranslationSearch::Answer found = find(group);
     if (found.end != TranslationSearch::End::found) return false;

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-#include "blocking/lookahead.h"
 #include "blocking/params.h"
 #include "blocking/translation_search.h"
+#include "blocking_graph/straight_motion.h"
 #include "blocking_graph/strategy.h"
 
 namespace dismantle::blocking {
@@ -13,7 +13,7 @@ namespace dismantle::blocking {
 class PartialTranslation final : public Strategy {
  public:
   /// `straight`: null when straight removals are switched off; then only translations within the group are made.
-  PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight, const Lookahead& lookahead,
+  PartialTranslation(DisassemblyState& state, PathOracle& oracle, StraightMotion* straight,
                      const PartialTranslationParams& params);
   std::string_view name() const noexcept override { return "partial_translation"; }
   Cost cost() const noexcept override { return Cost::arrangements; }
@@ -39,7 +39,6 @@ class PartialTranslation final : public Strategy {
   DisassemblyState& state_;
   PathOracle& oracle_;
   StraightMotion* straight_;
-  const Lookahead& lookahead_;
   const PartialTranslationParams& params_;
   TranslationSearch translations_;
   PerGroup<Progress> progress_;

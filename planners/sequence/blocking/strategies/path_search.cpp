@@ -9,19 +9,14 @@ Result PathSearch::apply(GroupState& group) {
   const auto& waiting = state_.waiting();
   const bool last_group =
       std::none_of(waiting.begin(), waiting.end(), [](const GroupState& g) { return g.members.size() > 1; });
-  // The last pair is left to PairSearch, unless one more search triggers a proof about it.
-  if (!params_.path_searches || (group.is_pair() && last_group && !close_to_proof(group)))
-    group.searches_exhausted = true;
+  // The last pair is left to PairSearch.
+  if (!params_.path_searches || (group.is_pair() && last_group)) group.searches_exhausted = true;
   if (group.searches_exhausted) return Result::unchanged;
   if (round(group)) return Result::restart;
   return group.searches_exhausted || waiting.empty() || state_.stop() ? Result::restart : Result::defer;
 }
 
-bool PathSearch::close_to_proof(const GroupState& group) const {
-  return immobility_ != nullptr && immobility_->is_close_to_proof(group);
-}
-
-/// True: a part left, or was merged.
+/// True: a part left.
 bool PathSearch::round(GroupState& group) {
   const Subassemblies candidates = searcher_.candidates(group);
   Subassemblies list;
@@ -36,8 +31,7 @@ bool PathSearch::round(GroupState& group) {
   group.waiting = history_.waiting_of(candidates);
   const bool more_translations =
       group.translations_limited && group.members.size() > 2 && group.search_depth < params_.max_depth;
-  const bool deeper = !group.waiting.empty() && group.search_depth < history_.max_depth(group) &&
-                      (!group.is_pair() || close_to_proof(group));
+  const bool deeper = !group.waiting.empty() && group.search_depth < history_.max_depth(group) && !group.is_pair();
   if (more_translations || deeper)
     ++group.search_depth;
   else
@@ -46,7 +40,7 @@ bool PathSearch::round(GroupState& group) {
 }
 
 void PathSearch::on_group_changed(GroupState& group, const GroupChange&) {
-  group.searches_exhausted = group.searches_finished = group.pair_finished = false;
+  group.searches_exhausted = group.pair_finished = false;
 }
 
 }  // namespace dismantle::blocking

@@ -8,10 +8,8 @@ namespace dismantle::blocking {
 
 class PathSearch final : public Strategy {
  public:
-  /// `immobility`: null when proofs are switched off.
-  PathSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const Immobility* immobility,
-             const PathSearchParams& params)
-      : state_(state), history_(history), searcher_(searcher), immobility_(immobility), params_(params) {}
+  PathSearch(DisassemblyState& state, SearchHistory& history, PathSearcher& searcher, const PathSearchParams& params)
+      : state_(state), history_(history), searcher_(searcher), params_(params) {}
   std::string_view name() const noexcept override { return "path_search"; }
   Cost cost() const noexcept override { return Cost::limited_search; }
   Result apply(GroupState& group) override;
@@ -19,12 +17,10 @@ class PathSearch final : public Strategy {
 
  private:
   bool round(GroupState& group);
-  bool close_to_proof(const GroupState& group) const;
 
   DisassemblyState& state_;
   SearchHistory& history_;
   PathSearcher& searcher_;
-  const Immobility* immobility_;
   const PathSearchParams& params_;
 };
 

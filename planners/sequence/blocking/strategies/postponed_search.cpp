@@ -1,7 +1,5 @@
 #include "blocking/strategies/postponed_search.h"
 
-#include <algorithm>
-
 namespace dismantle::blocking {
 
 Result PostponedSearch::apply(GroupState& group) {
@@ -13,11 +11,7 @@ Result PostponedSearch::apply(GroupState& group) {
     }
     if (searcher_.search_each(group, list, group.search_depth)) return Result::restart;
   }
-  group.searches_finished = true;
-  const auto& waiting = state_.waiting();
-  const bool others_search = std::any_of(
-      waiting.begin(), waiting.end(), [](const GroupState& g) { return g.members.size() > 1 && !g.searches_finished; });
-  return others_search ? Result::defer : Result::unchanged;
+  return Result::unchanged;
 }
 
 }  // namespace dismantle::blocking

@@ -156,7 +156,7 @@ bool SimultaneousMotion::several_moved(const Attempt& attempt, const std::vector
 }
 
 void SimultaneousMotion::on_group_changed(GroupState& group, const GroupChange& change) {
-  if (change.kind != GroupChange::Kind::merged) progress_[group] = {};
+  progress_[group] = {};
   if (change.moves_remaining()) last_.clear();
 }
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "blocking/proofs_ahead.h"
 #include "dismantle/plan_io/plan_file.h"
 #include "dismantle/testing/held_shapes.h"
 #include "run_blocking.h"
@@ -55,7 +54,7 @@ Assembly cased_pairs(PartId count) {
   return shapes::assembly_of(parts);
 }
 
-TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
+TEST(BlockingProofs, ProvedPairsAreReportedWithTheProof) {
   Rng rng(7);
   for (const ProofEffort effort : {ProofEffort::low, ProofEffort::medium, ProofEffort::high})
     for (int trial = 0; trial < 3; ++trial) {
@@ -70,7 +69,6 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
       RunResult r =
           take_apart(cased_pairs(3), 1, {}, &shallow, {{"listed", std::make_shared<ListedProver>(effort, listed)}});
       EXPECT_NE(r.outcome, Outcome::solved);
-      EXPECT_EQ(r.sequence_counts["merged"], static_cast<double>(listed.size()));
       EXPECT_EQ(r.plan.disassembly.size(), 2u) << "the pairs themselves are apart";
       std::set<std::string> reported;
       for (const auto& u : r.plan.unsolved)
@@ -84,25 +82,13 @@ TEST(BlockingProofs, ProvedPairsAreMergedAndReportedWithTheProof) {
     }
 }
 
-TEST(BlockingProofs, NothingIsMergedWhereThatIsSwitchedOff) {
-  BlockingParams params;
-  params.merge_immobile = false;
-  const auto prover =
-      std::make_shared<ListedProver>(ProofEffort::medium, std::set<std::vector<PartId>>{{0, 1}, {2, 3}});
-  RunResult off = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}}, params);
-  EXPECT_EQ(off.sequence_counts["merged"], 0);
-  RunResult on = take_apart(cased_pairs(2), 1, {}, &shallow, {{"listed", prover}});
-  EXPECT_EQ(on.sequence_counts["merged"], 2);
-}
-
-TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreMergedTogether) {
+TEST(BlockingProofs, ThreeOfWhichNoTwoAreProvedInseparableAreReportedTogether) {
   const shapes::Keyed keyed{.play = 0.003};
   const Assembly assembly = shapes::assembly_of({keyed.slab(), keyed.tray(), keyed.block()});
   RunResult r = take_apart(
       assembly, 1, {}, &fake::helpless,
       {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1, 2}}, 3)}});
   EXPECT_TRUE(r.plan.disassembly.empty());
-  EXPECT_EQ(r.sequence_counts["merged"], 2) << "three became one";
   EXPECT_GT(r.counts.attempts, 0) << "the proof comes after the searches";
   ASSERT_EQ(r.plan.unsolved.size(), 3u);
   for (const auto& u : r.plan.unsolved) {
@@ -149,101 +135,18 @@ TEST(BlockingProofs, PartsLockedByTheirOverlapAreOneFromTheBeginning) {
   }
 }
 
-/// Where searches go deep, proofs are begun long before they are asked for.
 TEST(BlockingProofs, SamePlanOnAnyNumberOfThreads) {
   std::set<std::string> plans;
   for (const unsigned threads : {1U, 2U, 3U}) {
     RunResult r = take_apart(
         cased_pairs(2), threads, {}, &shallow,
         {{"listed", std::make_shared<ListedProver>(ProofEffort::high, std::set<std::vector<PartId>>{{0, 1}, {2, 3}})}});
-    EXPECT_EQ(r.sequence_counts["merged"], 2);
     for (PlanStep& step : r.plan.disassembly) step.seconds = 0;
     for (PlanStep& step : r.plan.assembly_steps) step.seconds = 0;
     for (PlanUnsolved& u : r.plan.unsolved) u.seconds = 0;
     plans.insert(to_json(r.plan));
   }
   EXPECT_EQ(plans.size(), 1u);
-}
-
-/// Proves pairs whose sum is even.
-class EvenOracle : public PathOracle {
- public:
-  const AttemptResult& attempt(const Attempt&, RunContext&) override { throw std::logic_error("not to be asked"); }
-  void prefetch(std::span<const Attempt>, RunContext&) override {}
-  const AttemptResult& propose(const Attempt&, const Path&, RunContext&) override {
-    throw std::logic_error("not to be asked");
-  }
-  OracleCounts counts() const override { return {}; }
-  const Certificate* prove(const SeparationQuestion& question, const RunContext&) override {
-    return (question.parts[0] + question.parts[1]) % 2 == 0 ? &proof : nullptr;
-  }
-  const Certificate proof{};
-};
-
-/// Proves with one effort, and notes what it is asked.
-class OneEffortOracle final : public EvenOracle {
- public:
-  explicit OneEffortOracle(ProofEffort proves) : proves_(proves) {}
-  const Certificate* prove(const SeparationQuestion& question, const RunContext&) override {
-    asked.push_back(question.effort);
-    return question.effort == proves_ ? &proof : nullptr;
-  }
-  std::vector<ProofEffort> asked;
-
- private:
-  ProofEffort proves_;
-};
-
-/// What proves with little effort is not asked about with more.
-TEST(ProofsAhead, LessEffortIsAskedFirstAndMoreOnlyWhereItFailed) {
-  using Question = blocking::ImmobilityQuestion;
-  constexpr ProofEffort kLow = ProofEffort::low, kMedium = ProofEffort::medium, kHigh = ProofEffort::high;
-  const std::vector<std::pair<Question::Kind, ProofEffort>> kinds{{Question::Kind::cage, kLow},
-                                                                  {Question::Kind::flat, kMedium},
-                                                                  {Question::Kind::confined_full, kHigh},
-                                                                  {Question::Kind::confined_half, kHigh}};
-  for (const auto& [kind, most] : kinds)
-    for (const ProofEffort proves : {kLow, kMedium, kHigh, ProofEffort::trivial}) {
-      OneEffortOracle oracle(proves);
-      RunContext context;
-      const bool found = blocking::ProofsAhead(oracle, 0.5, nullptr).answer(Question::of_pair(kind, 0, 1), {}, context);
-      std::vector<ProofEffort> expected;
-      for (const ProofEffort effort : {kLow, kMedium, kHigh}) {
-        if (effort > most) break;
-        expected.push_back(effort);
-        if (effort == proves) break;
-      }
-      EXPECT_EQ(oracle.asked, expected);
-      EXPECT_EQ(found, expected.back() == proves);
-    }
-}
-
-/// Whatever was begun before, and however much of it was cancelled.
-TEST(ProofsAhead, AnswerAsTheOracleDoes) {
-  using Question = blocking::ImmobilityQuestion;
-  EvenOracle oracle;
-  std::vector<Question> all;
-  for (PartId a = 0; a < 4; ++a)
-    for (PartId b = a + 1; b < 4; ++b)
-      for (const Question::Kind kind :
-           {Question::Kind::cage, Question::Kind::flat, Question::Kind::confined_full, Question::Kind::confined_half})
-        all.push_back(Question::of_pair(kind, a, b));
-  Rng rng(4);
-  for (int trial = 0; trial < 30; ++trial) {
-    RunContext context;
-    context.threads = 1 + static_cast<unsigned>(trial % 3);
-    if (context.threads > 1) context.executor = std::make_shared<Executor>(context.threads);
-    blocking::ProofsAhead ahead(oracle, 0.5, context.executor);
-    for (int k = 0; k < 20; ++k) {
-      std::vector<Question> wanted;
-      for (const Question& q : all)
-        if (rng.uniform() < 0.5) wanted.push_back(q);
-      ahead.begin(wanted, context);
-      if (rng.uniform() < 0.5) continue;
-      const Question& q = all[rng.below(all.size())];
-      ASSERT_EQ(ahead.answer(q, wanted, context), (q.a + q.b) % 2 == 0 ? &oracle.proof : nullptr);
-    }
-  }
 }
 
 }  // namespace
