@@ -17,7 +17,7 @@ DISMANTLE_API std::string describe_markdown(const RegisteredType& type, const Re
 /// preset also {"preset": {"of", "file"}}.
 DISMANTLE_API std::string describe_json(const RegisteredType& type);
 
-/// The sections `assembly`, `run` and `verify` of a configuration, as a page of the reference.
+/// The sections of a configuration that have no plugin, as a page of the reference.
 DISMANTLE_API std::string describe_sections_markdown();
 
 /// JSON Schema (2020-12) of a configuration file, with the parameters of all types in `registry`.

@@ -24,7 +24,7 @@ constexpr GridOptions bounding_grid() { return {.cell = 0.25, .cells_per_edge = 
 /// Distance at grid nodes: exact to float precision in a band around the surface, with eight fast sweeps of the Eikonal
 /// equation (Zhao 2005) elsewhere; or exact everywhere. Trilinear between nodes.
 ///
-/// Error: at nodes of the band none; between nodes at most 0.87 of the cell diagonal's half anywhere and about
+/// Error: at nodes of the band none; between nodes at most half the cell's diagonal (0.87 of its edge) anywhere and about
 /// curvature * cell^2 / 8 where the surface is smooth; far nodes have the error of the first-order scheme (a few per
 /// cent, covered by lower_bound()). Outside the grid the value is extended by the distance to the grid.
 class DistanceGrid {

@@ -79,7 +79,7 @@ void describe_grid(Schema<P>& s) {
         {.unit = "1",
          .min = 1000,
          .max = 1e8,
-         .doc = "Approximate number of cells of the grid over the box of the fixed parts. More: narrower gaps are "
+         .doc = "Largest number of cells of the grid over the box of the fixed parts. More: narrower gaps are "
                 "found; time and memory grow in proportion."});
   s.add("wall_cost", inherited<P>(&GridParameters::wall_cost),
         {.unit = "cell",
